@@ -1,0 +1,4 @@
+//! The judge: continuous collision checks of motions, and proofs that there is none.
+//!
+//! Imports neither [`crate::cspace`] nor [`crate::plan`]: it works on the scene's exact outlines alone, so that an
+//! error there cannot hide here.

@@ -1,0 +1,74 @@
+//! Configuration space as cells.
+
+use super::Proves;
+use crate::space::{Configuration, Topology};
+
+/// A rectangular grid over the fundamental domain. Cell `(i, j)` covers
+/// `[lower_1 + i h_1, lower_1 + (i + 1) h_1] x [lower_2 + j h_2, lower_2 + (j + 1) h_2]`; on a circle the last cell
+/// borders on the first. Stored row by row: index `i * cells[1] + j`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Of the configuration space.
+    pub topology: Topology,
+    /// What a free (blocked) cell proves about all of its configurations.
+    pub proves: Proves,
+    /// Number of cells along each axis.
+    pub cells: [usize; 2],
+    /// One flag a cell.
+    pub blocked: Vec<bool>,
+}
+
+impl Grid {
+    /// Side lengths of a cell.
+    #[must_use]
+    pub fn step(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.topology.axes[k].extent() / self.cells[k] as f64)
+    }
+
+    /// The middle of cell `index`, in the fundamental domain.
+    #[must_use]
+    pub fn center(&self, index: usize) -> Configuration {
+        let step = self.step();
+        let (i, j) = (index / self.cells[1], index % self.cells[1]);
+        Configuration::new(
+            self.topology.axes[0].domain().0 + (i as f64 + 0.5) * step[0],
+            self.topology.axes[1].domain().0 + (j as f64 + 0.5) * step[1],
+        )
+    }
+
+    /// The cell that holds `q` (any copy of it); on a shared side the one that begins there.
+    #[must_use]
+    pub fn locate(&self, q: Configuration) -> usize {
+        let step = self.step();
+        let at = |k: usize| {
+            let axis = self.topology.axes[k];
+            let steps = (axis.wrap(q[k]) - axis.domain().0) / step[k];
+            (steps.max(0.0) as usize).min(self.cells[k] - 1)
+        };
+        at(0) * self.cells[1] + at(1)
+    }
+
+    /// The up to four cells that share a side with `index`, across the seam of a circle too, in the order
+    /// `-q1, +q1, -q2, +q2`.
+    pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        let [rows, columns] = self.cells;
+        let (i, j) = (index / columns, index % columns);
+        let step = |k: usize, at: usize, n: usize, up: bool| -> Option<usize> {
+            match (up, self.topology.axes[k].is_circle()) {
+                (true, _) if at + 1 < n => Some(at + 1),
+                (false, _) if at > 0 => Some(at - 1),
+                (true, true) => Some(0),
+                (false, true) => Some(n - 1),
+                _ => None,
+            }
+        };
+        [
+            step(0, i, rows, false).map(|i| i * columns + j),
+            step(0, i, rows, true).map(|i| i * columns + j),
+            step(1, j, columns, false).map(|j| i * columns + j),
+            step(1, j, columns, true).map(|j| i * columns + j),
+        ]
+        .into_iter()
+        .flatten()
+    }
+}

@@ -1,0 +1,26 @@
+//! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
+
+mod grid;
+mod regions;
+
+pub use grid::Grid;
+pub use regions::{CObstacle, Polygon, Regions};
+
+/// What a representation of free space proves about the real one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Proves {
+    /// Free means free and blocked means blocked, up to rounding.
+    Exact,
+    /// Obstacles are grown by at most `margin` metres of workspace motion: free is free; blocked proves nothing.
+    Outer {
+        /// Metres.
+        margin: f64,
+    },
+    /// Obstacles are shrunk by at most `margin` metres: blocked is blocked; free proves nothing.
+    Inner {
+        /// Metres.
+        margin: f64,
+    },
+    /// Looked at in places only: neither proves anything.
+    Sampled,
+}

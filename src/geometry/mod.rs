@@ -1,0 +1,30 @@
+//! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals.
+//!
+//! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
+//! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
+//! depth) is a plain `f64`. Touching counts as contact, everywhere.
+
+mod convex;
+mod separation;
+
+pub use convex::Convex;
+pub use separation::{Separation, separation};
+
+/// A point of the plane, metres.
+pub type Point = nalgebra::Point2<f64>;
+/// A displacement in the plane, metres.
+pub type Vector = nalgebra::Vector2<f64>;
+/// A rigid motion of the plane: rotation, then translation.
+pub type Pose = nalgebra::Isometry2<f64>;
+
+/// `v` turned a quarter turn counter-clockwise.
+#[must_use]
+pub fn perpendicular(v: Vector) -> Vector {
+    Vector::new(-v.y, v.x)
+}
+
+/// The z component of the cross product: positive when `b` lies counter-clockwise of `a`.
+#[must_use]
+pub fn cross(a: Vector, b: Vector) -> f64 {
+    a.x * b.y - a.y * b.x
+}

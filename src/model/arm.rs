@@ -1,0 +1,123 @@
+//! The planar two-joint arm and its kinematics.
+
+use super::{Joint, Link, Motion};
+use crate::geometry::{Point, Pose, Vector, perpendicular};
+use crate::space::{Configuration, Topology};
+use nalgebra::{Isometry2, Translation2, Vector3};
+
+/// The plane of motion in the URDF's root frame: plane coordinates of a root point `x` are `(x . u, x . v)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// First basis vector.
+    pub u: Vector3<f64>,
+    /// Second basis vector.
+    pub v: Vector3<f64>,
+    /// Direction along which heights are measured.
+    pub normal: Vector3<f64>,
+}
+
+/// A planar arm with two joints in series.
+///
+/// Kinematics. `link 1` moves by joint 1 about (or along) `base`; joint 2 sits at `offset` from joint 1 in link 1's
+/// frame. With `T(v)` a translation and `M_i(q_i)` the joint's motion, a rotation by `sign q_i` or a translation by
+/// `q_i direction`,
+///
+/// ```text
+/// pose of link 1 = T(base) M_1(q1)
+/// pose of link 2 = T(base) M_1(q1) T(offset) M_2(q2)
+/// ```
+///
+/// All frames are parallel to the plane's axes at the zero configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Arm {
+    /// The robot's name.
+    pub name: String,
+    /// Base to tip.
+    pub joints: [Joint; 2],
+    /// What each joint carries.
+    pub links: [Link; 2],
+    /// Joint 1 in plane coordinates.
+    pub base: Point,
+    /// From joint 1 to joint 2 in link 1's frame.
+    pub offset: Vector,
+    /// The tip in link 2's frame.
+    pub tip: Point,
+    /// Name of the tip's URDF link.
+    pub tip_name: String,
+    /// The plane of motion.
+    pub plane: Plane,
+}
+
+impl Arm {
+    /// The space of configurations.
+    #[must_use]
+    pub fn topology(&self) -> Topology {
+        Topology { axes: [self.joints[0].axis, self.joints[1].axis] }
+    }
+
+    /// `RR`, `RP`, `PR` or `PP`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match (self.joints[0].motion.is_revolute(), self.joints[1].motion.is_revolute()) {
+            (true, true) => "RR",
+            (true, false) => "RP",
+            (false, true) => "PR",
+            (false, false) => "PP",
+        }
+    }
+
+    /// Pose of link 1 (`index` 0) or link 2 (`index` 1).
+    #[must_use]
+    pub fn pose(&self, index: usize, q: Configuration) -> Pose {
+        let first = Translation2::from(self.base.coords) * motion(self.joints[0].motion, q[0]);
+        if index == 0 {
+            return first;
+        }
+        first * Translation2::from(self.offset) * motion(self.joints[1].motion, q[1])
+    }
+
+    /// Both link poses.
+    #[must_use]
+    pub fn poses(&self, q: Configuration) -> [Pose; 2] {
+        let first = self.pose(0, q);
+        [first, first * Translation2::from(self.offset) * motion(self.joints[1].motion, q[1])]
+    }
+
+    /// Where the tip is.
+    #[must_use]
+    pub fn tip_at(&self, q: Configuration) -> Point {
+        self.pose(1, q) * self.tip
+    }
+
+    /// Where joint 2 is (for a prismatic one: its origin at zero, carried by link 1).
+    #[must_use]
+    pub fn elbow_at(&self, q1: f64) -> Point {
+        self.pose(0, Configuration::new(q1, 0.0)) * Point::from(self.offset)
+    }
+
+    /// Velocity of the point `p` of link `index` (link frame) per unit of each joint's rate: the two Jacobian columns.
+    #[must_use]
+    pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
+        let poses = self.poses(q);
+        let at = poses[index] * p;
+        let first = match self.joints[0].motion {
+            Motion::Revolute { sign } => sign * perpendicular(at - self.base),
+            Motion::Prismatic { direction } => direction,
+        };
+        if index == 0 {
+            return [first, Vector::zeros()];
+        }
+        let second = match self.joints[1].motion {
+            Motion::Revolute { sign } => sign * perpendicular(at - poses[0] * Point::from(self.offset)),
+            Motion::Prismatic { direction } => poses[0].rotation * direction,
+        };
+        [first, second]
+    }
+}
+
+fn motion(motion: Motion, value: f64) -> Pose {
+    match motion {
+        Motion::Revolute { sign } => Isometry2::rotation(sign * value),
+        Motion::Prismatic { direction } => Isometry2::translation(value * direction.x, value * direction.y),
+    }
+}

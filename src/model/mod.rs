@@ -1,0 +1,15 @@
+//! The arm, the workspace, and the two together.
+
+mod arm;
+mod joint;
+mod link;
+mod problem;
+mod scene;
+mod workspace;
+
+pub use arm::{Arm, Plane};
+pub use joint::{Joint, Motion};
+pub use link::{Link, OutlineSource, Part};
+pub use problem::{Goal, Problem};
+pub use scene::{Contact, Pair, Scene};
+pub use workspace::{Heights, Obstacle, Shape, Workspace};

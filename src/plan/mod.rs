@@ -1,0 +1,104 @@
+//! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
+
+use crate::space::{Configuration, Path};
+
+/// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Query {
+    /// Where the path begins.
+    pub start: Configuration,
+    /// Any of these will do; on a circle axis their copies too.
+    pub goals: Vec<Configuration>,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// A path in the free space of the representation, starting at the start exactly and ending at a goal (or a copy of
+    /// it) exactly.
+    Found(Path),
+    /// The representation holds no path. Whether that proves anything depends on [`crate::cspace::Proves`].
+    NoPath,
+    /// Neither: the reason, in words.
+    GaveUp(String),
+}
+
+/// Size of what a planner built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Size {
+    /// A roadmap, or cells and their adjacencies.
+    Graph {
+        /// Nodes, or cells.
+        nodes: usize,
+        /// Arcs, or adjacencies.
+        edges: usize,
+    },
+    /// A field on a grid.
+    Grid {
+        /// Free cells that were looked at.
+        cells: usize,
+        /// Passes over them (levels of a wavefront).
+        sweeps: usize,
+    },
+}
+
+/// What a planner saw on its way, for pictures.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Trace {
+    /// Arcs of the visibility graph.
+    Roadmap {
+        /// Both ends of each.
+        edges: Vec<[Configuration; 2]>,
+    },
+    /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
+    Channel {
+        /// Corners of each cell.
+        cells: Vec<Vec<Configuration>>,
+        /// Indices of the channel's cells.
+        channel: Vec<usize>,
+    },
+    /// Steps to the goal for every cell of the grid, `u32::MAX` where the wave did not come.
+    Wavefront {
+        /// Shape of the grid.
+        cells: [usize; 2],
+        /// One a cell.
+        labels: Vec<u32>,
+    },
+    /// Natural logarithm of the potential for every cell (0 at the goal, the lower the farther), minus infinity where
+    /// there is none.
+    Field {
+        /// Shape of the grid.
+        cells: [usize; 2],
+        /// One a cell.
+        potential: Vec<f64>,
+    },
+}
+
+/// A planner's answer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// For pictures.
+    pub trace: Trace,
+    /// How much was built.
+    pub size: Size,
+}
+
+/// A planner: settings are the fields of the implementing type.
+///
+/// What does not depend on the query is built once and can serve many queries. Deterministic: same input, same output.
+pub trait Planner {
+    /// Name on the command line.
+    const NAME: &'static str;
+    /// The representation it works on: that visibility needs polygons is a fact of the type.
+    type Space;
+    /// What it prepares.
+    type Map;
+
+    /// Prepares a space for queries.
+    fn build(&self, space: &Self::Space) -> Self::Map;
+
+    /// Answers one query.
+    fn query(&self, space: &Self::Space, map: &Self::Map, query: &Query) -> Run;
+}

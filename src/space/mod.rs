@@ -1,0 +1,10 @@
+//! Configurations and the topology of the space they live in.
+
+mod path;
+mod topology;
+
+pub use path::Path;
+pub use topology::{Axis, Topology};
+
+/// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.
+pub type Configuration = nalgebra::Vector2<f64>;
