@@ -1,4 +1,42 @@
-//! cplan: a configuration-space planner for planar two-joint arms.
+//! cplan plans motions of planar two-joint arms in configuration space. It answers one of three things: a path whose
+//! whole continuous motion is *certified* free of collision, a *proof* that there is none, or "unknown" at the
+//! resolution tried; never a sampled maybe.
+//!
+//! # The pipeline
+//!
+//! ```text
+//!  arm.urdf   world.toml
+//!      \        /
+//!      [input]            files -> Problem, or one error with file, line and cure
+//!          |
+//!       [model]           Arm + Workspace = Scene; which pairs of shapes can meet
+//!          |
+//!      [cspace]           C-obstacles: Regions (polygons) or Grid (cells), with what they prove
+//!          |
+//!  [field] [plan]         visibility graph, trapezoids, wavefront, harmonic field -> a proposed path
+//!          |
+//!      [certify]          the judge: continuous collision check; proof that there is no path
+//!          |
+//!      [solve]            plan, certify, refine: Found, Infeasible or Unknown
+//!          |
+//!     [trajectory]        timing under velocity and acceleration limits; JSON, CSV, ROS 2
+//!          |
+//!   [draw] [report]       pictures and tables, pure functions of results
+//!          |
+//!        [cli]
+//! ```
+//!
+//! Below all of it lie [`geometry`] (exact predicates, convex shapes, Minkowski differences) and [`space`]
+//! (configurations, and the only code that knows about circles).
+//!
+//! Modules import downwards only; [`certify`] imports neither [`cspace`] nor [`plan`], so that it judges them
+//! independently. A test holds this table.
+//!
+//! # Conventions
+//!
+//! Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip. Paths
+//! hold unwrapped values: a path that crosses the seam of a circle goes on counting. Touching is contact. The same
+//! input gives the same output, byte for byte, but for the timings in it.
 #![forbid(unsafe_code)]
 
 pub mod geometry;

@@ -1,3 +1,7 @@
-//! The command line: parse, dispatch, exit code.
+//! The `cplan` program.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cplan::cli::run()
+}

@@ -1,1 +1,41 @@
-//! (to be written)
+//! The command line: arguments to library calls, results to files, summaries and exit codes.
+
+mod args;
+mod check;
+mod compare;
+mod failure;
+mod output;
+mod plan;
+mod summary;
+
+use args::{Cli, Command};
+use clap::{CommandFactory, Parser, error::ErrorKind};
+use failure::Failure;
+use std::process::ExitCode;
+
+/// Exit code: a path was found, and it is certified; or the job is done.
+const DONE: u8 = 0;
+/// Exit code: bad input or I/O.
+const BAD_INPUT: u8 = 1;
+/// Exit code: there is no path, proven.
+const INFEASIBLE: u8 = 3;
+/// Exit code: neither found nor ruled out.
+const UNKNOWN: u8 = 4;
+
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2.
+#[must_use]
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let done = match (&cli.command, &cli.plan) {
+        (Some(Command::Compare(args)), _) => compare::run(args),
+        (Some(Command::Check(args)), _) => check::run(args),
+        (None, Some(args)) => plan::run(args),
+        (None, None) => {
+            Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit()
+        }
+    };
+    ExitCode::from(done.unwrap_or_else(|failure: Failure| {
+        eprintln!("error: {failure}");
+        BAD_INPUT
+    }))
+}

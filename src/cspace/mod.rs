@@ -24,3 +24,14 @@ pub enum Proves {
     /// Looked at in places only: neither proves anything.
     Sampled,
 }
+
+impl std::fmt::Display for Proves {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Proves::Exact => write!(f, "exact"),
+            Proves::Outer { margin } => write!(f, "outer, obstacles grown by up to {margin:.2e} m"),
+            Proves::Inner { margin } => write!(f, "inner, obstacles shrunk by up to {margin:.2e} m"),
+            Proves::Sampled => write!(f, "sampled"),
+        }
+    }
+}

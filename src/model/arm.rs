@@ -83,6 +83,16 @@ impl Arm {
         [first, first * Translation2::from(self.offset) * motion(self.joints[1].motion, q[1])]
     }
 
+    /// A length that bounds how far the outlines and the tip reach from joint 1 with both joints at zero; the size of
+    /// the arm, to which tolerances are relative. Metres, positive.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        let of = |link: usize| self.links[link].parts.iter().map(|p| p.shape.reach_from(Point::origin()));
+        let first = of(0).fold(self.offset.norm(), f64::max);
+        let second = of(1).fold(self.tip.coords.norm(), f64::max);
+        (first.max(self.offset.norm() + second)).max(f64::MIN_POSITIVE)
+    }
+
     /// Where the tip is.
     #[must_use]
     pub fn tip_at(&self, q: Configuration) -> Point {

@@ -1,0 +1,186 @@
+//! The command line's words.
+
+use crate::input::{JointValues, Overrides, TipPoint};
+use crate::solve::{Effort, Method};
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
+/// a proof that there is none, or "unknown".
+#[derive(Debug, Parser)]
+#[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(after_help = "\
+Examples:
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
+  cplan robots/scara.urdf workspaces/kitting.toml --planner wavefront --goal-tip 0.2,0.25
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+
+Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
+2 wrong command line, 3 proven that there is no path, 4 unknown.")]
+pub struct Cli {
+    /// Other jobs than planning.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The main job.
+    #[command(flatten)]
+    pub plan: Option<PlanArgs>,
+}
+
+/// Jobs with a word of their own.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Run every planner on the same problem, side by side.
+    Compare(CompareArgs),
+    /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
+    Check(CheckArgs),
+}
+
+/// The two files.
+#[derive(Debug, Args)]
+pub struct Files {
+    /// The arm.
+    #[arg(value_name = "URDF")]
+    pub urdf: PathBuf,
+    /// The workspace, TOML.
+    #[arg(value_name = "WORLD")]
+    pub world: PathBuf,
+}
+
+/// What can be said instead of the world file.
+#[derive(Debug, Args)]
+pub struct QueryArgs {
+    /// Start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    pub start: Option<JointValues>,
+    /// Goal configuration instead of the world's.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "goal_tip")]
+    pub goal: Option<JointValues>,
+    /// Goal position of the tip instead of the world's goal, metres: any posture that reaches it.
+    #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
+    pub goal_tip: Option<TipPoint>,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub clearance: Option<f64>,
+}
+
+impl QueryArgs {
+    /// The same for the input layer.
+    #[must_use]
+    pub fn overrides(&self) -> Overrides {
+        Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }
+    }
+}
+
+/// How hard to try.
+#[derive(Debug, Args)]
+pub struct EffortArgs {
+    /// First number of grid cells along each axis; doubled up to 2048 where needed.
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(8..=2048))]
+    pub cells: u32,
+    /// First margin of the polygons, as a share of the arm's reach; quartered where needed.
+    #[arg(long, value_name = "SHARE", default_value_t = 1e-3)]
+    pub margin: f64,
+    /// Attempts, each finer than the one before.
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=12))]
+    pub levels: u8,
+    /// Time between two samples of the trajectory, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.01)]
+    pub period: f64,
+}
+
+impl EffortArgs {
+    /// The same for the solver.
+    ///
+    /// # Errors
+    /// A margin that is not a positive number.
+    pub fn effort(&self) -> Result<Effort, String> {
+        if !(self.margin > 0.0 && self.margin <= 0.1) {
+            return Err(format!("--margin: must be more than 0 and at most 0.1 of the arm's reach, is {}", self.margin));
+        }
+        Ok(Effort {
+            levels: self.levels.into(),
+            margin: self.margin,
+            cells: self.cells as usize,
+            ..Effort::default()
+        })
+    }
+}
+
+/// Arguments of the main job.
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub files: Files,
+    /// Planner: visibility, trapezoid, wavefront or harmonic.
+    #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
+    pub planner: Method,
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub query: QueryArgs,
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub effort: EffortArgs,
+    /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
+    /// Draw workspace and configuration space side by side: .svg or .png. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
+    /// Print the result as JSON, and nothing else, on stdout.
+    #[arg(long)]
+    pub json: bool,
+    /// No summary, no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub files: Files,
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub query: QueryArgs,
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub effort: EffortArgs,
+    /// Only these planners; can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub planner: Vec<Method>,
+    /// Print the table as JSON.
+    #[arg(long, conflicts_with = "csv")]
+    pub json: bool,
+    /// Print the table as CSV.
+    #[arg(long)]
+    pub csv: bool,
+    /// Draw all paths in one picture: .svg or .png. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
+    /// No progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    #[command(flatten)]
+    #[expect(missing_docs, reason = "the text would show up as help")]
+    pub files: Files,
+    /// The configuration, such as 0.3,-1 or 20deg,-60deg.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    pub at: JointValues,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub clearance: Option<f64>,
+    /// Draw workspace and configuration space with the configuration: .svg or .png. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
+    /// Print the findings as JSON.
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,171 @@
+//! Files and streams.
+
+use super::failure::Failure;
+use crate::cspace::{CObstacle, c_obstacles};
+use crate::draw::{self, Picture};
+use crate::model::Problem;
+use crate::solve::{Answer, Verdict};
+use crate::trajectory::{Format, Report, write_whole};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A file to write.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sink {
+    /// The result.
+    Result(Format, PathBuf),
+    /// A picture.
+    Picture(PictureFormat, PathBuf),
+}
+
+impl Sink {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Sink::Result(_, path) | Sink::Picture(_, path) => path,
+        }
+    }
+
+    /// Whether the file could be filled: a table or message without a trajectory could not.
+    pub fn is_filled_by(&self, report: &Report) -> bool {
+        match self {
+            Sink::Result(Format::Json, _) | Sink::Picture(..) => true,
+            Sink::Result(..) => report.trajectory.is_some(),
+        }
+    }
+}
+
+/// A format of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Vector graphics.
+    Svg,
+    /// Pixels.
+    Png,
+}
+
+/// Pixels of a PNG picture per unit of the SVG.
+const PNG_SCALE: f64 = 2.0;
+
+/// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.
+const PICTURE_TOLERANCE: f64 = 1e-3;
+
+/// What the file names ask for, checked before any work is done.
+///
+/// # Errors
+/// Extensions that are none of ours.
+pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
+    let mut sinks = Vec::new();
+    for path in results {
+        let format = Format::from_path(path).map_err(|e| Failure::Option(e.to_string()))?;
+        sinks.push(Sink::Result(format, path.clone()));
+    }
+    for path in pictures {
+        sinks.push(Sink::Picture(picture_format(path)?, path.clone()));
+    }
+    Ok(sinks)
+}
+
+/// The format that a picture's extension stands for.
+///
+/// # Errors
+/// Any other extension than .svg and .png.
+pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("svg") => Ok(PictureFormat::Svg),
+        Some("png") => Ok(PictureFormat::Png),
+        _ => Err(Failure::Option(format!("{}: a picture's name must end in .svg or .png", path.display()))),
+    }
+}
+
+/// Writes a result file; says so on stderr if the format has no room for a result without a trajectory.
+///
+/// # Errors
+/// I/O.
+pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), Failure> {
+    match format.text(report) {
+        Some(text) => write_whole(path, text.as_bytes())?,
+        None => eprintln!("warning: {} is not written: there is no trajectory to put into it", path.display()),
+    }
+    Ok(())
+}
+
+/// Draws the answer to one problem.
+///
+/// # Errors
+/// I/O.
+pub fn write_picture(
+    format: PictureFormat,
+    path: &Path,
+    problem: &Problem,
+    answer: &Answer,
+    report: &Report,
+) -> Result<(), Failure> {
+    let scene = &problem.scene;
+    let contours = contours(problem);
+    let found = if let Verdict::Found(certified) = &answer.verdict { Some(certified.path()) } else { None };
+    let (status, detail) = match (&answer.verdict, report.length) {
+        (Verdict::Found(_), Some(length)) => {
+            let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
+            ("found, certified", format!("{}: length {length:.4}, {clearance}", answer.method))
+        }
+        (Verdict::Infeasible(_), _) => ("no path: proven", answer.method.to_string()),
+        _ => ("unknown", answer.method.to_string()),
+    };
+    let picture = Picture {
+        title: vec![title(problem), detail],
+        status: status.into(),
+        scene,
+        start: problem.start,
+        goals: &problem.goals,
+        paths: found.map(|path| (answer.method.to_string(), path)).into_iter().collect(),
+        trace: Some(&answer.run.trace),
+        c_obstacles: &contours,
+    };
+    save_picture(format, path, &picture)
+}
+
+/// Workspace and robot.
+pub fn title(problem: &Problem) -> String {
+    let scene = &problem.scene;
+    match scene.workspace.name.as_str() {
+        "" => scene.arm.name.clone(),
+        name => format!("{name}: {}", scene.arm.name),
+    }
+}
+
+/// C-obstacles for pictures.
+pub fn contours(problem: &Problem) -> Vec<CObstacle> {
+    let tolerance = PICTURE_TOLERANCE * problem.scene.arm.reach();
+    c_obstacles(&problem.scene, tolerance, tolerance)
+}
+
+/// Writes a picture.
+///
+/// # Errors
+/// I/O, or a program built without PNG.
+pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Result<(), Failure> {
+    match format {
+        PictureFormat::Svg => write_whole(path, draw::svg(picture).as_bytes())?,
+        #[cfg(feature = "png")]
+        PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
+        #[cfg(not(feature = "png"))]
+        PictureFormat::Png => {
+            return Err(Failure::Option(format!("{}: this program was built without PNG; use .svg", path.display())));
+        }
+    }
+    Ok(())
+}
+
+/// Prints on stdout. A reader that has seen enough (`cplan ... | head`) is no error.
+///
+/// # Errors
+/// I/O.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Option(format!("stdout: {error}"))),
+        _ => Ok(()),
+    }
+}

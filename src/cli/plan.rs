@@ -1,0 +1,79 @@
+//! The main job: from two files to a certified trajectory, a proof, or neither.
+
+use super::args::PlanArgs;
+use super::failure::Failure;
+use super::output::{self, Sink};
+use super::summary::{self, Clock};
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::input;
+use crate::model::Problem;
+use crate::plan::Size;
+use crate::solve::{Answer, Verdict, solve};
+use crate::trajectory::{Report, time};
+
+/// Plans, writes what was asked for, and returns the exit code.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &PlanArgs) -> Result<u8, Failure> {
+    let sinks = output::sinks(&args.output, &args.picture)?;
+    let effort = args.effort.effort().map_err(Failure::Option)?;
+    let mut clock = Clock::start();
+    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    clock.stage("load");
+    let say = |text: &str| {
+        if !args.quiet {
+            eprintln!("{text}");
+        }
+    };
+    loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
+    let problem = &loaded.problem;
+    let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
+    clock.stages(&answer.stages);
+    let mut report = report(problem, &answer, args.effort.period)?;
+    clock.stage("trajectory");
+    report.timings = clock.milliseconds();
+    for sink in &sinks {
+        match sink {
+            Sink::Result(format, path) => output::write_result(*format, path, &report)?,
+            Sink::Picture(format, path) => output::write_picture(*format, path, problem, &answer, &report)?,
+        }
+    }
+    clock.stage("write");
+    if args.json {
+        output::print(&report.json())?;
+    } else if !args.quiet {
+        output::print(&summary::text(&loaded, &answer, &report, &sinks, &clock))?;
+    }
+    Ok(match answer.verdict {
+        Verdict::Found(_) => DONE,
+        Verdict::Infeasible(_) => INFEASIBLE,
+        Verdict::Unknown(_) => UNKNOWN,
+    })
+}
+
+/// The result file's content.
+fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Failure> {
+    let joints = &problem.scene.arm.joints;
+    let planner = answer.method.name();
+    let mut report = match &answer.verdict {
+        Verdict::Found(certified) => {
+            let trajectory = time(certified, joints, period)?;
+            let mut report = Report::found(planner, joints, certified, trajectory);
+            report.closest = certified.nearest().map(|n| problem.scene.describe(n.contact.pair));
+            report
+        }
+        Verdict::Infeasible(proof) => {
+            let boxes = proof.stuck().len();
+            let reason = format!("proven: {boxes} boxes of colliding configurations separate start and goal");
+            Report::infeasible(planner, joints, reason)
+        }
+        Verdict::Unknown(reason) => Report::unknown(planner, joints, reason.clone()),
+    };
+    report.name = Some(problem.scene.workspace.name.clone()).filter(|name| !name.is_empty());
+    report.size = match answer.run.size {
+        Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
+        Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
+    };
+    Ok(report)
+}

@@ -1,0 +1,137 @@
+//! The summary for people.
+
+use super::output::Sink;
+use crate::input::Loaded;
+use crate::model::{Arm, Joint};
+use crate::plan::Size;
+use crate::solve::{Answer, Stages, Verdict};
+use crate::space::{Axis, Configuration};
+use crate::trajectory::Report;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+/// Time per stage.
+pub struct Clock {
+    last: Instant,
+    stages: Vec<(String, Duration)>,
+}
+
+impl Clock {
+    pub fn start() -> Self {
+        Self { last: Instant::now(), stages: Vec::new() }
+    }
+
+    /// The time since the last stage ended was this one's.
+    pub fn stage(&mut self, name: &str) {
+        self.stages.push((name.into(), self.last.elapsed()));
+        self.last = Instant::now();
+    }
+
+    /// The solver's own stages.
+    pub fn stages(&mut self, stages: &Stages) {
+        let Stages { build, query, certify, prove } = *stages;
+        for (name, time) in [("build", build), ("query", query), ("certify", certify), ("prove", prove)] {
+            if !time.is_zero() {
+                self.stages.push((name.into(), time));
+            }
+        }
+        self.last = Instant::now();
+    }
+
+    pub fn milliseconds(&self) -> Vec<(String, f64)> {
+        self.stages.iter().map(|(name, time)| (name.clone(), time.as_secs_f64() * 1e3)).collect()
+    }
+}
+
+/// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
+pub fn value(joint: &Joint, value: f64) -> String {
+    if joint.motion.is_revolute() {
+        format!("{value:.4} rad ({:.2} deg)", value.to_degrees())
+    } else {
+        format!("{value:.4} m")
+    }
+}
+
+/// Both joints' values by name.
+pub fn configuration(arm: &Arm, q: Configuration) -> String {
+    let [a, b] = &arm.joints;
+    format!("{} {}, {} {}", a.name, value(a, q[0]), b.name, value(b, q[1]))
+}
+
+/// A joint's range.
+pub fn range(joint: &Joint) -> String {
+    match joint.axis {
+        Axis::Circle => "continuous".into(),
+        Axis::Interval { lower, upper } => format!("{} to {}", value(joint, lower), value(joint, upper)),
+    }
+}
+
+/// Size of what a planner built.
+pub fn size(size: Size) -> String {
+    match size {
+        Size::Graph { nodes, edges } => format!("{nodes} nodes, {edges} edges"),
+        Size::Grid { cells, sweeps } => format!("{cells} cells, {sweeps} sweeps"),
+    }
+}
+
+/// What was found, in some ten lines.
+pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], clock: &Clock) -> String {
+    let scene = &loaded.problem.scene;
+    let arm = &scene.arm;
+    let mut lines: Vec<(&str, String)> = Vec::new();
+    lines.push(("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name)));
+    for joint in &arm.joints {
+        let speeds = format!("at most {} {unit}/s, {} {unit}/s2", joint.velocity, joint.acceleration, unit = joint.unit());
+        lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
+    }
+    lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
+    let obstacles = scene.workspace.obstacles.len();
+    lines.push(("world", format!("{}, {obstacles} obstacles", non_empty(&scene.workspace.name))));
+    lines.push(("start", configuration(arm, loaded.problem.start)));
+    for &goal in &loaded.problem.goals {
+        lines.push(("goal", configuration(arm, goal)));
+    }
+    lines.push(("planner", format!("{}: {}", answer.method, size(answer.run.size))));
+    match &answer.verdict {
+        Verdict::Found(certified) => {
+            let path = certified.path();
+            let segments = path.segments().count();
+            lines.push(("result", format!("found and certified: {segments} straight pieces, length {:.4}", path.length())));
+            lines.push(("clearance", match certified.nearest() {
+                Some(nearest) => format!(
+                    "{:.6} m proven; closest: {} at {}",
+                    certified.clearance(),
+                    scene.describe(nearest.contact.pair),
+                    configuration(arm, nearest.at)
+                ),
+                None => "nothing can be hit".into(),
+            }));
+        }
+        Verdict::Infeasible(_) => {
+            lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));
+        }
+        Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
+    }
+    if let Some(trajectory) = &report.trajectory {
+        let samples = trajectory.time.len();
+        lines.push(("motion", format!("{:.3} s, {samples} samples", trajectory.duration())));
+    }
+    for sink in sinks.iter().filter(|sink| sink.is_filled_by(report)) {
+        lines.push(("file", sink.path().display().to_string()));
+    }
+    let stages: Vec<String> = clock.milliseconds().iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
+    lines.push(("time", format!("{} ms", stages.join(", "))));
+    let mut text = String::new();
+    let mut before = "";
+    for (key, line) in &lines {
+        let shown = if *key == before { "" } else { key };
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{shown:<10} {line}");
+        before = key;
+    }
+    text
+}
+
+fn non_empty(name: &str) -> &str {
+    if name.is_empty() { "(no name)" } else { name }
+}

@@ -1,0 +1,194 @@
+//! The ladder of refinement.
+
+use super::{Answer, Method, Space, Stages, Verdict};
+use crate::certify::{Connectivity, Rejection, certify, connectivity};
+use crate::cspace::{Grid, Regions, outer_grid, regions};
+use crate::model::{Problem, Scene};
+use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use std::time::Instant;
+
+/// How much to try before the answer is unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Attempts, each finer than the one before: a quarter of the margin, twice the cells along each axis.
+    pub levels: usize,
+    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach.
+    pub margin: f64,
+    /// First number of grid cells along each axis.
+    pub cells: usize,
+    /// Boxes for a proof that there is no path.
+    pub boxes: usize,
+}
+
+impl Default for Effort {
+    /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
+    fn default() -> Self {
+        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000 }
+    }
+}
+
+/// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
+const MOST_CELLS: usize = 2048;
+
+/// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
+/// beside a finer attempt where it is not.
+const FIRST_BOXES: usize = 20_000;
+
+/// Of the room that start and goal have, the margin leaves at least half.
+const ROOM: f64 = 0.5;
+
+/// Turns of the universal cover to plan in, on either side of the start.
+const PERIODS: usize = 1;
+
+/// Answers `problem` with `method`. `progress` hears about attempts that failed.
+#[must_use]
+pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+    match method {
+        Method::Visibility => climb(problem, method, effort, progress, &Visibility::default(), polygons),
+        Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
+        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
+        Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+    }
+}
+
+/// Builds the space of one level; none when there is no finer one.
+type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
+
+fn climb<P: Planner>(
+    problem: &Problem,
+    method: Method,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+    planner: &P,
+    build: Builder<P::Space>,
+) -> Answer
+where
+    P::Space: Into<Space> + Described,
+{
+    let clearance = problem.scene.workspace.clearance;
+    let query = Query { start: problem.start, goals: problem.goals.clone() };
+    let mut stages = Stages::default();
+    let mut history = Vec::new();
+    let mut last: Option<(Run, P::Space)> = None;
+    let mut verdict = None;
+    for level in 0..effort.levels.max(1) {
+        let clock = Instant::now();
+        let Some(space) = build(problem, effort, level) else { break };
+        let map = planner.build(&space);
+        stages.build += clock.elapsed();
+        let clock = Instant::now();
+        let run = planner.query(&space, &map, &query);
+        stages.query += clock.elapsed();
+        let failure = match &run.outcome {
+            Outcome::Found(path) => {
+                let clock = Instant::now();
+                let certified = certify(&problem.scene, path.clone(), clearance);
+                stages.certify += clock.elapsed();
+                match certified {
+                    Ok(path) => {
+                        verdict = Some(Verdict::Found(path));
+                        String::new()
+                    }
+                    Err(rejection) => format!("its path is not certified: {}", explain(&problem.scene, rejection)),
+                }
+            }
+            Outcome::NoPath => "no path in it".into(),
+            Outcome::GaveUp(reason) => reason.clone(),
+        };
+        let failure = format!("{}: {failure}", space.describe());
+        last = Some((run, space));
+        if verdict.is_some() {
+            break;
+        }
+        progress(&format!("{method}: {failure}"));
+        history.push(failure);
+        if level == 0 {
+            verdict = prove(problem, effort.boxes.min(FIRST_BOXES), &mut stages);
+            if verdict.is_some() {
+                break;
+            }
+        }
+    }
+    if verdict.is_none() {
+        progress(&format!("{method}: looking for a proof that there is no path"));
+        verdict = prove(problem, effort.boxes, &mut stages);
+    }
+    let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
+    let verdict = verdict.unwrap_or_else(|| {
+        let why = history.last().cloned().unwrap_or_default();
+        Verdict::Unknown(format!("{method} found no certified path at its finest resolution ({why})"))
+    });
+    Answer { method, verdict, history, run, space: space.into(), stages }
+}
+
+fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+    let clock = Instant::now();
+    let clearance = problem.scene.workspace.clearance;
+    let answer = connectivity(&problem.scene, problem.start, &problem.goals, clearance, boxes);
+    stages.prove += clock.elapsed();
+    match answer {
+        Connectivity::Disconnected(proof) => Some(Verdict::Infeasible(proof)),
+        Connectivity::Connected(_) | Connectivity::Undecided { .. } => None,
+    }
+}
+
+/// Polygons grown by the level's margin, less where start or goals have little room.
+fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
+    let scene = &problem.scene;
+    let reach = scene.arm.reach();
+    let room = |q| scene.clearance(q) - scene.workspace.clearance;
+    let ends = problem.goals.iter().copied().chain([problem.start]);
+    let tightest = ends.map(room).fold(f64::INFINITY, f64::min);
+    let margin = (effort.margin * reach).min(ROOM * tightest) * 0.25_f64.powi(level as i32);
+    Some(regions(scene, margin, problem.start, PERIODS))
+}
+
+/// Cells of the level's size.
+fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
+    let n = effort.cells << level;
+    (level == 0 || n <= MOST_CELLS).then(|| outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance))
+}
+
+/// A space in a few words.
+trait Described {
+    fn describe(&self) -> String;
+}
+
+impl Described for Regions {
+    fn describe(&self) -> String {
+        format!("polygons ({})", self.proves)
+    }
+}
+
+impl Described for Grid {
+    fn describe(&self) -> String {
+        format!("{} x {} cells", self.cells[0], self.cells[1])
+    }
+}
+
+impl From<Regions> for Space {
+    fn from(regions: Regions) -> Self {
+        Space::Regions(Box::new(regions))
+    }
+}
+
+impl From<Grid> for Space {
+    fn from(grid: Grid) -> Self {
+        Space::Grid(Box::new(grid))
+    }
+}
+
+fn explain(scene: &Scene, rejection: Rejection) -> String {
+    match rejection {
+        Rejection::OutOfLimits { waypoint, joint } => {
+            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm.joints[joint].name)
+        }
+        Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => format!(
+            "{} come within {:.3e} m of each other at ({:.6}, {:.6})",
+            scene.describe(nearest.contact.pair),
+            nearest.contact.separation.distance,
+            nearest.at[0],
+            nearest.at[1],
+        ),
+    }
+}

@@ -1,0 +1,109 @@
+//! Holds the table of imports: every module may use only what lies below it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Who may import whom.
+const MAY_IMPORT: [(&str, &[&str]); 13] = [
+    ("geometry", &[]),
+    ("space", &["geometry"]),
+    ("model", &["geometry", "space"]),
+    ("input", &["geometry", "space", "model"]),
+    ("cspace", &["geometry", "space", "model"]),
+    ("field", &["geometry", "space", "cspace"]),
+    ("plan", &["geometry", "space", "cspace", "field"]),
+    ("certify", &["geometry", "space", "model"]),
+    ("solve", &["geometry", "space", "model", "cspace", "plan", "certify"]),
+    ("trajectory", &["geometry", "space", "model", "certify"]),
+    ("draw", &["geometry", "space", "model", "cspace", "plan", "certify", "solve"]),
+    ("report", &["geometry", "space", "model", "plan", "certify", "solve", "trajectory"]),
+    (
+        "cli",
+        &[
+            "geometry",
+            "space",
+            "model",
+            "input",
+            "cspace",
+            "field",
+            "plan",
+            "certify",
+            "solve",
+            "trajectory",
+            "draw",
+            "report",
+        ],
+    ),
+];
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
+
+/// The modules that a file names as `crate::module`, in code; `//` comments may name any.
+fn imports(text: &str) -> BTreeSet<String> {
+    let code = text.lines().map(|line| line.split("//").next().unwrap_or_default());
+    let mut found = BTreeSet::new();
+    for line in code {
+        for (at, _) in line.match_indices("crate::") {
+            let rest = &line[at + "crate::".len()..];
+            let grouped: Vec<&str> =
+                if let Some(list) = rest.strip_prefix('{') { list.split(',').collect() } else { vec![rest] };
+            for name in grouped {
+                let name: String = name.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                found.insert(name);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn modules_import_only_what_lies_below_them() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let modules: BTreeSet<&str> = MAY_IMPORT.iter().map(|m| m.0).collect();
+    let mut wrong = Vec::new();
+    let mut seen = 0;
+    for (module, allowed) in MAY_IMPORT {
+        for file in rust_files(&src.join(module)) {
+            for import in imports(&std::fs::read_to_string(&file).unwrap()) {
+                seen += 1;
+                if modules.contains(import.as_str()) && import != module && !allowed.contains(&import.as_str()) {
+                    wrong.push(format!("{} imports {import}", file.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "against the direction of the architecture:\n{}", wrong.join("\n"));
+    assert!(seen > 50, "only {seen} imports were found: the test reads the wrong files");
+}
+
+#[test]
+fn every_module_is_in_the_table() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for entry in std::fs::read_dir(src).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+            assert!(MAY_IMPORT.iter().any(|m| m.0 == name), "{name} is missing from the table of imports");
+        }
+    }
+}
+
+#[test]
+fn the_reader_of_imports_sees_all_forms() {
+    let text =
+        "use crate::model::{Arm, Pair};\nlet x = crate::plan::Run; // crate::draw\nuse crate::{cspace, field::A};";
+    let expected: Vec<&str> = vec!["cspace", "field", "model", "plan"];
+    assert_eq!(imports(text).into_iter().collect::<Vec<_>>(), expected);
+}

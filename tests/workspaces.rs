@@ -1,0 +1,122 @@
+//! Every shipped workspace gives its stated outcome with every planner.
+//!
+//! The first comment of a workspace names its robot (`# robot: planar_2r`) and the outcome (`# expect: found` or
+//! `# expect: infeasible`).
+
+use cplan::input::{self, Overrides};
+use cplan::model::Problem;
+use cplan::solve::{Effort, Method, Verdict, solve};
+use std::path::{Path, PathBuf};
+
+struct Shipped {
+    name: String,
+    problem: Problem,
+    expect: String,
+}
+
+fn shipped() -> Vec<Shipped> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(root.join("workspaces")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    files
+        .iter()
+        .map(|file| {
+            let text = std::fs::read_to_string(file).unwrap();
+            let stated = |key: &str| {
+                let line = text.lines().find_map(|l| l.strip_prefix(&format!("# {key}: ")));
+                line.unwrap_or_else(|| panic!("{}: no line \"# {key}: ...\"", file.display())).trim().to_owned()
+            };
+            let urdf = root.join("robots").join(format!("{}.urdf", stated("robot")));
+            let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+            let name = file.file_stem().unwrap().to_str().unwrap().to_owned();
+            Shipped { name, problem: loaded.problem, expect: stated("expect") }
+        })
+        .collect()
+}
+
+/// Least distance at configurations no farther apart than `step` in joint space.
+fn sampled_clearance(problem: &Problem, path: &cplan::space::Path, step: f64) -> f64 {
+    let mut least = f64::INFINITY;
+    for (a, b) in path.segments() {
+        let n = ((b - a).norm() / step).ceil().max(1.0);
+        let mut i = 0.0;
+        while i <= n {
+            least = least.min(problem.scene.clearance(a + (b - a) * (i / n)));
+            i += 1.0;
+        }
+    }
+    least
+}
+
+fn check(method: Method) {
+    let all = shipped();
+    assert!(all.len() >= 10, "only {} workspaces", all.len());
+    for kind in ["RR", "RP", "PR", "PP"] {
+        assert!(all.iter().any(|s| s.problem.scene.arm.kind() == kind), "no workspace for an {kind} arm");
+    }
+    let mut wrong = Vec::new();
+    let mut shortest: Option<f64> = None;
+    for Shipped { name, problem, expect } in &all {
+        let answer = solve(problem, method, &Effort::default(), &mut |_| {});
+        match (&answer.verdict, expect.as_str()) {
+            (Verdict::Found(certified), "found") => {
+                let path = certified.path();
+                assert_eq!(path.start(), problem.start, "{name}");
+                let topology = problem.scene.arm.topology();
+                let ends = |g: &_| topology.distance(path.goal(), *g) < 1e-9;
+                assert!(problem.goals.iter().any(ends), "{name}: {:?}", path.goal());
+                let sampled = sampled_clearance(problem, path, 2e-3);
+                assert!(certified.clearance() > 0.0, "{name}");
+                assert!(certified.clearance() >= problem.scene.workspace.clearance, "{name}");
+                assert!(sampled >= certified.clearance(), "{name}: sampled {sampled}");
+                let length = path.length();
+                shortest = Some(shortest.map_or(length, |s: f64| s.min(length)));
+            }
+            (Verdict::Infeasible(proof), "infeasible") => assert!(!proof.stuck().is_empty(), "{name}"),
+            (verdict, _) => wrong.push(format!("{name}: expected {expect}, got {verdict:?}\n{:?}", answer.history)),
+        }
+    }
+    assert!(shortest.is_some());
+    assert!(wrong.is_empty(), "{method}:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn visibility() {
+    check(Method::Visibility);
+}
+
+#[test]
+fn trapezoid() {
+    check(Method::Trapezoid);
+}
+
+#[test]
+fn wavefront() {
+    check(Method::Wavefront);
+}
+
+#[test]
+fn harmonic() {
+    check(Method::Harmonic);
+}
+
+#[test]
+fn the_visibility_path_is_the_shortest_up_to_the_margin() {
+    for Shipped { name, problem, expect } in shipped() {
+        if expect != "found" {
+            continue;
+        }
+        let length = |method| match solve(&problem, method, &Effort::default(), &mut |_| {}).verdict {
+            Verdict::Found(path) => path.path().length(),
+            other => panic!("{name}: {other:?}"),
+        };
+        let shortest = length(Method::Visibility);
+        for method in [Method::Trapezoid, Method::Wavefront] {
+            // Fields and channels keep their own distance from obstacles; what the margin costs is far below 2 %.
+            let other = length(method);
+            assert!(shortest <= 1.02 * other, "{name}: visibility {shortest}, {method} {other}");
+        }
+    }
+}
