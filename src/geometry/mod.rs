@@ -5,9 +5,19 @@
 //! depth) is a plain `f64`. Touching counts as contact, everywhere.
 
 mod convex;
+mod decompose;
+mod hull;
+mod meet;
+mod polygon;
+mod predicates;
 mod separation;
 
 pub use convex::Convex;
+pub use decompose::decompose;
+pub use hull::hull;
+pub use meet::shapes_meet;
+pub use polygon::{PolygonDefect, SimplePolygon};
+pub use predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
 pub use separation::{Separation, separation};
 
 /// A point of the plane, metres.
