@@ -1,10 +1,19 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
 
+mod contact;
+mod critical;
+mod features;
 mod grid;
 mod regions;
+mod rows;
+mod sliding;
 
+pub use contact::{Hits, ROUNDING, turning, turning_from};
+pub use features::Features;
 pub use grid::Grid;
 pub use regions::{CObstacle, Polygon, Regions};
+pub use rows::{Forbidden, Row, Rows};
+pub use sliding::sliding;
 
 /// What a representation of free space proves about the real one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,0 +1,278 @@
+//! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
+
+use super::contact::{Hits, normalized, turning_from};
+use super::features::Features;
+use super::sliding::{along_and_across, sliding_tracks};
+use crate::geometry::{Convex, Point, Vector};
+use crate::model::{Joint, Motion, Pair, Scene};
+use crate::space::Configuration;
+use std::f64::consts::TAU;
+
+/// A scene prepared for rows.
+///
+/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`super::ROUNDING`], and of joint
+/// values: *unwrapped* for a revolute joint (start in `[-pi, pi)`, end possibly beyond `pi`, to be repeated by whole
+/// turns), as they are for a prismatic one. Limits are not applied; see [`Rows::row`] for that.
+#[derive(Debug, Clone)]
+pub struct Rows<'a> {
+    scene: &'a Scene,
+    pairs: Vec<Prepared>,
+    pieces: Vec<Features>,
+}
+
+/// A pair with its part prepared for the joint that carries it.
+#[derive(Debug, Clone)]
+struct Prepared {
+    pair: Pair,
+    part: Carried,
+    /// Link 2 only: the part with all its positions under joint 2, as carried by joint 1.
+    sweep: Option<Carried>,
+    /// Into the pieces.
+    piece: usize,
+}
+
+/// A part and the joint that moves it.
+#[derive(Debug, Clone)]
+struct Carried {
+    motion: Motion,
+    features: Features,
+    /// Prismatic joints: the core along and across the direction.
+    track: Vec<Vector>,
+}
+
+impl Carried {
+    fn new(motion: Motion, shape: &Convex) -> Self {
+        let track = match motion {
+            Motion::Revolute { .. } => Vec::new(),
+            Motion::Prismatic { direction } => along_and_across(shape.core().iter(), Vector::zeros(), direction),
+        };
+        Self { motion, features: Features::new(shape), track }
+    }
+
+    /// The joint's forbidden values when it sits at `pivot` on a link turned by `heading` (a unit vector).
+    fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
+        match self.motion {
+            Motion::Revolute { sign } => {
+                let from = out.len();
+                let hits = turning_from(&self.features, pivot, heading, piece, grow, out);
+                if sign < 0.0 {
+                    out[from..].iter_mut().for_each(|arc| *arc = normalized([-arc[1], -arc[0]]));
+                    out[from..].sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+                }
+                hits
+            }
+            Motion::Prismatic { direction } => {
+                let radius = self.features.shape().radius() + piece.shape().radius() + grow;
+                let direction = super::features::product(heading, direction);
+                let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
+                match sliding_tracks(&self.track, &track, radius) {
+                    Some(interval) => {
+                        out.push(interval);
+                        Hits::Within
+                    }
+                    None => Hits::Never,
+                }
+            }
+        }
+    }
+}
+
+impl<'a> Rows<'a> {
+    /// Prepares a scene. Linear in its size.
+    #[must_use]
+    pub fn new(scene: &'a Scene) -> Self {
+        let [first, second] = &scene.arm.joints;
+        let mut pieces = Vec::new();
+        let mut piece_of = std::collections::BTreeMap::new();
+        let pairs = scene
+            .pairs()
+            .iter()
+            .map(|&pair| {
+                let piece = *piece_of.entry((pair.obstacle, pair.piece)).or_insert_with(|| {
+                    pieces.push(Features::new(scene.piece(pair)));
+                    pieces.len() - 1
+                });
+                let shape = scene.part(pair);
+                let (part, sweep) = if pair.link == 0 {
+                    (Carried::new(first.motion, shape), None)
+                } else {
+                    let sweep = swept(shape, second, scene.arm.offset);
+                    (Carried::new(second.motion, shape), Some(Carried::new(first.motion, &sweep)))
+                };
+                Prepared { pair, part, sweep, piece }
+            })
+            .collect();
+        Self { scene, pairs, pieces }
+    }
+
+    /// The scene.
+    #[must_use]
+    pub fn scene(&self) -> &'a Scene {
+        self.scene
+    }
+
+    /// Values of joint 1 at which pair `index`, of link 1, comes within `grow` of contact.
+    ///
+    /// # Panics
+    /// If the pair is of link 2, or there is none of that number.
+    pub fn first_link(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
+        let pair = &self.pairs[index];
+        assert_eq!(pair.pair.link, 0, "a pair of link 1");
+        pair.part.hits(self.scene.arm.base, Vector::x(), &self.pieces[pair.piece], grow, out)
+    }
+
+    /// Values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at `q1`.
+    ///
+    /// # Panics
+    /// If the pair is of link 1, or there is none of that number.
+    pub fn second_link(&self, index: usize, q1: f64, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
+        let (elbow, heading) = self.elbow(q1);
+        self.at_elbow(index, elbow, heading, grow, out)
+    }
+
+    /// Values of joint 1 outside which pair `index`, of link 2, keeps farther than `grow` from contact whatever joint 2
+    /// does: those at which the part's sweep meets the piece. For a revolute joint 2 the sweep is the disc about the
+    /// elbow that holds the part, for a prismatic one a capsule that holds it over the joint's whole range.
+    ///
+    /// # Panics
+    /// If the pair is of link 1, or there is none of that number.
+    pub fn reach_range(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
+        let pair = &self.pairs[index];
+        let sweep = pair.sweep.as_ref().expect("a pair of link 2");
+        sweep.hits(self.scene.arm.base, Vector::x(), &self.pieces[pair.piece], grow, out)
+    }
+
+    /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
+    /// only. Reuses `row`'s memory. `O(m log m)` in the contacts.
+    pub fn row(&self, q1: f64, grow: f64, row: &mut Row) {
+        row.clear();
+        let (elbow, heading) = self.elbow(q1);
+        for index in self.second_link_pairs() {
+            row.scratch.clear();
+            let hits = self.at_elbow(index, elbow, heading, grow, &mut row.scratch);
+            let Row { forbidden, scratch, .. } = row;
+            let joint = &self.scene.arm.joints[1];
+            on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+        }
+        row.merge();
+    }
+
+    /// All forbidden values of joint 1, over the axis's domain, with obstacles grown by `grow`: those of link 1 only.
+    pub fn bands(&self, grow: f64) -> Row {
+        let mut row = Row::default();
+        for index in 0..self.second_link_pairs().start {
+            row.scratch.clear();
+            let hits = self.first_link(index, grow, &mut row.scratch);
+            let Row { forbidden, scratch, .. } = &mut row;
+            let joint = &self.scene.arm.joints[0];
+            on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+        }
+        row.merge();
+        row
+    }
+
+    /// Numbers of the pairs of link 2; those of link 1 come before.
+    #[must_use]
+    pub fn second_link_pairs(&self) -> std::ops::Range<usize> {
+        self.pairs.partition_point(|p| p.pair.link == 0)..self.pairs.len()
+    }
+
+    /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+    pub(super) fn elbow(&self, q1: f64) -> (Point, Vector) {
+        let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
+    }
+
+    /// [`Rows::second_link`] with the elbow at hand.
+    pub(super) fn at_elbow(
+        &self,
+        index: usize,
+        elbow: Point,
+        heading: Vector,
+        grow: f64,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        let pair = &self.pairs[index];
+        assert_eq!(pair.pair.link, 1, "a pair of link 2");
+        pair.part.hits(elbow, heading, &self.pieces[pair.piece], grow, out)
+    }
+}
+
+/// A forbidden interval of one pair, within the axis's domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Forbidden {
+    /// Number of the pair in [`Scene::pairs`].
+    pub pair: usize,
+    /// Closed; joint values.
+    pub interval: [f64; 2],
+}
+
+/// The forbidden intervals of one row (or, for link 1, of joint 1). On a circle an interval over the seam is in two.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Row {
+    /// By pair, in the pairs' order.
+    pub forbidden: Vec<Forbidden>,
+    /// Their union: disjoint, ascending.
+    pub merged: Vec<[f64; 2]>,
+    scratch: Vec<[f64; 2]>,
+}
+
+impl Row {
+    /// Whether the joint value is forbidden. `O(log n)`.
+    #[must_use]
+    pub fn forbids(&self, value: f64) -> bool {
+        let after = self.merged.partition_point(|i| i[0] <= value);
+        after > 0 && value <= self.merged[after - 1][1]
+    }
+
+    fn clear(&mut self) {
+        self.forbidden.clear();
+        self.merged.clear();
+    }
+
+    fn merge(&mut self) {
+        self.scratch.clear();
+        self.scratch.extend(self.forbidden.iter().map(|f| f.interval));
+        self.scratch.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        for &[start, end] in &self.scratch {
+            match self.merged.last_mut() {
+                Some(last) if start <= last[1] => last[1] = last[1].max(end),
+                _ => self.merged.push([start, end]),
+            }
+        }
+    }
+}
+
+/// Calls `f` with the copies of a joint's forbidden intervals within the domain of its axis.
+pub(super) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
+    let (lower, upper) = joint.axis.domain();
+    match hits {
+        Hits::Never => {}
+        Hits::Always => f([lower, upper]),
+        Hits::Within => {
+            let period = if joint.motion.is_revolute() { TAU } else { f64::INFINITY };
+            for &[start, end] in intervals {
+                let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
+                while start + shift <= upper && end + shift >= lower {
+                    f([(start + shift).max(lower), (end + shift).min(upper)]);
+                    shift += period;
+                }
+            }
+        }
+    }
+}
+
+/// A shape, in link 1's frame, that holds a part of link 2 whatever joint 2 does.
+fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
+    let elbow = Point::from(offset);
+    match joint.motion {
+        Motion::Revolute { .. } => Convex::disc(elbow, shape.reach_from(Point::origin())),
+        Motion::Prismatic { direction } => {
+            let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
+            let (lower, upper) = joint.axis.domain();
+            let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
+            let core = if from == to { vec![from] } else { vec![from, to] };
+            Convex::new(core, shape.reach_from(center))
+        }
+    }
+}
