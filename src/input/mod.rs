@@ -1,1 +1,75 @@
-//! (to be written)
+//! Files and options to a planning problem: URDF, world TOML, and errors that name the place and the cure.
+//!
+//! ```text
+//! world.toml --+-> World ------------------+
+//!              |                           +--> Scene --+--> Problem
+//! arm.urdf ----+-> Arm (planar reduction) -+            |
+//! --start, --goal, --goal-tip, --clearance -------------+
+//! ```
+
+mod error;
+mod inverse;
+mod problem;
+mod source;
+mod urdf;
+mod values;
+mod world;
+
+pub use error::{Defect, InputError};
+pub use inverse::{Inverse, inverse};
+pub use source::Position;
+pub use values::{JointValues, Overrides, TipPoint};
+pub use world::World;
+
+use crate::model::{Problem, Scene};
+use std::path::Path;
+
+/// What the user should know of how the robot was read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RobotReport {
+    /// For the summary: the plane, the outline of each link, joints held still, defaults taken, things ignored.
+    pub notes: Vec<String>,
+    /// What may surprise: links that cannot collide, meshes that a bar stands in for.
+    pub warnings: Vec<String>,
+}
+
+/// Arm and obstacles as the files have them, without start and goal.
+#[derive(Debug, Clone)]
+pub struct LoadedScene {
+    /// The arm among its obstacles, with the world's clearance.
+    pub scene: Scene,
+    /// The world file.
+    pub world: World,
+    /// How the robot was read.
+    pub robot: RobotReport,
+}
+
+/// A planning problem and how it was read.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// Scene, start and goals; start and goals are within the limits and free.
+    pub problem: Problem,
+    /// How the robot was read.
+    pub robot: RobotReport,
+    /// What the user should know of the goal: branches that are blocked, joints whose value does not matter.
+    pub notes: Vec<String>,
+}
+
+/// Reads a robot and a world. Start and goal may be missing or wrong: see [`LoadedScene::problem`].
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the files themselves.
+pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> {
+    let world = world::read(world)?;
+    let (arm, robot) = urdf::load(urdf, &world)?;
+    let scene = Scene::new(arm, world.workspace.clone());
+    Ok(LoadedScene { scene, world, robot })
+}
+
+/// Reads a planning problem: [`load_scene`], then [`LoadedScene::problem`].
+///
+/// # Errors
+/// [`InputError`], for the files or for start and goal.
+pub fn load(urdf: &Path, world: &Path, overrides: &Overrides) -> Result<Loaded, InputError> {
+    load_scene(urdf, world)?.problem(overrides)
+}

@@ -1,0 +1,94 @@
+//! Errors in what the user wrote: where, what, and the cure.
+
+use super::source::Position;
+use std::fmt;
+use thiserror::Error;
+
+/// One thing that is wrong with the input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Defect {
+    /// The file, or the command-line option, that it is in.
+    pub origin: String,
+    /// Where in the file, if that is known.
+    pub position: Option<Position>,
+    /// The line of the file with a caret below the place.
+    pub excerpt: Option<String>,
+    /// What is wrong, naming the joint, link or obstacle.
+    pub message: String,
+    /// What to do about it.
+    pub cure: Option<String>,
+}
+
+impl Defect {
+    /// A defect of a whole file or option.
+    #[must_use]
+    pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
+        Self { origin: origin.into(), position: None, excerpt: None, message: message.into(), cure: None }
+    }
+
+    /// The same with a cure.
+    #[must_use]
+    pub fn cure(self, cure: impl Into<String>) -> Self {
+        Self { cure: Some(cure.into()), ..self }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.origin)?;
+        if let Some(Position { line, column }) = self.position {
+            write!(f, ": line {line}, column {column}")?;
+        }
+        write!(f, ": {}", self.message)?;
+        if let Some(excerpt) = &self.excerpt {
+            write!(f, "\n{excerpt}")?;
+        }
+        if let Some(cure) = &self.cure {
+            write!(f, "\n  cure: {cure}")?;
+        }
+        Ok(())
+    }
+}
+
+/// Input that cannot be used. Displays every defect with its file, line and column, the source line, and the cure.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{}", listed(.defects))]
+pub struct InputError {
+    defects: Vec<Defect>,
+}
+
+impl InputError {
+    /// What is wrong: at least one defect, in the order of the file where that makes sense.
+    #[must_use]
+    pub fn defects(&self) -> &[Defect] {
+        &self.defects
+    }
+
+    /// `Ok` when there are no defects.
+    pub(super) fn check(defects: Vec<Defect>) -> Result<(), Self> {
+        if defects.is_empty() { Ok(()) } else { Err(Self { defects }) }
+    }
+}
+
+impl From<Defect> for InputError {
+    fn from(defect: Defect) -> Self {
+        Self { defects: vec![defect] }
+    }
+}
+
+/// More defects than this are counted, not shown: the first ones usually cause the rest.
+const SHOWN: usize = 8;
+
+fn listed(defects: &[Defect]) -> String {
+    let mut lines: Vec<String> = defects.iter().take(SHOWN).map(ToString::to_string).collect();
+    if defects.len() > SHOWN {
+        lines.push(format!("... and {} more", defects.len() - SHOWN));
+    }
+    lines.join("\n")
+}
+
+/// Names in quotes, separated by commas, for messages.
+pub(super) fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
+    let names: Vec<String> = names.into_iter().map(|n| format!("\"{}\"", n.as_ref())).collect();
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}

@@ -1,0 +1,118 @@
+//! A text file and positions in it.
+
+use super::error::{Defect, InputError};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A place in a text file, counted from 1; columns count characters.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Position {
+    /// Line.
+    pub line: usize,
+    /// Column.
+    pub column: usize,
+}
+
+/// A text file in memory.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Source {
+    pub path: PathBuf,
+    pub text: String,
+}
+
+/// Characters of a long source line that an excerpt shows on either side of the place.
+const EXCERPT_REACH: usize = 60;
+
+impl Source {
+    /// Reads a file as UTF-8, without a byte order mark.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let bytes = std::fs::read(path).map_err(|error| {
+            Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
+                .cure("check the path and the file's permissions")
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            Defect::new(
+                path.display().to_string(),
+                format!("is not UTF-8 text (byte {})", error.utf8_error().valid_up_to()),
+            )
+            .cure("save it as UTF-8")
+        })?;
+        let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+        Ok(Self { path: path.to_owned(), text })
+    }
+
+    /// The path, for messages.
+    pub fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// Line and column of a byte offset.
+    pub fn position(&self, offset: usize) -> Position {
+        let before = &self.text.as_bytes()[..offset.min(self.text.len())];
+        let line_start = before.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
+        Position {
+            line: before.iter().filter(|b| **b == b'\n').count() + 1,
+            column: String::from_utf8_lossy(&before[line_start..]).chars().count() + 1,
+        }
+    }
+
+    /// A defect of the file as a whole.
+    pub fn defect(&self, message: impl Into<String>) -> Defect {
+        Defect::new(self.name(), message)
+    }
+
+    /// A defect at a range of bytes, with the source line and carets below it.
+    pub fn defect_at(&self, range: Range<usize>, message: impl Into<String>) -> Defect {
+        let position = self.position(range.start);
+        Defect {
+            position: Some(position),
+            excerpt: Some(self.excerpt(position, range.len())),
+            ..Defect::new(self.name(), message)
+        }
+    }
+
+    fn excerpt(&self, position: Position, length: usize) -> String {
+        let line = self.text.lines().nth(position.line - 1).unwrap_or("");
+        let at = position.column - 1;
+        let from = at.saturating_sub(EXCERPT_REACH);
+        let shown: String =
+            line.chars().skip(from).take(2 * EXCERPT_REACH).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let number = position.line.to_string();
+        let margin = " ".repeat(number.len());
+        let carets = "^".repeat(length.clamp(1, shown.chars().count().saturating_sub(at - from).max(1)));
+        format!("  {number} | {}\n  {margin} | {}{carets}", shown.trim_end(), " ".repeat(at - from))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(text: &str) -> Source {
+        Source { path: "a.toml".into(), text: text.to_owned() }
+    }
+
+    #[test]
+    fn positions_count_characters_from_one() {
+        let s = source("ab\nçd = 1\n");
+        assert_eq!(s.position(0), Position { line: 1, column: 1 });
+        assert_eq!(s.position(5), Position { line: 2, column: 2 });
+        assert_eq!(s.position(999), Position { line: 3, column: 1 });
+    }
+
+    #[test]
+    fn the_caret_stands_below_the_place() {
+        let s = source("first\n  radius = -1\n");
+        let shown = s.defect_at(17..19, "bad").to_string();
+        assert_eq!(shown, "a.toml: line 2, column 12: bad\n  2 |   radius = -1\n    |            ^^");
+    }
+
+    #[test]
+    fn a_long_line_is_cut_around_the_place() {
+        let s = source(&format!("{}X{}", "a".repeat(500), "b".repeat(500)));
+        let shown = s.defect_at(500..501, "bad").to_string();
+        let lines: Vec<&str> = shown.lines().collect();
+        assert!(lines[1].len() < 140);
+        assert_eq!(lines[1].find('X'), lines[2].find('^'));
+    }
+}

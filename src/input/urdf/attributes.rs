@@ -1,0 +1,237 @@
+//! Checks of single URDF elements and attributes, with their places.
+
+use super::document::{escaped, tag};
+use crate::input::error::Defect;
+use crate::input::source::Source;
+use roxmltree::Node;
+
+/// Attributes that hold numbers, in any element of a link or joint.
+const NUMERIC: [&str; 31] = [
+    "xyz",
+    "rpy",
+    "quat_xyzw",
+    "size",
+    "radius",
+    "length",
+    "scale",
+    "lower",
+    "upper",
+    "effort",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "multiplier",
+    "offset",
+    "soft_lower_limit",
+    "soft_upper_limit",
+    "k_position",
+    "k_velocity",
+    "damping",
+    "friction",
+    "rising",
+    "falling",
+    "value",
+    "ixx",
+    "ixy",
+    "ixz",
+    "iyy",
+    "iyz",
+    "izz",
+];
+
+/// Joint types of the URDF specification.
+const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
+/// Reads attributes of one link or joint and collects what is wrong with them.
+pub(super) struct Attributes<'a> {
+    pub source: &'a Source,
+    pub defects: &'a mut Vec<Defect>,
+    /// The link or joint, as it begins every message.
+    pub what: &'a str,
+}
+
+/// Child elements of one name, in the parent's namespace.
+pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.children().filter(move |n| {
+        n.is_element() && n.tag_name().name() == name && n.tag_name().namespace() == node.tag_name().namespace()
+    })
+}
+
+impl Attributes<'_> {
+    fn defect(&mut self, node: Node, attribute: Option<&str>, message: String, cure: &str) {
+        let place = attribute.and_then(|a| node.attribute_node(a)).map_or_else(|| tag(node), |a| a.range());
+        let defect = self.source.defect_at(place, format!("{}: {message}", self.what));
+        self.defects.push(if cure.is_empty() { defect } else { defect.cure(cure) });
+    }
+
+    /// Refuses NaN and infinities in every numeric attribute below `node`, also in those that are not used: a file that
+    /// has them was not written right.
+    pub fn finite_everywhere(&mut self, node: Node) {
+        for element in node.descendants().filter(Node::is_element) {
+            for attribute in element.attributes().filter(|a| NUMERIC.contains(&a.name())) {
+                let bad = |word: &&str| word.parse::<f64>().is_ok_and(|x| !x.is_finite());
+                if let Some(word) = attribute.value().split_whitespace().find(bad) {
+                    let message = format!("{word} in {}=\"{}\" is not finite", attribute.name(), attribute.value());
+                    let cure = "every number of a URDF is finite; a joint without limits is of type continuous";
+                    self.defect(element, Some(attribute.name()), message, cure);
+                }
+            }
+        }
+    }
+
+    /// The only child element of a name; none if it is optional and absent.
+    pub fn only<'a, 'i>(&mut self, node: Node<'a, 'i>, name: &'a str, required: bool) -> Option<Node<'a, 'i>> {
+        let mut found = children(node, name);
+        let first = found.next();
+        if let Some(second) = found.next() {
+            self.defect(second, None, format!("a second <{name}>"), "keep the one that is meant");
+        }
+        if first.is_none() && required {
+            self.defect(node, None, format!("<{name}> is missing"), "");
+        }
+        first
+    }
+
+    /// A text attribute that must be there.
+    pub fn text<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+        let value = node.attribute(name).filter(|v| !v.trim().is_empty());
+        if value.is_none() {
+            self.defect(node, None, format!("<{}> needs the attribute {name}", node.tag_name().name()), "");
+        }
+        value
+    }
+
+    /// `count` numbers; `None` if the attribute is absent or wrong. Whether they are finite is checked elsewhere.
+    fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
+        let text = node.attribute(name)?;
+        let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
+        match values {
+            Ok(values) if values.len() == count => Some(values),
+            Ok(values) => {
+                let message = format!("{name}=\"{text}\" has {} numbers, not {count}", values.len());
+                self.defect(node, Some(name), message, "");
+                None
+            }
+            Err(_) => {
+                let noun = if count == 1 { "a number".to_owned() } else { format!("{count} numbers") };
+                self.defect(node, Some(name), format!("{name}=\"{text}\" is not {noun}"), "");
+                None
+            }
+        }
+    }
+
+    /// One number; `None` if the attribute is absent or wrong.
+    pub fn number(&mut self, node: Node, name: &str) -> Option<f64> {
+        self.numbers(node, name, 1).map(|v| v[0])
+    }
+
+    /// The `<origin>` as it is to be copied; empty if there is none.
+    pub fn origin(&mut self, node: Node) -> String {
+        let Some(origin) = self.only(node, "origin", false) else { return String::new() };
+        let mut copy = "<origin".to_owned();
+        for (name, count) in [("xyz", 3), ("rpy", 3), ("quat_xyzw", 4)] {
+            if self.numbers(origin, name, count).is_some() {
+                copy += &format!(" {name}=\"{}\"", escaped(origin.attribute(name).unwrap_or("")));
+            }
+        }
+        if origin.has_attribute("rpy") && origin.has_attribute("quat_xyzw") {
+            self.defect(origin, Some("quat_xyzw"), "the origin has both rpy and quat_xyzw".into(), "keep one of them");
+        }
+        copy + "/>"
+    }
+
+    /// An axis: three numbers that are not all zero.
+    pub fn direction(&mut self, axis: Node) {
+        let Some(xyz) = self.numbers(axis, "xyz", 3) else {
+            if !axis.has_attribute("xyz") {
+                self.defect(axis, None, "the <axis> has no xyz".into(), "write <axis xyz=\"0 0 1\"/> or the like");
+            }
+            return;
+        };
+        let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
+        // A shorter axis has no direction that its digits support.
+        if length < 1e-9 {
+            let cure = "give the axis a direction, such as xyz=\"0 0 1\", or make the joint fixed";
+            self.defect(axis, Some("xyz"), format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or("")), cure);
+        }
+    }
+
+    /// The type of a joint.
+    pub fn joint_type<'a>(&mut self, joint: Node<'a, '_>) -> Option<&'a str> {
+        let kind = self.text(joint, "type")?;
+        if JOINT_TYPES.contains(&kind) {
+            return Some(kind);
+        }
+        let cure = format!("one of {}", JOINT_TYPES.join(", "));
+        self.defect(joint, Some("type"), format!("type \"{kind}\" is unknown"), &cure);
+        None
+    }
+
+    /// Lower, upper, velocity and acceleration of a `<limit>`. Lower may exceed upper only where the type ignores them.
+    pub fn limit(&mut self, limit: Node, ranged: bool) -> [Option<f64>; 4] {
+        let values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
+        if ranged
+            && let [Some(lower), Some(upper), ..] = values
+            && lower > upper
+        {
+            let message = format!("the limits are reversed: lower {lower} is above upper {upper}");
+            self.defect(limit, Some("lower"), message, "swap lower and upper");
+        }
+        for (name, value) in [("velocity", values[2]), ("acceleration", values[3])] {
+            if value.is_some_and(|v| v < 0.0) {
+                self.defect(limit, Some(name), format!("the {name} limit is negative"), "limits are magnitudes");
+            }
+        }
+        values
+    }
+
+    /// The soft limits, if both are given and they are not both 0, which exporters write for none.
+    pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
+        let lower = self.number(safety, "soft_lower_limit")?;
+        let upper = self.number(safety, "soft_upper_limit")?;
+        if lower > upper {
+            let message = format!("the soft limits are reversed: {lower} is above {upper}");
+            self.defect(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
+        }
+        (lower != 0.0 || upper != 0.0).then_some([lower, upper])
+    }
+
+    /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).
+    pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
+        let Some(shape) = geometry.children().find(Node::is_element) else {
+            self.defect(geometry, None, "the <geometry> is empty".into(), "");
+            return None;
+        };
+        let sizes: &[(&str, usize)] = match shape.tag_name().name() {
+            "box" => &[("size", 3)],
+            "cylinder" | "capsule" => &[("radius", 1), ("length", 1)],
+            "sphere" => &[("radius", 1)],
+            "mesh" => {
+                self.text(shape, "filename")?;
+                if let Some(scale) = self.numbers(shape, "scale", 3)
+                    && scale.contains(&0.0)
+                {
+                    self.defect(shape, Some("scale"), "a scale of 0 flattens the mesh".into(), "");
+                }
+                return Some(shape);
+            }
+            other => {
+                let cure = "box, cylinder, sphere, capsule or mesh";
+                self.defect(shape, None, format!("the shape <{other}> is unknown"), cure);
+                return None;
+            }
+        };
+        let mut values = Vec::new();
+        for (name, count) in sizes {
+            self.text(shape, name)?;
+            values.extend(self.numbers(shape, name, *count)?);
+        }
+        let all_zero = values.iter().all(|v| *v == 0.0);
+        if !all_zero && values.iter().any(|v| *v <= 0.0) {
+            let message = format!("the sizes of the {} must be positive", shape.tag_name().name());
+            self.defect(shape, Some(sizes[0].0), message, "lengths are in metres");
+        }
+        Some(shape)
+    }
+}

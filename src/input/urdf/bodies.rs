@@ -1,0 +1,231 @@
+//! The outlines of the two arm links: which of the URDF's geometry makes them up.
+
+use super::chain::Chain;
+use super::document::Document;
+use super::mesh;
+use super::plane::project;
+use super::solid::{Solid, capsule};
+use super::tree::{Tree, isometry};
+use crate::geometry::{Point, Vector};
+use crate::input::error::{Defect, InputError};
+use crate::input::world::World;
+use crate::model::{Heights, Link, OutlineSource, Part, Plane};
+use nalgebra::{Isometry3, Translation2, Vector3};
+use std::ops::Range;
+use urdf_rs::Geometry;
+
+/// Everything that the outlines are made from.
+pub(super) struct Bodies<'a> {
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub chain: &'a Chain,
+    pub world: &'a World,
+    pub plane: &'a Plane,
+    /// Poses of all links in the root frame, the two joints at 0.
+    pub poses: &'a [Isometry3<f64>],
+}
+
+/// Which of a link's geometry.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Collision,
+    Visual,
+}
+
+/// What an arm link's geometry of one kind comes to.
+#[derive(Default)]
+struct Found {
+    parts: Vec<Part>,
+    /// Bodies with a shape without any size.
+    empty: Vec<String>,
+    /// Meshes that cannot be used.
+    unread: Vec<Defect>,
+}
+
+/// Two links, and what the user should know of them.
+pub(super) struct Outlines {
+    pub links: [Link; 2],
+    pub notes: Vec<String>,
+    pub warnings: Vec<String>,
+}
+
+impl Bodies<'_> {
+    /// Both links' outlines, in their frames: origin at the joint.
+    ///
+    /// # Errors
+    /// When a mesh cannot be used and the world asks for no bar instead, or when neither link has an outline.
+    pub fn outlines(&self) -> Result<Outlines, InputError> {
+        let bar = self.bar()?;
+        let mut notes = Vec::new();
+        let mut warnings = Vec::new();
+        let first = self.link(0, bar, &mut notes, &mut warnings)?;
+        let second = self.link(1, bar, &mut notes, &mut warnings)?;
+        let links = [first, second];
+        if links.iter().all(|l| l.source == OutlineSource::None) {
+            let message = format!(
+                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
+                links[0].name, links[1].name
+            );
+            let cure = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
+                        world file: [robot] bar = 0.05 (their radius in metres)";
+            return Err(self.document.source.defect(message).cure(cure).into());
+        }
+        Ok(Outlines { links, notes, warnings })
+    }
+
+    fn bar(&self) -> Result<Option<f64>, Defect> {
+        let Some(bar) = &self.world.robot.bar else { return Ok(None) };
+        let radius = *bar.get_ref();
+        if radius.is_finite() && radius > 0.0 {
+            return Ok(Some(radius));
+        }
+        let message = format!("[robot] bar: the radius must be positive, is {radius}");
+        Err(self.world.source.defect_at(bar.span(), message))
+    }
+
+    fn link(
+        &self,
+        index: usize,
+        bar: Option<f64>,
+        notes: &mut Vec<String>,
+        warnings: &mut Vec<String>,
+    ) -> Result<Link, InputError> {
+        let name = self.tree.links[self.tree.child[self.chain.joints[index]]].clone();
+        let bodies = self.bodies(index);
+        let mut source = OutlineSource::Collision;
+        let mut found = self.gather(index, &bodies, Kind::Collision);
+        if found.parts.is_empty() && found.unread.is_empty() {
+            let empty = std::mem::take(&mut found.empty);
+            found = self.gather(index, &bodies, Kind::Visual);
+            found.empty.splice(0..0, empty);
+            source = OutlineSource::Visual;
+        }
+        found.empty.dedup();
+        if !found.empty.is_empty() {
+            let bodies = found.empty.join(", ");
+            notes.push(format!("link {} \"{name}\": shapes of size zero are ignored (in {bodies})", index + 1));
+        }
+        let Found { mut parts, unread, .. } = found;
+        if !unread.is_empty() || parts.is_empty() {
+            match bar {
+                Some(radius) => {
+                    for defect in &unread {
+                        warnings.push(format!("{}; the bar stands in for it", defect.message));
+                    }
+                    parts.push(self.bar_part(index, radius, &name));
+                    source = OutlineSource::Bar;
+                }
+                None => {
+                    InputError::check(unread)?;
+                    source = OutlineSource::None;
+                }
+            }
+        }
+        notes.push(format!("link {} \"{name}\": {}", index + 1, self.summary(source, &parts)));
+        if source == OutlineSource::None {
+            warnings.push(format!(
+                "link {} \"{name}\" has no geometry, so it cannot collide ([robot] bar = RADIUS gives it one)",
+                index + 1
+            ));
+        }
+        Ok(Link { name, parts, source })
+    }
+
+    fn summary(&self, source: OutlineSource, parts: &[Part]) -> String {
+        let shapes = if parts.len() == 1 { "1 shape".to_owned() } else { format!("{} shapes", parts.len()) };
+        match source {
+            OutlineSource::Collision => format!("outline from the collision geometry ({shapes})"),
+            OutlineSource::Visual => {
+                format!("outline from the visual geometry, for want of collision geometry ({shapes})")
+            }
+            OutlineSource::Bar if parts.len() > 1 => {
+                format!("outline from the collision geometry and a bar ({shapes})")
+            }
+            OutlineSource::Bar => "outline is a bar between the joints, as the world file asks".to_owned(),
+            OutlineSource::None => "no outline: it has no geometry".to_owned(),
+        }
+    }
+
+    /// The URDF links that arm link `index` is made of, in the order of the file.
+    fn bodies(&self, index: usize) -> Vec<usize> {
+        let [first, second] = self.chain.joints;
+        (0..self.document.robot.links.len())
+            .filter(|l| match index {
+                0 => self.tree.carries(first, *l) && !self.tree.carries(second, *l),
+                _ => self.tree.carries(second, *l),
+            })
+            .collect()
+    }
+
+    fn gather(&self, index: usize, bodies: &[usize], kind: Kind) -> Found {
+        let mut found = Found::default();
+        let to_link = Translation2::from(-self.joint_at(index).0.coords);
+        for body in bodies {
+            let link = &self.document.robot.links[*body];
+            let place = &self.document.links[*body];
+            let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
+                Kind::Collision => {
+                    link.collision.iter().zip(&place.collision).map(|(c, at)| (&c.origin, &c.geometry, at)).collect()
+                }
+                Kind::Visual => {
+                    link.visual.iter().zip(&place.visual).map(|(v, at)| (&v.origin, &v.geometry, at)).collect()
+                }
+            };
+            for (origin, geometry, at) in shapes {
+                let solid = match self.solid(geometry) {
+                    Ok(solid) if solid.is_nothing() => {
+                        found.empty.push(format!("\"{}\"", link.name));
+                        continue;
+                    }
+                    Ok(solid) => solid,
+                    Err(message) => {
+                        let message = format!("link \"{}\": {message}", link.name);
+                        let cure = "correct the path, put the package folder beside the URDF or name its place in \
+                                    ROS_PACKAGE_PATH, and convert other formats to STL; or let bars between the joints \
+                                    stand in for the links, in the world file: [robot] bar = 0.05 (their radius in metres)";
+                        found.unread.push(self.document.defect_at(at, message).cure(cure));
+                        continue;
+                    }
+                };
+                let pose = self.poses[*body] * isometry(origin);
+                let shape = solid.outline(&pose, self.plane).at(&to_link.into());
+                found.parts.push(Part { shape, heights: solid.heights(&pose, self.plane), body: link.name.clone() });
+            }
+        }
+        found
+    }
+
+    fn solid(&self, geometry: &Geometry) -> Result<Solid, String> {
+        Ok(match geometry {
+            Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
+            Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },
+            Geometry::Capsule { radius, length } => Solid::Capsule { radius: *radius, half: length / 2.0 },
+            Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
+            Geometry::Mesh { filename, scale } => {
+                let scale = scale.map_or([1.0; 3], |s| s.0);
+                Solid::Points(mesh::vertices(filename, scale, &self.document.source.path)?)
+            }
+        })
+    }
+
+    /// Where a joint is: in the plane, and its height.
+    fn joint_at(&self, index: usize) -> (Point, f64) {
+        self.at(self.tree.child[self.chain.joints[index]])
+    }
+
+    fn at(&self, link: usize) -> (Point, f64) {
+        let at = self.poses[link].translation.vector;
+        (project(self.plane, &at), at.dot(&self.plane.normal))
+    }
+
+    /// The capsule from joint 1 to joint 2, or from joint 2 to the tip.
+    fn bar_part(&self, index: usize, radius: f64, body: &str) -> Part {
+        let (from, low) = self.joint_at(index);
+        let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };
+        Part {
+            shape: capsule(Point::origin(), Point::from(Vector::from(to - from)), radius),
+            heights: Heights { lower: low.min(high) - radius, upper: low.max(high) + radius },
+            body: body.to_owned(),
+        }
+    }
+}

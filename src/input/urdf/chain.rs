@@ -1,0 +1,361 @@
+//! Which two joints move, where the others stand, and which link is the tip.
+
+use super::document::Document;
+use super::limits::{Limits, Range, find};
+use super::tree::Tree;
+use crate::input::error::{Defect, InputError, quoted};
+use crate::input::world::World;
+use crate::space::Axis;
+use toml::Spanned;
+use urdf_rs::{JointType, Mimic};
+
+/// The choice that turns a robot into a two-joint arm. Indices into the file's lists.
+#[derive(Debug)]
+pub(super) struct Chain {
+    /// Base to tip.
+    pub joints: [usize; 2],
+    /// The tip's link.
+    pub tip: usize,
+    /// Value of every joint, 0 for the chosen ones.
+    pub values: Vec<f64>,
+    /// The other movable joints and the values that they are held at.
+    pub notes: Vec<String>,
+}
+
+/// Chooses joints, values and tip.
+///
+/// # Errors
+/// When the two joints are not clear, do not follow one another, or cannot be planned for on their own.
+pub(super) fn choose(document: &Document, tree: &Tree, world: &World) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, world };
+    chooser.names_exist()?;
+    let joints = chooser.joints()?;
+    chooser.independent(joints)?;
+    let tip = chooser.tip(joints)?;
+    let (values, notes) = chooser.values(joints)?;
+    Ok(Chain { joints, tip, values, notes })
+}
+
+struct Chooser<'a> {
+    document: &'a Document,
+    tree: &'a Tree,
+    world: &'a World,
+}
+
+/// Whether a joint has one value that it can move by.
+fn is_movable(joint: &urdf_rs::Joint) -> bool {
+    matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
+}
+
+fn type_name(joint: &urdf_rs::Joint) -> String {
+    format!("{:?}", joint.joint_type).to_lowercase()
+}
+
+impl Chooser<'_> {
+    fn all(&self) -> &[urdf_rs::Joint] {
+        &self.document.robot.joints
+    }
+
+    fn joint(&self, name: &str) -> Option<usize> {
+        self.all().iter().position(|j| j.name == name)
+    }
+
+    fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Defect {
+        self.world.source.defect_at(place.span(), message)
+    }
+
+    /// A movable joint that the world file names.
+    fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Defect> {
+        let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
+        let cure = || format!("the movable joints are {}", movable());
+        let Some(index) = self.joint(name.get_ref()) else {
+            let message = format!("[robot] {table}: the robot has no joint \"{}\"", name.get_ref());
+            return Err(self.in_world(name, message).cure(cure()));
+        };
+        let joint = &self.all()[index];
+        if !is_movable(joint) {
+            let message = format!("[robot] {table}: joint \"{}\" is of type {}", joint.name, type_name(joint));
+            return Err(self.in_world(name, message).cure(cure()));
+        }
+        Ok(index)
+    }
+
+    fn names_exist(&self) -> Result<(), InputError> {
+        let robot = &self.world.robot;
+        let keys = |table, names: Vec<&Spanned<String>>| -> Vec<Defect> {
+            names.into_iter().filter_map(|n| self.named(n, table).err()).collect()
+        };
+        let mut defects = keys("fixed", robot.fixed.keys().collect());
+        defects.extend(keys("limits", robot.limits.keys().collect()));
+        defects.extend(keys("velocity", robot.velocity.keys().collect()));
+        defects.extend(keys("acceleration", robot.acceleration.keys().collect()));
+        InputError::check(defects)
+    }
+
+    fn joints(&self) -> Result<[usize; 2], Defect> {
+        let pair = match &self.world.robot.joints {
+            Some(names) => match names.get_ref().as_slice() {
+                [a, b] => [self.named(a, "joints")?, self.named(b, "joints")?],
+                other => {
+                    let message = format!("[robot] joints: exactly two joints move, {} are named", other.len());
+                    return Err(self.in_world(names, message).cure("joints = [\"first\", \"second\"], base to tip"));
+                }
+            },
+            None => self.the_only_two()?,
+        };
+        let [a, b] = pair;
+        if self.tree.carries(a, self.tree.parent[b]) {
+            return Ok(pair);
+        }
+        let (first, second) = (&self.all()[a].name, &self.all()[b].name);
+        let swapped = self.tree.carries(b, self.tree.parent[a]);
+        match &self.world.robot.joints {
+            None if swapped => Ok([b, a]),
+            Some(names) if swapped => {
+                let message = format!(
+                    "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
+                );
+                Err(self.in_world(names, message).cure(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
+            }
+            names => {
+                let message = if a == b {
+                    format!("joint \"{first}\" is named twice")
+                } else {
+                    format!("joints \"{first}\" and \"{second}\" are on different branches: neither carries the other")
+                };
+                let defect = match names {
+                    Some(names) => self.in_world(names, format!("[robot] joints: {message}")),
+                    None => self.document.source.defect(message),
+                };
+                Err(defect.cure("choose two joints of one chain, base to tip"))
+            }
+        }
+    }
+
+    fn the_only_two(&self) -> Result<[usize; 2], Defect> {
+        let candidates: Vec<usize> =
+            (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect();
+        if let [a, b] = candidates[..] {
+            return Ok([a, b]);
+        }
+        let list: Vec<String> = candidates
+            .iter()
+            .map(|j| format!("\"{}\" ({})", self.all()[*j].name, type_name(&self.all()[*j])))
+            .collect();
+        let mimics: Vec<String> = self
+            .all()
+            .iter()
+            .filter_map(|j| j.mimic.as_ref().map(|m| format!("\"{}\" mimics \"{}\"", j.name, m.joint)))
+            .collect();
+        let coupled = if mimics.is_empty() {
+            String::new()
+        } else {
+            format!(
+                "; besides, {}: an arm whose links are coupled by mimic joints (a parallelogram or other linkage) is no \
+                 serial two-joint arm and is refused",
+                mimics.join(", ")
+            )
+        };
+        if candidates.len() < 2 {
+            let what = if list.is_empty() { "none".to_owned() } else { format!("only one, {}", list[0]) };
+            let message =
+                format!("cplan plans for two joints; of the robot's joints that can move there is {what}{coupled}");
+            return Err(self
+                .document
+                .source
+                .defect(message)
+                .cure("use a robot with two joints that move in one plane"));
+        }
+        let message = format!(
+            "the robot has {} joints that can move, and which two are to be planned for is not said: {}{coupled}",
+            candidates.len(),
+            list.join(", ")
+        );
+        let example = [candidates[0], candidates[1]].map(|j| self.all()[j].name.as_str());
+        let cure = format!(
+            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values)",
+            quoted(example)
+        );
+        Err(self.document.source.defect(message).cure(cure))
+    }
+
+    /// Refuses chains whose two joints do not move alone.
+    fn independent(&self, chosen: [usize; 2]) -> Result<(), Defect> {
+        let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
+        for j in chosen {
+            if let Some(mimic) = &self.all()[j].mimic {
+                let message = format!("mimics joint \"{}\", so it cannot move on its own: {reason}", mimic.joint);
+                return Err(self.mimic_defect(j, &message));
+            }
+        }
+        let on_path = self.tree.path_to(self.tree.child[chosen[1]]);
+        for (j, joint) in self.all().iter().enumerate() {
+            let carried = self.tree.carries(chosen[0], self.tree.child[j]);
+            if matches!(joint.joint_type, JointType::Floating | JointType::Planar | JointType::Spherical)
+                && (carried || on_path.contains(&j))
+            {
+                let message =
+                    format!("is of type {}: where its link is does not follow from one value", type_name(joint));
+                return Err(self.document.joint_defect(j, &message).cure("make it fixed, or choose joints above it"));
+            }
+            if joint.mimic.is_none() || !carried {
+                continue;
+            }
+            let leader = self.leader(j)?;
+            if chosen.contains(&leader) {
+                let leader = &self.all()[leader].name;
+                let message = format!("mimics joint \"{leader}\", so more than two joints of the arm move: {reason}");
+                return Err(self.mimic_defect(j, &message));
+            }
+        }
+        Ok(())
+    }
+
+    fn mimic_defect(&self, joint: usize, message: &str) -> Defect {
+        let place = &self.document.joints[joint];
+        let message = format!("joint \"{}\" {message}", self.all()[joint].name);
+        self.document
+            .defect_at(place.mimic.as_ref().unwrap_or(&place.at), message)
+            .cure("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
+    }
+
+    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Defect> {
+        self.joint(&mimic.joint).ok_or_else(|| {
+            let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
+            self.mimic_defect(joint, &message)
+        })
+    }
+
+    /// The joint at the end of a chain of mimics.
+    fn leader(&self, joint: usize) -> Result<usize, Defect> {
+        let mut at = joint;
+        for _ in 0..=self.all().len() {
+            match &self.all()[at].mimic {
+                None => return Ok(at),
+                Some(mimic) => at = self.followed(at, mimic)?,
+            }
+        }
+        Err(self.mimic_defect(joint, "follows itself: the mimics form a cycle"))
+    }
+
+    fn tip(&self, joints: [usize; 2]) -> Result<usize, Defect> {
+        let below: Vec<usize> = (0..self.tree.links.len()).filter(|l| self.tree.carries(joints[1], *l)).collect();
+        if let Some(name) = &self.world.robot.tip {
+            return match self.tree.link(name.get_ref()) {
+                Some(link) if below.contains(&link) => Ok(link),
+                found => {
+                    let message = match found {
+                        None => format!("[robot] tip: the robot has no link \"{}\"", name.get_ref()),
+                        Some(_) => format!(
+                            "[robot] tip: link \"{}\" is not carried by the second joint, \"{}\"",
+                            name.get_ref(),
+                            self.all()[joints[1]].name
+                        ),
+                    };
+                    let links = quoted(below.iter().map(|l| &self.tree.links[*l]));
+                    Err(self.in_world(name, message).cure(format!("the links that it carries are {links}")))
+                }
+            };
+        }
+        // The deepest link below joint 2, the first of the file among equals.
+        let depth = |l: &usize| (self.tree.path_to(*l).len(), std::cmp::Reverse(*l));
+        Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
+    }
+
+    fn values(&self, chosen: [usize; 2]) -> Result<(Vec<f64>, Vec<String>), InputError> {
+        for name in self.world.robot.fixed.keys() {
+            if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
+                let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
+                return Err(self
+                    .in_world(name, message)
+                    .cure("leave it out of `fixed`, or choose other `joints`")
+                    .into());
+            }
+        }
+        let mut values = vec![0.0; self.all().len()];
+        let mut notes = Vec::new();
+        for (j, joint) in self.all().iter().enumerate() {
+            if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
+                continue;
+            }
+            values[j] = self.held_at(j)?;
+            if self.tree.path_to(self.tree.child[chosen[1]]).contains(&j)
+                || self.tree.carries(chosen[0], self.tree.child[j])
+            {
+                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
+            }
+        }
+        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| is_movable(joint)) {
+            if joint.mimic.is_none() {
+                continue;
+            }
+            let mut value = Affine { factor: 1.0, offset: 0.0 };
+            let leader = self.leader(j)?;
+            let mut at = j;
+            while let Some(mimic) = &self.all()[at].mimic {
+                value = value.after(mimic);
+                at = self.followed(at, mimic)?;
+            }
+            if let Some(name) = self.world.robot.fixed.keys().find(|n| *n.get_ref() == joint.name) {
+                let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
+                return Err(self.in_world(name, message).cure("give the value of the joint that it mimics").into());
+            }
+            values[j] = value.factor * values[leader] + value.offset;
+            if self.tree.carries(chosen[0], self.tree.child[j]) {
+                let leader = &self.all()[leader].name;
+                notes.push(format!(
+                    "joint \"{}\" follows joint \"{leader}\": held at {} {}",
+                    joint.name,
+                    values[j],
+                    unit(joint)
+                ));
+            }
+        }
+        Ok((values, notes))
+    }
+
+    /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
+    fn held_at(&self, index: usize) -> Result<f64, Defect> {
+        let joint = &self.all()[index];
+        let range = Limits { document: self.document, world: self.world }.range(index)?;
+        let Some(value) = find(&self.world.robot.fixed, &joint.name) else {
+            return Ok(match range {
+                Range::Known(Axis::Interval { lower, upper }) => 0f64.clamp(lower, upper),
+                Range::Known(Axis::Circle) | Range::Unset(_) => 0.0,
+            });
+        };
+        let number = *value.get_ref();
+        if !number.is_finite() {
+            return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
+        }
+        match range {
+            Range::Known(Axis::Interval { lower, upper }) if number < lower || number > upper => {
+                let unit = unit(joint);
+                let message = format!(
+                    "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
+                    joint.name
+                );
+                Err(self.in_world(value, message).cure("choose a value within, or override [robot] limits"))
+            }
+            _ => Ok(number),
+        }
+    }
+}
+
+fn unit(joint: &urdf_rs::Joint) -> &'static str {
+    if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
+}
+
+/// `factor * x + offset`, composed along a chain of mimics.
+struct Affine {
+    factor: f64,
+    offset: f64,
+}
+
+impl Affine {
+    /// Puts a mimic's own map before this one.
+    fn after(self, mimic: &Mimic) -> Self {
+        let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+        Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
+    }
+}

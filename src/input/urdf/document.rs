@@ -1,0 +1,268 @@
+//! The URDF as a document: read by `roxmltree` for places and defects, and by `urdf-rs` for its contents.
+//!
+//! `urdf-rs` gives no line numbers, takes `NaN` and wrong vectors as they come, and rejects files over elements that do
+//! not matter here (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every element that
+//! matters is checked first, with its place, and `urdf-rs` gets a copy of the document that holds nothing else.
+
+use super::attributes::{Attributes, children};
+use super::foreign;
+use crate::input::error::{Defect, InputError};
+use crate::input::source::Source;
+use roxmltree::Node;
+use std::fmt::Write;
+use std::ops::Range;
+use std::path::Path;
+
+/// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique.
+#[derive(Debug)]
+pub(super) struct Document {
+    pub source: Source,
+    pub robot: urdf_rs::Robot,
+    /// Where the links are, in the order of `robot.links`.
+    pub links: Vec<LinkPlace>,
+    /// Where the joints are, in the order of `robot.joints`.
+    pub joints: Vec<JointPlace>,
+}
+
+/// Where a link and its shapes are in the file.
+#[derive(Debug)]
+pub(super) struct LinkPlace {
+    pub at: Range<usize>,
+    pub visual: Vec<Range<usize>>,
+    pub collision: Vec<Range<usize>>,
+}
+
+/// Where a joint and its parts are in the file, and which of its limits are given.
+#[derive(Debug)]
+pub(super) struct JointPlace {
+    pub at: Range<usize>,
+    pub axis: Option<Range<usize>>,
+    pub parent: Range<usize>,
+    pub child: Range<usize>,
+    pub limit: Option<Range<usize>>,
+    pub mimic: Option<Range<usize>>,
+    /// The `safety_controller`, if it gives both soft limits and they are not both 0 (which exporters write for none).
+    pub soft_limits: Option<Range<usize>>,
+    /// The `acceleration` of the limit. URDF 1.2 has it; taken from older files too, where `urdf-rs` drops it.
+    pub acceleration: Option<f64>,
+}
+
+impl Document {
+    /// Reads a URDF file.
+    ///
+    /// # Errors
+    /// When it cannot be read, is no XML, is xacro or SDF, or holds a defect that can be seen without the tree of links;
+    /// all such defects are reported together.
+    pub fn read(path: &Path) -> Result<Self, InputError> {
+        let source = Source::read(path)?;
+        foreign::recognise_by_name(&source)?;
+        let xml = roxmltree::Document::parse(&source.text).map_err(|error| foreign::malformed(&source, &error))?;
+        let root = xml.root_element();
+        foreign::recognise(&source, root)?;
+
+        let mut reader = Reader { source: &source, defects: Vec::new(), copy: String::new() };
+        let (links, joints) = reader.robot(root);
+        let Reader { defects, copy, .. } = reader;
+        InputError::check(defects)?;
+        let robot = urdf_rs::read_from_string(&copy)
+            .map_err(|error| source.defect(format!("is not a URDF that can be read: {error}")))?;
+        Ok(Self { robot, links, joints, source })
+    }
+
+    /// A defect at a place of the file.
+    pub fn defect_at(&self, at: &Range<usize>, message: impl Into<String>) -> Defect {
+        self.source.defect_at(at.clone(), message)
+    }
+
+    /// A defect of a joint, named in front of the message.
+    pub fn joint_defect(&self, joint: usize, message: &str) -> Defect {
+        self.defect_at(&self.joints[joint].at, format!("joint \"{}\" {message}", self.robot.joints[joint].name))
+    }
+
+    /// Line of a joint, for messages.
+    pub fn joint_line(&self, joint: usize) -> usize {
+        self.source.position(self.joints[joint].at.start).line
+    }
+}
+
+struct Reader<'a> {
+    source: &'a Source,
+    defects: Vec<Defect>,
+    copy: String,
+}
+
+impl Reader<'_> {
+    fn robot(&mut self, root: Node) -> (Vec<LinkPlace>, Vec<JointPlace>) {
+        // `urdf-rs` validates only from version 1.2 on, without places; the checks here do it for all versions. Version
+        // 1.1 is the least that knows `quat_xyzw`.
+        let unlimited = version(root) >= (1, 2);
+        let _ = write!(self.copy, "<robot name=\"{}\" version=\"1.1\">", escaped(root.attribute("name").unwrap_or("")));
+        let mut links = Vec::new();
+        let mut joints = Vec::new();
+        let mut names: Vec<(&str, String, usize)> = Vec::new();
+        for node in root.children().filter(|n| is_ours(*n, root)) {
+            let kind = node.tag_name().name();
+            if kind != "link" && kind != "joint" {
+                continue;
+            }
+            let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
+                self.defect(node, format!("a <{kind}> has no name"), "give it a name of its own");
+                continue;
+            };
+            let line = self.source.position(node.range().start).line;
+            if let Some((.., first)) = names.iter().find(|(k, n, _)| *k == kind && n == name) {
+                let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
+                self.defect(node, message, "rename one of them");
+                continue;
+            }
+            names.push((kind, name.to_owned(), line));
+            if kind == "link" {
+                links.push(self.link(node, name));
+            } else if let Some(place) = self.joint(node, name, unlimited) {
+                joints.push(place);
+            }
+        }
+        self.copy.push_str("</robot>");
+        if links.is_empty() && self.defects.is_empty() {
+            self.defects.push(self.source.defect("the robot has no link"));
+        }
+        (links, joints)
+    }
+
+    fn link(&mut self, link: Node, name: &str) -> LinkPlace {
+        self.attributes(&format!("link \"{name}\"")).finite_everywhere(link);
+        let mut place = LinkPlace { at: tag(link), visual: Vec::new(), collision: Vec::new() };
+        let _ = write!(self.copy, "<link name=\"{}\">", escaped(name));
+        for kind in ["visual", "collision"] {
+            for node in children(link, kind) {
+                if let Some(at) = self.shape(node, kind, name) {
+                    if kind == "visual" { place.visual.push(at) } else { place.collision.push(at) }
+                }
+            }
+        }
+        self.copy.push_str("</link>");
+        place
+    }
+
+    fn shape(&mut self, node: Node, kind: &str, link: &str) -> Option<Range<usize>> {
+        let what = format!("link \"{link}\", {kind}");
+        let mut attributes = self.attributes(&what);
+        let origin = attributes.origin(node);
+        let geometry = attributes.only(node, "geometry", true)?;
+        let shape = attributes.geometry(geometry)?;
+        let _ = write!(self.copy, "<{kind}>{origin}<geometry>");
+        self.copy_element(shape, &["size", "radius", "length", "filename", "scale"]);
+        let _ = write!(self.copy, "</geometry></{kind}>");
+        Some(tag(shape))
+    }
+
+    fn joint(&mut self, joint: Node, name: &str, unlimited: bool) -> Option<JointPlace> {
+        let what = format!("joint \"{name}\"");
+        let mut attributes = self.attributes(&what);
+        attributes.finite_everywhere(joint);
+        let kind = attributes.joint_type(joint);
+        let origin = attributes.origin(joint);
+        let parent = attributes.only(joint, "parent", true);
+        let child = attributes.only(joint, "child", true);
+        let parent_link = parent.and_then(|n| attributes.text(n, "link"));
+        let child_link = child.and_then(|n| attributes.text(n, "link"));
+        let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
+        let axis = attributes.only(joint, "axis", false).filter(|_| moves);
+        if let Some(axis) = axis {
+            attributes.direction(axis);
+        }
+        let limit = attributes.only(joint, "limit", false);
+        let [lower, upper, velocity, acceleration] = match limit {
+            Some(limit) => attributes.limit(limit, matches!(kind, Some("revolute" | "prismatic"))),
+            None => [None; 4],
+        };
+        let mimic = attributes.only(joint, "mimic", false);
+        if let Some(mimic) = mimic {
+            attributes.text(mimic, "joint");
+            attributes.number(mimic, "multiplier");
+            attributes.number(mimic, "offset");
+        }
+        let safety = attributes.only(joint, "safety_controller", false);
+        let soft = safety.and_then(|s| attributes.soft_limits(s));
+
+        let (kind, parent, child) = (kind?, parent?, child?);
+        let _ = write!(self.copy, "<joint name=\"{}\" type=\"{kind}\">{origin}", escaped(name));
+        let _ = write!(self.copy, "<parent link=\"{}\"/>", escaped(parent_link?));
+        let _ = write!(self.copy, "<child link=\"{}\"/>", escaped(child_link?));
+        if let Some(axis) = axis {
+            self.copy_element(axis, &["xyz"]);
+        }
+        if limit.is_some() {
+            // From URDF 1.2 on an absent limit means none, before that it means 0.
+            let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
+            let _ = write!(
+                self.copy,
+                "<limit lower=\"{}\" upper=\"{}\" velocity=\"{}\"/>",
+                lower.unwrap_or(low),
+                upper.unwrap_or(high),
+                velocity.unwrap_or(0.0)
+            );
+        }
+        if let Some(mimic) = mimic {
+            self.copy_element(mimic, &["joint", "multiplier", "offset"]);
+        }
+        if let Some([lower, upper]) = soft {
+            let soft = format!("soft_lower_limit=\"{lower}\" soft_upper_limit=\"{upper}\"");
+            let _ = write!(self.copy, "<safety_controller k_velocity=\"0\" {soft}/>");
+        }
+        self.copy.push_str("</joint>");
+        Some(JointPlace {
+            at: tag(joint),
+            axis: axis.map(tag),
+            parent: tag(parent),
+            child: tag(child),
+            limit: limit.map(tag),
+            mimic: mimic.map(tag),
+            soft_limits: soft.and(safety).map(tag),
+            acceleration,
+        })
+    }
+
+    /// An element with those of its attributes that `urdf-rs` is to see.
+    fn copy_element(&mut self, node: Node, keep: &[&str]) {
+        let _ = write!(self.copy, "<{}", node.tag_name().name());
+        for attribute in node.attributes().filter(|a| keep.contains(&a.name())) {
+            let _ = write!(self.copy, " {}=\"{}\"", attribute.name(), escaped(attribute.value()));
+        }
+        self.copy.push_str("/>");
+    }
+
+    fn attributes<'s>(&'s mut self, what: &'s str) -> Attributes<'s> {
+        Attributes { source: self.source, defects: &mut self.defects, what }
+    }
+
+    fn defect(&mut self, node: Node, message: String, cure: &str) {
+        self.defects.push(self.source.defect_at(tag(node), message).cure(cure));
+    }
+}
+
+/// The opening tag's first line: where a caret belongs.
+pub(super) fn tag(node: Node) -> Range<usize> {
+    let range = node.range();
+    let text = &node.document().input_text()[range.clone()];
+    let end = text.find(['>', '\n']).map_or(range.end, |i| range.start + i + 1);
+    range.start..end
+}
+
+/// Elements of other namespaces (`<drake:joint>`) are no URDF elements.
+fn is_ours(node: Node, root: Node) -> bool {
+    node.is_element() && node.tag_name().namespace() == root.tag_name().namespace()
+}
+
+fn version(root: Node) -> (u32, u32) {
+    let parse = |v: &str| {
+        let (major, minor) = v.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    root.attribute("version").and_then(parse).unwrap_or((1, 0))
+}
+
+/// Text as the value of an XML attribute.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}

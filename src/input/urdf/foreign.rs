@@ -1,0 +1,82 @@
+//! Files that are no plain URDF: xacro, SDF, other XML, and broken XML.
+
+use super::document::tag;
+use crate::input::error::Defect;
+use crate::input::source::{Position, Source};
+use roxmltree::{Document, Error, Node};
+
+/// Namespace of xacro.
+const XACRO: &str = "ros.org/wiki/xacro";
+
+fn xacro(defect: Defect, source: &Source) -> Defect {
+    let file = source.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    let plain = file.trim_end_matches(".xacro").trim_end_matches(".urdf").to_owned();
+    defect.cure(format!(
+        "expand it first: `xacro {file} > {plain}_expanded.urdf` (`pip install xacro`, or `ros2 run xacro xacro`)"
+    ))
+}
+
+/// Refuses `.xacro` by its name: its text is a program that writes a URDF.
+pub(super) fn recognise_by_name(source: &Source) -> Result<(), Defect> {
+    if source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro")) {
+        return Err(xacro(source.defect("this is a xacro file, not a plain URDF"), source));
+    }
+    Ok(())
+}
+
+/// What broken XML is reported as.
+pub(super) fn malformed(source: &Source, error: &Error) -> Defect {
+    let at = error.pos();
+    if matches!(error, Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
+        let defect = source.defect(format!("line {}: this is a xacro file, not a plain URDF", at.row));
+        return xacro(defect, source);
+    }
+    let (line, column) = (at.row as usize, at.col as usize);
+    let line_start: usize = source.text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let in_line: usize = source.text[line_start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
+    let offset = line_start + in_line;
+    let mut message = error.to_string();
+    // The place is in front of the message already.
+    if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
+        message.truncate(cut);
+    }
+    Defect { position: Some(Position { line, column }), ..source.defect_at(offset..offset + 1, "") }
+        .with_message(format!("this is not well-formed XML: {message}"))
+}
+
+impl Defect {
+    fn with_message(self, message: String) -> Self {
+        Self { message, ..self }
+    }
+}
+
+/// Refuses documents that are something else than a URDF. A URDF that merely declares the xacro namespace is fine.
+pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Defect> {
+    let at = |node: Node, message: &str| source.defect_at(tag(node), message);
+    match root.tag_name().name() {
+        "robot" => {}
+        "sdf" | "world" | "model" => {
+            return Err(at(root, "this is an SDF file (Gazebo), not a URDF").cure(
+                "use the robot's URDF, which SDF models are mostly written from, or convert it, e.g. with `sdf2urdf`",
+            ));
+        }
+        "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").cure("use the robot's URDF")),
+        other => {
+            let message = format!("this is not a URDF: the root element is <{other}>, not <robot>");
+            return Err(at(root, &message).cure("give the URDF first and the world file second"));
+        }
+    }
+    match xacro_trace(root.document()) {
+        Some(node) => Err(xacro(at(node, "this is a xacro file, not a plain URDF"), source)),
+        None => Ok(()),
+    }
+}
+
+/// The first element that only the xacro program understands.
+fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
+    document.descendants().filter(Node::is_element).find(|node| {
+        let foreign = |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO) || n.ends_with("/xacro"));
+        foreign(node.tag_name().namespace())
+            || node.attributes().any(|a| foreign(a.namespace()) || a.value().contains("${") || a.value().contains("$("))
+    })
+}

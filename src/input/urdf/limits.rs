@@ -1,0 +1,175 @@
+//! Ranges, top speeds and accelerations of the joints.
+
+use super::document::Document;
+use crate::input::error::Defect;
+use crate::input::world::World;
+use crate::space::Axis;
+use toml::Spanned;
+use urdf_rs::JointType;
+
+/// Longest range that a joint may have, radians or metres. Simulators write 1e16 for "none", and a map of such a range
+/// would be of no use; a hundred turns are enough for any wrist.
+const LONGEST_RANGE: f64 = 1e3;
+
+/// Seconds in which a joint of unknown acceleration limit reaches its top speed.
+const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
+
+/// What is known of a joint's range.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Range {
+    Known(Axis),
+    /// No limits, with the reason and whether the file gives infinite or absurd ones.
+    Unset(String),
+}
+
+/// Top speed and acceleration of a moving joint, and what is to be noted about them.
+pub(super) struct Rates {
+    pub velocity: f64,
+    pub acceleration: f64,
+    pub note: Option<String>,
+}
+
+/// Limits of joints as the URDF and the world file have them.
+pub(super) struct Limits<'a> {
+    pub document: &'a Document,
+    pub world: &'a World,
+}
+
+impl Limits<'_> {
+    /// The range of a movable joint: the world's, else the URDF's narrowed by its soft limits.
+    pub fn range(&self, index: usize) -> Result<Range, Defect> {
+        let joint = &self.document.robot.joints[index];
+        if let Some(limits) = find(&self.world.robot.limits, &joint.name) {
+            return self.overridden(&joint.name, limits).map(Range::Known);
+        }
+        if joint.joint_type == JointType::Continuous {
+            return Ok(Range::Known(Axis::Circle));
+        }
+        if self.document.joints[index].limit.is_none() {
+            return Ok(Range::Unset("has no <limit>".into()));
+        }
+        let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+        if lower == upper {
+            return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which means unset")));
+        }
+        let [lower, upper] = self.softened(index, [lower, upper])?;
+        if upper - lower > LONGEST_RANGE {
+            return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
+        }
+        Ok(Range::Known(Axis::Interval { lower, upper }))
+    }
+
+    /// The range of a joint that is to be planned for.
+    pub fn planned_range(&self, index: usize) -> Result<Axis, Defect> {
+        match self.range(index)? {
+            Range::Known(axis) => Ok(axis),
+            Range::Unset(reason) => {
+                let joint = &self.document.robot.joints[index];
+                let example = if joint.joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
+                let at = self.document.joints[index].limit.as_ref().unwrap_or(&self.document.joints[index].at);
+                let mut cure = format!("in the world file: [robot] limits = {{ {} = {example} }}", key(&joint.name));
+                if joint.joint_type == JointType::Revolute {
+                    cure += ", or make it type=\"continuous\" in the URDF";
+                }
+                Err(self.document.defect_at(at, format!("joint \"{}\" {reason}", joint.name)).cure(cure))
+            }
+        }
+    }
+
+    fn overridden(&self, name: &str, limits: &Spanned<Vec<Spanned<f64>>>) -> Result<Axis, Defect> {
+        let defect = |message: String| {
+            self.world.source.defect_at(limits.span(), format!("[robot] limits of \"{name}\": {message}"))
+        };
+        let numbers: Vec<f64> = limits.get_ref().iter().map(|n| *n.get_ref()).collect();
+        let [lower, upper] = numbers[..] else {
+            return Err(defect(format!("expected [lower, upper], found {} numbers", numbers.len())));
+        };
+        if !(lower.is_finite() && upper.is_finite()) {
+            return Err(defect("they must be finite".into()));
+        }
+        if lower >= upper {
+            return Err(defect(format!("lower ({lower}) must be below upper ({upper})")));
+        }
+        if upper - lower > LONGEST_RANGE {
+            return Err(defect(format!("the range is longer than {LONGEST_RANGE}"))
+                .cure("a joint that turns without end is of type continuous in the URDF"));
+        }
+        Ok(Axis::Interval { lower, upper })
+    }
+
+    fn softened(&self, index: usize, [lower, upper]: [f64; 2]) -> Result<[f64; 2], Defect> {
+        let joint = &self.document.robot.joints[index];
+        let (Some(at), Some(soft)) = (&self.document.joints[index].soft_limits, &joint.safety_controller) else {
+            return Ok([lower, upper]);
+        };
+        let (soft_lower, soft_upper) = (soft.soft_lower_limit, soft.soft_upper_limit);
+        let narrowed = [lower.max(soft_lower), upper.min(soft_upper)];
+        if narrowed[0] >= narrowed[1] {
+            let message = format!(
+                "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] leave nothing of its limits [{lower}, {upper}]",
+                joint.name
+            );
+            let cure = format!("in the world file: [robot] limits = {{ {} = [{lower}, {upper}] }}", key(&joint.name));
+            return Err(self.document.defect_at(at, message).cure(cure));
+        }
+        Ok(narrowed)
+    }
+
+    /// Top speed and acceleration of a joint that is to be planned for.
+    pub fn rates(&self, index: usize) -> Result<Rates, Defect> {
+        let joint = &self.document.robot.joints[index];
+        let place = &self.document.joints[index];
+        let name = &joint.name;
+        let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
+        let velocity = match self.positive(&self.world.robot.velocity, name, "velocity")?.or(given) {
+            Some(velocity) => velocity,
+            None => {
+                let why = if place.limit.is_some() {
+                    "its velocity limit is 0, which means unset"
+                } else {
+                    "it has no <limit>"
+                };
+                let at = place.limit.as_ref().unwrap_or(&place.at);
+                let defect = self.document.defect_at(at, format!("joint \"{name}\" has no top speed: {why}"));
+                return Err(defect.cure(format!("in the world file: [robot] velocity = {{ {} = 1.0 }}", key(name))));
+            }
+        };
+        let given = place.acceleration.filter(|a| *a > 0.0);
+        if let Some(acceleration) = self.positive(&self.world.robot.acceleration, name, "acceleration")?.or(given) {
+            return Ok(Rates { velocity, acceleration, note: None });
+        }
+        let acceleration = velocity / DEFAULT_TIME_TO_TOP_SPEED;
+        let unit = if joint.joint_type == JointType::Prismatic { "m/s^2" } else { "rad/s^2" };
+        let note = format!(
+            "joint \"{name}\": no acceleration limit given; taken as {acceleration} {unit} (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
+        );
+        Ok(Rates { velocity, acceleration, note: Some(note) })
+    }
+
+    fn positive(
+        &self,
+        table: &crate::input::world::PerJoint<Spanned<f64>>,
+        name: &str,
+        what: &str,
+    ) -> Result<Option<f64>, Defect> {
+        match find(table, name) {
+            None => Ok(None),
+            Some(value) if value.get_ref().is_finite() && *value.get_ref() > 0.0 => Ok(Some(*value.get_ref())),
+            Some(value) => {
+                let message = format!("[robot] {what} of \"{name}\" must be positive, is {}", value.get_ref());
+                Err(self.world.source.defect_at(value.span(), message))
+            }
+        }
+    }
+}
+
+/// A joint's entry in one of the world's tables.
+pub(super) fn find<'a, T>(table: &'a crate::input::world::PerJoint<T>, name: &str) -> Option<&'a T> {
+    table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
+}
+
+/// A name as a TOML key.
+pub(super) fn key(name: &str) -> String {
+    let bare = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    if bare { name.to_owned() } else { format!("{name:?}") }
+}

@@ -1,0 +1,93 @@
+//! Mesh files: where they are, and their vertices.
+
+use nalgebra::Point3;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+/// Vertices of a mesh, scaled, in the geometry's frame.
+///
+/// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
+///
+/// # Errors
+/// In words, with the places that were searched: the file is missing, of another format than STL, or broken.
+pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Path) -> Result<Vec<Point3<f64>>, String> {
+    let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if extension != "stl" {
+        return Err(format!("mesh \"{filename}\" is no STL file, and cplan reads no other mesh format"));
+    }
+    let path = find(filename, urdf)?;
+    let bytes = std::fs::read(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
+    let points = read_stl(bytes).map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    Ok(points.into_iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect())
+}
+
+fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
+    let candidates = candidates(filename, urdf);
+    candidates.iter().find(|p| p.is_file()).cloned().ok_or_else(|| {
+        let places: Vec<String> = candidates.iter().map(|p| p.display().to_string()).collect();
+        format!("mesh \"{filename}\" is not there; looked at {}", places.join(", "))
+    })
+}
+
+/// Where a mesh may be, likeliest first.
+fn candidates(filename: &str, urdf: &Path) -> Vec<PathBuf> {
+    let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if let Some(path) = filename.strip_prefix("file://") {
+        return vec![folder.join(path)];
+    }
+    let Some(rest) = filename.strip_prefix("package://") else {
+        return vec![folder.join(filename)];
+    };
+    let (package, inside) = rest.split_once('/').unwrap_or((rest, ""));
+    let absolute = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    let mut places = Vec::new();
+    for ancestor in absolute.ancestors() {
+        if ancestor.file_name().is_some_and(|n| n == package) {
+            places.push(ancestor.join(inside));
+        }
+        if ancestor.join(package).is_dir() {
+            places.push(ancestor.join(package).join(inside));
+        }
+    }
+    for root in search_path("ROS_PACKAGE_PATH") {
+        if root.file_name().is_some_and(|n| n == package) {
+            places.push(root.join(inside));
+        }
+        places.push(root.join(package).join(inside));
+    }
+    places.extend(search_path("AMENT_PREFIX_PATH").into_iter().map(|p| p.join("share").join(package).join(inside)));
+    if places.is_empty() {
+        places.push(absolute.join(package).join(inside));
+    }
+    places
+}
+
+fn search_path(variable: &str) -> Vec<PathBuf> {
+    let paths = std::env::var_os(variable).unwrap_or_default();
+    std::env::split_paths(&paths).filter(|p| !p.as_os_str().is_empty()).collect()
+}
+
+/// Bytes of a binary STL before its triangles, and of each triangle.
+const HEADER: usize = 84;
+const TRIANGLE: usize = 50;
+
+fn read_stl(mut bytes: Vec<u8>) -> Result<Vec<Point3<f64>>, String> {
+    let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
+    let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
+    if binary {
+        // Exporters begin binary headers with "solid" too, by which readers tell text; the header means nothing else.
+        bytes[..5].fill(0);
+    } else if !bytes.starts_with(b"solid") {
+        return Err("the file is no STL: its length does not fit its number of triangles".into());
+    }
+    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
+    if mesh.faces.is_empty() {
+        return Err("the mesh has no triangle".into());
+    }
+    let points: Vec<Point3<f64>> =
+        mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect();
+    if points.iter().any(|p| !p.iter().all(|c| c.is_finite())) {
+        return Err("a vertex is not finite".into());
+    }
+    Ok(points)
+}

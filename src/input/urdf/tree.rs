@@ -1,0 +1,197 @@
+//! The tree of links and joints, and where they are in space.
+
+use super::document::Document;
+use crate::input::error::{Defect, InputError, quoted};
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+use urdf_rs::JointType;
+
+/// The links of a URDF as a tree. Links and joints are indices into the file's lists; an undeclared link `world` at the
+/// root, which Drake's files leave out, comes after the last one.
+#[derive(Debug)]
+pub(super) struct Tree {
+    /// Names, in the order of the file.
+    pub links: Vec<String>,
+    /// Link above and link below each joint.
+    pub parent: Vec<usize>,
+    pub child: Vec<usize>,
+    /// The joint above each link; none for the root.
+    pub above: Vec<Option<usize>>,
+    /// The one link without a joint above.
+    pub root: usize,
+    /// Whether the root is a `world` that the file does not declare.
+    pub implicit_world: bool,
+    /// Links in an order in which parents come first.
+    order: Vec<usize>,
+}
+
+/// The one link name that may be used without being declared, as a root.
+const WORLD: &str = "world";
+
+impl Tree {
+    /// Links the joints up.
+    ///
+    /// # Errors
+    /// Missing links, links below two joints, cycles, several roots: all of a kind together.
+    pub fn build(document: &Document) -> Result<Self, InputError> {
+        let mut links: Vec<String> = document.robot.links.iter().map(|l| l.name.clone()).collect();
+        let declared = links.len();
+        let (parent, child) = endpoints(document, &mut links)?;
+        let above = joints_above(document, &links, &child)?;
+        let roots: Vec<usize> = (0..links.len()).filter(|l| above[*l].is_none()).collect();
+        let order = reachable(&roots, &parent, &child);
+        if let Some(stray) = (0..links.len()).find(|l| !order.contains(l)) {
+            return Err(cycle(document, stray, &above, &parent).into());
+        }
+        match roots.as_slice() {
+            [root] => {
+                Ok(Self { implicit_world: links.len() > declared, root: *root, parent, child, above, order, links })
+            }
+            _ => Err(several_roots(document, &links, &roots).into()),
+        }
+    }
+
+    /// Index of a link.
+    pub fn link(&self, name: &str) -> Option<usize> {
+        self.links.iter().position(|l| l == name)
+    }
+
+    /// The joints from the root to a link, base first.
+    pub fn path_to(&self, link: usize) -> Vec<usize> {
+        let mut path: Vec<usize> = std::iter::successors(self.above[link], |j| self.above[self.parent[*j]]).collect();
+        path.reverse();
+        path
+    }
+
+    /// Whether `joint` moves `link`.
+    pub fn carries(&self, joint: usize, link: usize) -> bool {
+        self.path_to(link).contains(&joint)
+    }
+
+    /// Pose of every link in the root frame, for these values of the joints. `O(links)`.
+    pub fn poses(&self, robot: &urdf_rs::Robot, values: &[f64]) -> Vec<Isometry3<f64>> {
+        let mut poses = vec![Isometry3::identity(); self.links.len()];
+        for link in &self.order {
+            if let Some(j) = self.above[*link] {
+                let joint = &robot.joints[j];
+                poses[*link] = poses[self.parent[j]] * isometry(&joint.origin) * motion(joint, values[j]);
+            }
+        }
+        poses
+    }
+}
+
+/// A pose as URDF writes it: fixed-axis roll, pitch, yaw, then the translation.
+pub(super) fn isometry(pose: &urdf_rs::Pose) -> Isometry3<f64> {
+    let [roll, pitch, yaw] = pose.rpy.0;
+    let [x, y, z] = pose.xyz.0;
+    Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
+}
+
+/// The joint's axis in its own frame. The document has refused zero axes.
+pub(super) fn axis(joint: &urdf_rs::Joint) -> Unit<Vector3<f64>> {
+    Unit::new_normalize(Vector3::from(joint.axis.xyz.0))
+}
+
+fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
+    match joint.joint_type {
+        JointType::Revolute | JointType::Continuous => {
+            Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_axis_angle(&axis(joint), value))
+        }
+        JointType::Prismatic => {
+            Isometry3::from_parts((axis(joint).into_inner() * value).into(), UnitQuaternion::identity())
+        }
+        // Held at the origin of its frame; the chain refuses arms that move with one of these.
+        JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => Isometry3::identity(),
+    }
+}
+
+fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>, Vec<usize>), InputError> {
+    let joints = &document.robot.joints;
+    let declared = links.len();
+    let implicit = !links.iter().any(|l| l == WORLD)
+        && joints.iter().any(|j| j.parent.link == WORLD)
+        && !joints.iter().any(|j| j.child.link == WORLD);
+    if implicit {
+        links.push(WORLD.to_owned());
+    }
+    let mut defects = Vec::new();
+    let mut find = |name: &str, j: usize, role: &str, at| {
+        links.iter().position(|l| l == name).unwrap_or_else(|| {
+            let message = format!("joint \"{}\": its {role} link \"{name}\" does not exist", joints[j].name);
+            let cure = format!(
+                "declare <link name=\"{name}\"/> or correct the name; the links are {}",
+                quoted(&links[..declared])
+            );
+            defects.push(document.defect_at(at, message).cure(cure));
+            0
+        })
+    };
+    let parent =
+        (0..joints.len()).map(|j| find(&joints[j].parent.link, j, "parent", &document.joints[j].parent)).collect();
+    let child = (0..joints.len()).map(|j| find(&joints[j].child.link, j, "child", &document.joints[j].child)).collect();
+    InputError::check(defects)?;
+    Ok((parent, child))
+}
+
+fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Result<Vec<Option<usize>>, InputError> {
+    let mut above: Vec<Option<usize>> = vec![None; links.len()];
+    let mut defects = Vec::new();
+    for (j, link) in child.iter().enumerate() {
+        match above[*link] {
+            None => above[*link] = Some(j),
+            Some(first) => {
+                let other = &document.robot.joints[first].name;
+                let message = format!(
+                    "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one: the robot is no tree",
+                    links[*link],
+                    document.joint_line(first)
+                );
+                let cure =
+                    "a closed chain (parallelogram, delta) is no serial arm; else give one joint its own child link";
+                defects.push(document.defect_at(&document.joints[j].child, message).cure(cure));
+            }
+        }
+    }
+    InputError::check(defects)?;
+    Ok(above)
+}
+
+fn reachable(roots: &[usize], parent: &[usize], child: &[usize]) -> Vec<usize> {
+    let mut order = roots.to_vec();
+    let mut next = 0;
+    while next < order.len() {
+        let link = order[next];
+        order.extend((0..parent.len()).filter(|j| parent[*j] == link).map(|j| child[j]));
+        next += 1;
+    }
+    order
+}
+
+fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Defect {
+    // Walking up from a link that no root reaches must run into the cycle.
+    let mut seen = Vec::new();
+    let mut joint = above[stray];
+    while let Some(j) = joint.filter(|j| !seen.contains(j)) {
+        seen.push(j);
+        joint = above[parent[j]];
+    }
+    let from = joint.and_then(|j| seen.iter().position(|s| *s == j)).unwrap_or(0);
+    let ring: Vec<&str> = seen[from..].iter().map(|j| document.robot.joints[*j].name.as_str()).collect();
+    let message = format!("the joints {} form a cycle: each one's parent link hangs from the next", quoted(&ring));
+    document
+        .defect_at(&document.joints[seen[from]].at, message)
+        .cure("give one of them another parent link, so that links form a tree")
+}
+
+fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Defect {
+    let message = format!(
+        "the links {} have no joint above them: a robot has one root",
+        quoted(roots.iter().map(|r| &links[*r]))
+    );
+    let at = roots.iter().filter_map(|r| document.links.get(*r)).nth(1).or(document.links.first());
+    let defect = match at {
+        Some(place) => document.defect_at(&place.at, message),
+        None => document.source.defect(message),
+    };
+    defect.cure("connect them with a fixed joint, or remove the ones that are not used")
+}
