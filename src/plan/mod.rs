@@ -1,5 +1,17 @@
 //! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
 
+mod boundary;
+mod decomposition;
+mod funnel;
+mod segment_grid;
+mod sight;
+mod terminals;
+mod trapezoid;
+mod visibility;
+
+pub use trapezoid::{Trapezoid, TrapezoidMap};
+pub use visibility::{Visibility, VisibilityMap};
+
 use crate::space::{Configuration, Path};
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).

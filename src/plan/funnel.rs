@@ -1,0 +1,135 @@
+//! Shortest way through a sequence of doors.
+
+use crate::geometry::{Orientation, Point, orientation};
+
+/// A door as seen by one who passes it: its ends to the left and to the right hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Passage {
+    pub left: Point,
+    pub right: Point,
+}
+
+/// The shortest polyline from `start` to `goal` that crosses all passages in order: the string pulled taut.
+///
+/// Consecutive passages must lie on the border of a common convex cell; start and goal in the first and the last one.
+/// The *funnel* algorithm (Lee, Preparata 1984) in its scanning form: the funnel is kept as its apex and one point
+/// a side, and after a turn the scan resumes at the new apex. Linear when turns are found soon after they are passed,
+/// quadratic at worst. Turns are decided exactly, so every piece passes its doors in exact arithmetic.
+pub(super) fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
+    let mut string = vec![start];
+    let mut funnel = Funnel { apex: start, left: None, right: None };
+    let mut at = 0;
+    while at <= passages.len() {
+        let passage = passages.get(at).copied().unwrap_or(Passage { left: goal, right: goal });
+        match funnel.narrow(at, passage) {
+            Some(turn) => {
+                string.push(turn.at);
+                funnel = Funnel { apex: turn.at, left: None, right: None };
+                at = turn.passage + 1;
+            }
+            None => at += 1,
+        }
+    }
+    string.push(goal);
+    string.dedup();
+    string
+}
+
+/// An end of a passage that bounds the funnel.
+#[derive(Debug, Clone, Copy)]
+struct Bound {
+    at: Point,
+    passage: usize,
+}
+
+/// Directions from the apex that cross all passages since: from `right` counter-clockwise to `left`.
+struct Funnel {
+    apex: Point,
+    left: Option<Bound>,
+    right: Option<Bound>,
+}
+
+impl Funnel {
+    /// Narrows the funnel to the passage, or returns the point at which the string must turn to reach it.
+    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Bound> {
+        if left == self.apex || right == self.apex {
+            // Passed at the apex itself, in any direction.
+            (self.left, self.right) = (None, None);
+            return None;
+        }
+        if !self.turns(self.right, right, Orientation::Clockwise) {
+            if self.turns(self.left, right, Orientation::CounterClockwise) {
+                return self.left;
+            }
+            self.right = Some(Bound { at: right, passage });
+        }
+        if !self.turns(self.left, left, Orientation::CounterClockwise) {
+            if self.turns(self.right, left, Orientation::Clockwise) {
+                return self.right;
+            }
+            self.left = Some(Bound { at: left, passage });
+        }
+        None
+    }
+
+    /// Whether `point` lies strictly to that side of the ray from the apex through a bound.
+    fn turns(&self, bound: Option<Bound>, point: Point, side: Orientation) -> bool {
+        bound.is_some_and(|bound| orientation(self.apex, bound.at, point) == side)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn passage(left: (f64, f64), right: (f64, f64)) -> Passage {
+        Passage { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
+    }
+
+    fn points(string: &[(f64, f64)]) -> Vec<Point> {
+        string.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    #[test]
+    fn without_passages_the_string_is_straight() {
+        let [a, b] = [Point::new(0.0, 0.0), Point::new(1.0, 2.0)];
+        assert_eq!(taut_string(a, b, &[]), vec![a, b]);
+        assert_eq!(taut_string(a, a, &[]), vec![a]);
+    }
+
+    #[test]
+    fn an_open_passage_does_not_bend_it() {
+        let open = passage((1.0, 1.0), (1.0, -1.0));
+        let string = taut_string(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
+        assert_eq!(string, points(&[(0.0, 0.0), (2.0, 0.5)]));
+    }
+
+    #[test]
+    fn it_turns_at_the_nearer_end_of_a_passage_aside() {
+        let above = [passage((1.0, 3.0), (1.0, 2.0)), passage((2.0, 3.0), (2.0, 1.0))];
+        let string = taut_string(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
+        assert_eq!(string, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0), (3.0, 0.0)]));
+    }
+
+    #[test]
+    fn a_turn_back_on_one_vertical_goes_around_what_is_between() {
+        // Right below the wall, left above it; the wall ends at (2, 1) and (2, 1.5).
+        let wall = [passage((2.0, 1.0), (2.0, 0.0)), passage((2.0, 1.5), (2.0, 3.0))];
+        let string = taut_string(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
+        assert_eq!(string, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
+    }
+
+    #[test]
+    fn a_start_on_the_line_of_a_passage_follows_it() {
+        let below = [passage((0.0, -1.0), (0.0, -2.0)), passage((1.0, 5.0), (1.0, -5.0))];
+        let string = taut_string(Point::new(0.0, 0.0), Point::new(2.0, 0.0), &below);
+        assert_eq!(string, points(&[(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]));
+    }
+
+    #[test]
+    fn collinear_ends_do_not_bend_it() {
+        let along = [passage((1.0, 1.0), (1.0, 0.0)), passage((2.0, 1.0), (2.0, 0.0))];
+        let string = taut_string(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
+        assert_eq!(string, points(&[(0.0, 0.0), (3.0, 0.0)]));
+    }
+}

@@ -1,0 +1,59 @@
+//! Where a path over polygonal regions begins and may end.
+
+use super::Query;
+use super::boundary::Boundary;
+use crate::cspace::Regions;
+use crate::geometry::Point;
+use std::f64::consts::TAU;
+
+/// Ends of the paths that answer a query.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Terminals {
+    pub start: Point,
+    /// All copies of all goals that lie in the window and in closed free space; at least one.
+    pub goals: Vec<Point>,
+}
+
+impl Terminals {
+    /// The ends for a query, or in words why there are none.
+    pub fn new(regions: &Regions, boundary: &Boundary, query: &Query) -> Result<Self, String> {
+        let start = Point::from(query.start);
+        if !boundary.contains(start) {
+            return Err(format!("the start {} is not in the free space of the representation", shown(start)));
+        }
+        let (Some(first), goals) = (query.goals.first(), &query.goals) else {
+            return Err("the query has no goal".to_owned());
+        };
+        let mut copies: Vec<Point> = goals.iter().flat_map(|goal| window_copies(regions, Point::from(*goal))).collect();
+        copies.retain(|copy| boundary.contains(*copy));
+        if copies.is_empty() {
+            let goal = shown(Point::from(*first));
+            let others = if goals.len() > 1 { format!(" (nor {} others)", goals.len() - 1) } else { String::new() };
+            return Err(format!("the goal {goal}{others} is not in the free space of the representation"));
+        }
+        Ok(Self { start, goals: copies })
+    }
+
+    /// Distance from `p` to the nearest goal: a lower bound on the length of any way there.
+    pub fn straight_distance(&self, p: Point) -> f64 {
+        self.goals.iter().map(|goal| (goal - p).norm()).fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn shown(p: Point) -> String {
+    format!("({:.6}, {:.6})", p.x, p.y)
+}
+
+/// The copies of `p`, shifted by whole turns along circle axes, within the window; on intervals `p` as it is.
+fn window_copies(regions: &Regions, p: Point) -> Vec<Point> {
+    let values = |k: usize| -> Vec<f64> {
+        if !regions.topology.axes[k].is_circle() {
+            return vec![p[k]];
+        }
+        let (lower, upper) = regions.window[k];
+        let turns = ((lower - p[k]) / TAU).ceil() as i64..=((upper - p[k]) / TAU).floor() as i64;
+        turns.map(|turn| p[k] + turn as f64 * TAU).collect()
+    };
+    let seconds = values(1);
+    values(0).into_iter().flat_map(|x| seconds.iter().map(move |&y| Point::new(x, y))).collect()
+}
