@@ -2,3 +2,13 @@
 //!
 //! Imports neither [`crate::cspace`] nor [`crate::plan`]: it works on the scene's exact outlines alone, so that an
 //! error there cannot hide here.
+
+mod boxes;
+mod connectivity;
+mod deviation;
+mod motion;
+
+pub use boxes::Cell;
+pub use connectivity::{Connectivity, Disconnection, StuckBox, connectivity};
+pub use deviation::{Bounded, Deviation, Posture};
+pub use motion::{CertifiedPath, Nearest, Rejection, certify};

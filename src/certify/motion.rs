@@ -1,0 +1,152 @@
+//! Continuous collision check of a path.
+
+use super::deviation::{Deviation, Posture};
+use crate::model::{Contact, Pair, Scene};
+use crate::space::{Configuration, Path};
+
+/// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
+/// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
+const TIGHTNESS: f64 = 0.9;
+
+/// Looks at pairs and pieces of a path before giving up: some seconds' worth.
+const MAX_EVALUATIONS: usize = 5_000_000;
+
+/// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
+/// [`certify`] makes one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertifiedPath {
+    path: Path,
+    clearance: f64,
+    nearest: Option<Nearest>,
+}
+
+/// Where a path comes nearest to an obstacle, as far as was looked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The configuration.
+    pub at: Configuration,
+    /// The shapes and their distance there, an upper bound on the true clearance.
+    pub contact: Contact,
+}
+
+impl CertifiedPath {
+    /// The path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Proven lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if
+    /// nothing can meet. Positive, at least the clearance asked for, and at least 0.9 of the true value unless the
+    /// clearance asked for is nearer to it.
+    #[must_use]
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
+    /// Where it comes nearest; none if nothing can meet.
+    #[must_use]
+    pub fn nearest(&self) -> Option<Nearest> {
+        self.nearest
+    }
+}
+
+/// Why a path is not certified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rejection {
+    /// A waypoint is outside a joint's limits.
+    OutOfLimits {
+        /// Index of the waypoint.
+        waypoint: usize,
+        /// 0 or 1.
+        joint: usize,
+    },
+    /// At this configuration on the path the shapes touch, overlap, or are nearer than the clearance to keep.
+    TooClose(Nearest),
+    /// The search ran out here: nearer to the clearance to keep than can be told apart.
+    Undecided(Nearest),
+}
+
+/// Checks the whole motion along `path`, straight in joint space between waypoints: limits, and a distance of more
+/// than zero and at least `clearance` metres between every pair that can meet.
+///
+/// For every pair and segment the lower bound of [`Posture::bound`] about the middle decides, else both halves are
+/// looked at. Ends because a motion that keeps more than the clearance does so by a positive amount; the number of
+/// halvings grows like the square root of its inverse.
+///
+/// # Errors
+/// [`Rejection`]; `TooClose` is a proof that the path fails, the others are not.
+pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
+    let topology = scene.arm.topology();
+    for (waypoint, q) in path.waypoints().iter().enumerate() {
+        if let Some(joint) = (0..2).find(|&k| !topology.axes[k].contains(q[k])) {
+            return Err(Rejection::OutOfLimits { waypoint, joint });
+        }
+    }
+    let mut search = Search { scene, required: clearance, proven: f64::INFINITY, nearest: None, evaluations: 0 };
+    for &q in path.waypoints() {
+        for contact in scene.separations(q) {
+            search.see(q, contact)?;
+        }
+    }
+    // A path that stays where it is has no segment, yet a clearance.
+    let rest = path.waypoints().len() == 1;
+    for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
+        for &pair in scene.pairs() {
+            search.segment(pair, from, to)?;
+        }
+    }
+    Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    required: f64,
+    /// Least of the bounds that were accepted.
+    proven: f64,
+    /// Least distance seen.
+    nearest: Option<Nearest>,
+    evaluations: usize,
+}
+
+impl Search<'_> {
+    /// Takes note of a distance on the path.
+    fn see(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
+        let distance = contact.separation.distance;
+        if self.nearest.is_none_or(|n| distance < n.contact.separation.distance) {
+            self.nearest = Some(Nearest { at, contact });
+        }
+        if distance <= 0.0 || distance < self.required {
+            return Err(Rejection::TooClose(Nearest { at, contact }));
+        }
+        Ok(())
+    }
+
+    /// What a bound has to reach to be accepted.
+    fn target(&self) -> f64 {
+        let seen = self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance);
+        (TIGHTNESS * seen).max(self.required)
+    }
+
+    fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
+        // Pieces of the segment as (middle, half width) of the parameter, the first one on top.
+        let mut open = vec![(0.5, 0.5)];
+        while let Some((middle, half)) = open.pop() {
+            let at = from + (to - from) * middle;
+            let bounded = Posture::new(self.scene, at).bound(pair, Deviation::Along((to - from) * half));
+            let contact = Contact { pair, separation: bounded.here };
+            self.see(at, contact)?;
+            self.evaluations += 1;
+            if bounded.least >= self.target() {
+                self.proven = self.proven.min(bounded.least);
+            } else if self.evaluations > MAX_EVALUATIONS || half < f64::EPSILON {
+                return Err(Rejection::Undecided(Nearest { at, contact }));
+            } else {
+                let quarter = half / 2.0;
+                open.push((middle + quarter, quarter));
+                open.push((middle - quarter, quarter));
+            }
+        }
+        Ok(())
+    }
+}

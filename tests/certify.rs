@@ -1,0 +1,176 @@
+//! The judge against dense sampling and problems whose answers are known.
+
+mod common;
+
+use common::{Benchmark, all_kinds, benchmark, q, rectangle, rr, scene};
+use cplan::certify::{CertifiedPath, Connectivity, Deviation, Posture, Rejection, certify, connectivity};
+use cplan::geometry::{Convex, Point};
+use cplan::model::Scene;
+use cplan::space::{Axis, Configuration, Path};
+use proptest::prelude::*;
+
+fn clutter() -> Vec<Convex> {
+    vec![
+        rectangle(0.7, 0.9, 0.4, 0.8),
+        Convex::disc(Point::new(-0.5, 0.6), 0.15),
+        Convex::segment(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
+        Convex::new(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
+    ]
+}
+
+fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
+    let at = |k: usize, t: f64| {
+        let (lower, upper) = scene.arm.topology().axes[k].domain();
+        lower + t * (upper - lower)
+    };
+    q(at(0, u), at(1, v))
+}
+
+/// Least distance at `n` evenly spaced configurations of each segment.
+fn sampled(scene: &Scene, path: &Path, n: u32) -> f64 {
+    path.segments()
+        .flat_map(|(a, b)| (0..=n).map(move |i| a + (b - a) * (f64::from(i) / f64::from(n))))
+        .map(|q| scene.clearance(q))
+        .fold(f64::INFINITY, f64::min)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn verdict_and_clearance_agree_with_dense_sampling(
+        kind in 0_usize..5, a in (0.0..1.0_f64, 0.0..1.0_f64), b in (0.0..1.0_f64, 0.0..1.0_f64), t in 0.05..1.0_f64,
+    ) {
+        let scene = scene(all_kinds().swap_remove(kind), clutter());
+        let (from, to) = (inside(&scene, a.0, a.1), inside(&scene, b.0, b.1));
+        let path = Path::new(vec![from, from + (to - from) * t]);
+        let seen = sampled(&scene, &path, 4000);
+        match certify(&scene, path, 0.0) {
+            Ok(certified) => {
+                prop_assert!(certified.clearance() > 0.0);
+                prop_assert!(certified.clearance() <= seen + 1e-12);
+                // A sample is at most half a step away from the nearest configuration.
+                prop_assert!(certified.clearance() >= 0.9 * (seen - 8.0 / 4000.0));
+            }
+            Err(Rejection::TooClose(nearest)) => {
+                prop_assert!(scene.clearance(nearest.at) <= 0.0);
+                prop_assert!(seen <= 8.0 / 4000.0);
+            }
+            Err(other) => prop_assert!(seen < 1e-6, "{other:?} at a sampled clearance of {seen}"),
+        }
+    }
+
+    #[test]
+    fn bounds_hold_for_every_deviation(
+        kind in 0_usize..5, at in (0.0..1.0_f64, 0.0..1.0_f64), half in (0.0..0.3_f64, 0.0..0.3_f64),
+        deviations in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 64),
+    ) {
+        let scene = scene(all_kinds().swap_remove(kind), clutter());
+        let middle = inside(&scene, at.0, at.1);
+        let posture = Posture::new(&scene, middle);
+        let along = q(half.0, -half.1);
+        for (i, &pair) in scene.pairs().iter().enumerate() {
+            let boxed = Deviation::Box([half.0, half.1]);
+            let (least, greatest) = (posture.bound(pair, boxed).least, posture.greatest(pair, boxed));
+            let least_along = posture.bound(pair, Deviation::Along(along)).least;
+            for &(u, v) in &deviations {
+                let there = |d: Configuration| scene.separations(middle + d).nth(i).unwrap().separation.distance;
+                let distance = there(q(u * half.0, v * half.1));
+                // While the shapes overlap, the directional bounds speak of the distance along one direction only.
+                prop_assert!(distance.max(0.0) >= least);
+                prop_assert!(distance <= greatest);
+                prop_assert!(there(along * u).max(0.0) >= least_along);
+            }
+        }
+    }
+
+    #[test]
+    fn stuck_boxes_hold_no_free_configuration(u in 0.0..1.0_f64, v in 0.0..1.0_f64) {
+        let (scene, start, goal) = benchmark(Benchmark::Inf);
+        let Connectivity::Disconnected(proof) = connectivity(&scene, start, &[goal], 0.0, 100_000) else {
+            return Err(TestCaseError::fail("no proof"));
+        };
+        for stuck in proof.stuck() {
+            let at = q(
+                stuck.cell.lower[0] + u * (stuck.cell.upper[0] - stuck.cell.lower[0]),
+                stuck.cell.lower[1] + v * (stuck.cell.upper[1] - stuck.cell.lower[1]),
+            );
+            prop_assert!(scene.clearance(at) < 0.0);
+        }
+    }
+}
+
+#[test]
+fn a_touching_motion_is_refused() {
+    // The outstretched arm's upper corner passes exactly through the wall's end.
+    let arm = rr([Axis::Circle, Axis::Circle]);
+    let tip = Point::new(1.8, 0.05);
+    let scene = scene(arm, vec![Convex::segment(tip, Point::new(3.0, 0.05))]);
+    let verdict = certify(&scene, Path::new(vec![q(-0.5, 0.0), q(0.0, 0.0)]), 0.0);
+    assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
+}
+
+#[test]
+fn thin_walls_between_samples_are_found() {
+    // A wall so thin that only the motion meets it: both ends of the segment are far from it.
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![Convex::disc(Point::new(1.2, 1.2), 1e-9)]);
+    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]), 0.0);
+    assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
+}
+
+#[test]
+fn clearance_asked_for_is_kept_or_refused() {
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
+    let path = || Path::new(vec![q(-0.3, 0.0), q(0.3, 0.0)]);
+    // At q = 0 the tip is 0.1 m from the wall, its corners a little less later on.
+    let reach = (1.8_f64 * 1.8 + 0.05 * 0.05).sqrt();
+    let truth = 1.9 - reach;
+    let certified = certify(&scene, path(), 0.0985).unwrap();
+    assert!(certified.clearance() >= 0.0985 && certified.clearance() <= truth);
+    assert!(matches!(certify(&scene, path(), truth + 1e-6), Err(Rejection::TooClose(_))));
+}
+
+#[test]
+fn a_path_outside_the_limits_is_refused() {
+    let range = Axis::Interval { lower: -1.0, upper: 1.0 };
+    let scene = scene(rr([range, range]), vec![]);
+    let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(0.5, 1.5)]), 0.0);
+    assert_eq!(verdict.unwrap_err(), Rejection::OutOfLimits { waypoint: 1, joint: 1 });
+    let free: CertifiedPath = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();
+    assert_eq!(free.clearance(), f64::INFINITY);
+    assert!(free.nearest().is_none());
+}
+
+#[test]
+fn benchmark_problems_are_decided() {
+    for which in [Benchmark::A, Benchmark::B] {
+        let (scene, start, goal) = benchmark(which);
+        let Connectivity::Connected(path) = connectivity(&scene, start, &[goal], 0.0, 200_000) else {
+            panic!("{which:?} has a path");
+        };
+        assert_eq!(path.start(), start);
+        assert!(scene.arm.topology().distance(path.goal(), goal) < 1e-12);
+        certify(&scene, path, 0.0).expect("a chain of free boxes is free");
+    }
+    for which in [Benchmark::Inf, Benchmark::T] {
+        let (scene, start, goal) = benchmark(which);
+        let verdict = connectivity(&scene, start, &[goal], 0.0, 200_000);
+        assert!(matches!(verdict, Connectivity::Disconnected(_)), "{which:?}");
+    }
+}
+
+#[test]
+fn limits_and_clearance_can_close_the_way() {
+    // Nothing but a pole: free to go round it on the torus, not within limits that end before it.
+    let pole = || vec![Convex::disc(Point::new(0.0, 1.4), 0.05)];
+    let decide =
+        |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &[q(2.6, 0.0)], clearance, 100_000);
+    assert!(matches!(decide([Axis::Circle, Axis::Circle], 0.0), Connectivity::Connected(_)));
+    let narrow = Axis::Interval { lower: -0.1, upper: 0.1 };
+    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
+    assert!(matches!(decide([half, narrow], 0.0), Connectivity::Disconnected(_)));
+    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    assert!(matches!(decide([half, folding], 0.0), Connectivity::Connected(_)));
+    // Folded, the forearm still comes within 0.4 m of the pole as the elbow passes under it.
+    assert!(matches!(decide([half, folding], 0.4), Connectivity::Disconnected(_)));
+}

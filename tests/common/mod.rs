@@ -1,0 +1,142 @@
+//! Arms and scenes made in code, for the integration tests.
+#![allow(dead_code, reason = "every test binary uses some of it")]
+
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::space::{Axis, Configuration};
+use nalgebra::Vector3;
+
+pub fn q(a: f64, b: f64) -> Configuration {
+    Configuration::new(a, b)
+}
+
+/// The rectangle `[x0, x1] x [y0, y1]`.
+pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
+    Convex::new(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
+}
+
+pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
+    let parts = shapes
+        .into_iter()
+        .map(|shape| Part { shape, heights: Heights { lower: 0.0, upper: 0.1 }, body: name.into() })
+        .collect();
+    Link { name: name.into(), parts, source: OutlineSource::Collision }
+}
+
+pub fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
+    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 4.0 }
+}
+
+pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {
+    Arm {
+        name: "test arm".into(),
+        joints,
+        links,
+        base: Point::origin(),
+        offset,
+        tip,
+        tip_name: "tip".into(),
+        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+    }
+}
+
+/// Bars of 1.0 and 0.8 m, 0.1 m wide, both joints on circles unless limits are given.
+pub fn rr(axes: [Axis; 2]) -> Arm {
+    let turn = Motion::Revolute { sign: 1.0 };
+    arm(
+        [joint("shoulder", turn, axes[0]), joint("elbow", turn, axes[1])],
+        [link("upper", vec![rectangle(0.0, 1.0, -0.05, 0.05)]), link("fore", vec![rectangle(0.0, 0.8, -0.05, 0.05)])],
+        Vector::new(1.0, 0.0),
+        Point::new(0.8, 0.0),
+    )
+}
+
+/// One arm of every kind, some axes reversed or oblique, with outlines off the joints.
+pub fn all_kinds() -> Vec<Arm> {
+    let turn = |sign| Motion::Revolute { sign };
+    let slide = |x: f64, y: f64| Motion::Prismatic { direction: Vector::new(x, y).normalize() };
+    let range = |lower, upper| Axis::Interval { lower, upper };
+    let first = || link("first", vec![rectangle(-0.1, 0.6, -0.05, 0.04), Convex::disc(Point::new(0.6, 0.0), 0.07)]);
+    let second = || {
+        link(
+            "second",
+            vec![
+                rectangle(-0.05, 0.5, -0.03, 0.05),
+                Convex::new(vec![Point::new(0.5, -0.1), Point::new(0.5, 0.2)], 0.02),
+            ],
+        )
+    };
+    let make = |one, two| arm([one, two], [first(), second()], Vector::new(0.6, 0.05), Point::new(0.5, 0.0));
+    vec![
+        rr([Axis::Circle, Axis::Circle]),
+        make(joint("a", turn(-1.0), range(-4.0, 3.5)), joint("b", turn(1.0), Axis::Circle)),
+        make(joint("a", turn(1.0), Axis::Circle), joint("b", slide(1.0, 0.3), range(-0.2, 0.9))),
+        make(joint("a", slide(0.2, 1.0), range(-1.0, 1.0)), joint("b", turn(-1.0), range(-2.5, 2.5))),
+        make(joint("a", slide(1.0, 0.0), range(-1.0, 1.0)), joint("b", slide(0.3, 1.0), range(-0.8, 0.8))),
+    ]
+}
+
+pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
+    let shape = match piece.core() {
+        [center] => Shape::Circle { center: *center, radius: piece.radius() },
+        [a, b] => Shape::Polyline(vec![*a, *b]),
+        corners => Shape::Polygon(corners.to_vec()),
+    };
+    Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL }
+}
+
+pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
+    let obstacles = pieces.into_iter().enumerate().map(|(i, p)| obstacle(&format!("o{i}"), p)).collect();
+    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0 })
+}
+
+/// The benchmark problems with published truths: a 2R arm on the torus among four polygons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Benchmark {
+    /// Passage of 0.070 rad; optimum 6.4229.
+    A,
+    /// Passage of 0.022 rad; optimum 6.4281.
+    B,
+    /// No path.
+    Inf,
+    /// No path: two walls of link 1, 0.0066 rad wide.
+    T,
+}
+
+/// Scene, start and goal of a benchmark problem.
+pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
+    let mut polygons = [
+        vec![(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)],
+        vec![(0.99, -0.17), (1.14, -0.35), (1.38, -0.27), (1.42, -0.16), (1.28, 0.07), (1.04, 0.0)],
+        vec![(0.11, 1.33), (0.27, 1.12), (0.53, 1.19), (0.51, 1.51), (0.20, 1.53)],
+        vec![(-1.02, 0.33), (-0.89, 0.12), (-0.63, 0.32), (-0.85, 0.51)],
+    ];
+    let shifted = match which {
+        Benchmark::B => Some((0, 0.04)),
+        Benchmark::T => Some((1, -0.0036)),
+        _ => None,
+    };
+    if let Some((index, by)) = shifted {
+        polygons[index].iter_mut().for_each(|p| p.0 += by);
+    }
+    let pieces = polygons.map(|p| Convex::new(p.into_iter().map(|(x, y)| Point::new(x, y)).collect(), 0.0)).to_vec();
+    let goal = if which == Benchmark::Inf { q(-2.8, 0.4) } else { q(1.75, 0.5) };
+    (scene(rr([Axis::Circle, Axis::Circle]), pieces), q(-0.7, 0.0), goal)
+}
+
+/// The 20 obstacles of the benchmark for building configuration spaces.
+pub fn w20() -> Scene {
+    let pieces = (0..20)
+        .map(|i| {
+            let angle = 2.399963 * f64::from(i);
+            let radius = 0.55 + 1.15 * ((f64::from(i) + 0.5) / 20.0).sqrt();
+            let n = 4 + i % 4;
+            let corner = |k: i32| {
+                let turn = 0.7 * f64::from(i) + std::f64::consts::TAU * f64::from(k) / f64::from(n);
+                Point::new(radius * angle.cos() + 0.08 * turn.cos(), radius * angle.sin() + 0.08 * turn.sin())
+            };
+            Convex::new((0..n).map(corner).collect(), 0.0)
+        })
+        .collect();
+    scene(rr([Axis::Circle, Axis::Circle]), pieces)
+}
