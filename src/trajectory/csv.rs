@@ -1,0 +1,51 @@
+//! Trajectories as comma-separated values.
+
+use super::Trajectory;
+use std::borrow::Cow;
+use std::fmt::Write;
+
+/// The trajectory as CSV: a header `time,A,B,A_velocity,B_velocity,A_acceleration,B_acceleration` for joints `A` and `B`,
+/// then a line a sample.
+///
+/// Fields are quoted as RFC 4180 says; lines end in a single line feed, which every reader takes and text tools prefer.
+/// Numbers have as many digits as it takes to read the same `f64` back.
+#[must_use]
+pub fn csv(joints: &[String; 2], trajectory: &Trajectory) -> String {
+    let mut text = String::from("time");
+    for suffix in ["", "_velocity", "_acceleration"] {
+        for joint in joints {
+            text.push(',');
+            text.push_str(&quoted(&format!("{joint}{suffix}")));
+        }
+    }
+    text.push('\n');
+    for (k, time) in trajectory.time.iter().enumerate() {
+        let ([p1, p2], [v1, v2], [a1, a2]) =
+            (trajectory.position[k], trajectory.velocity[k], trajectory.acceleration[k]);
+        // Debug formatting is Rust's shortest round-trip one, with an exponent where digits would be many.
+        writeln!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?},{a1:?},{a2:?}").expect("a string takes all");
+    }
+    text
+}
+
+/// A field, in double quotes if it holds a character that would end it (RFC 4180, section 2).
+fn quoted(field: &str) -> Cow<'_, str> {
+    if field.contains(['"', ',', '\n', '\r']) {
+        Cow::Owned(format!("\"{}\"", field.replace('"', "\"\"")))
+    } else {
+        Cow::Borrowed(field)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotes_what_would_end_a_field() {
+        assert_eq!(quoted("elbow joint"), "elbow joint");
+        assert_eq!(quoted("a,b"), "\"a,b\"");
+        assert_eq!(quoted("a \"b\""), "\"a \"\"b\"\"\"");
+        assert_eq!(quoted("a\nb"), "\"a\nb\"");
+    }
+}

@@ -1,0 +1,195 @@
+//! What a run found, as JSON.
+
+use super::Trajectory;
+use crate::model::Joint;
+use crate::space::Path;
+use serde::ser::{SerializeMap, Serializer};
+use serde::Serialize;
+use serde_json::ser::{CompactFormatter, Formatter};
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+
+/// How to read a trajectory between its samples; see [`Trajectory`].
+pub const INTERPOLATION: &str = "acceleration[k] is constant from time[k] to time[k+1]: \
+    position = position[k] + velocity[k] t + acceleration[k] t^2 / 2 with t = time - time[k]";
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// A path was found, and it is certified.
+    Found,
+    /// There is no path: proven.
+    Infeasible,
+    /// No path found and none ruled out.
+    Unknown,
+}
+
+/// The result of a run. [`Report::json`] writes the fields in this order and leaves out those that are `None` or empty.
+///
+/// Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Private, so that only [`Report::found`] can say "found".
+    status: Status,
+    /// Title of the workspace.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Name of the planner.
+    pub planner: String,
+    /// Names of the joints in the URDF, base to tip.
+    pub joints: [String; 2],
+    /// Unit of each joint's value: `rad` or `m`.
+    pub units: [&'static str; 2],
+    /// Why there is no path, or why none is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Waypoints, straight segments between them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<Vec<[f64; 2]>>,
+    /// Euclidean length of the path in joint space.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
+    /// Whether the whole continuous motion was shown free of collision. Absent without a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certified: Option<bool>,
+    /// Proven lower bound on the distance between arm and obstacles along the path, metres. Absent without a path, and
+    /// where nothing can be hit: then it is infinite, for which JSON has no word.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// The link and the obstacle that come closest, in words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub closest: Option<String>,
+    /// How much the planner built: `nodes` and `edges`, or `cells` and `sweeps`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub size: BTreeMap<&'static str, usize>,
+    /// Stages in the order in which they ran, with the milliseconds that each took.
+    #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
+    pub timings: Vec<(String, f64)>,
+    /// Of the motion, seconds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
+    /// How to read the trajectory between its samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<&'static str>,
+    /// The motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trajectory: Option<Trajectory>,
+}
+
+impl Report {
+    /// A run that found the path `trajectory` follows. What is optional and not known here (name, closest pair, size,
+    /// timings) is left empty, for the caller to fill.
+    pub(crate) fn of_path(
+        planner: &str,
+        joints: &[Joint; 2],
+        path: &Path,
+        clearance: f64,
+        trajectory: Trajectory,
+    ) -> Self {
+        Self {
+            path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
+            length: Some(path.length()),
+            certified: Some(true),
+            clearance: clearance.is_finite().then_some(clearance),
+            duration: Some(trajectory.duration()),
+            interpolation: Some(INTERPOLATION),
+            trajectory: Some(trajectory),
+            ..Self::bare(Status::Found, planner, joints)
+        }
+    }
+
+    /// A run that proved that there is no path.
+    #[must_use]
+    pub fn infeasible(planner: &str, joints: &[Joint; 2], reason: String) -> Self {
+        Self { reason: Some(reason), ..Self::bare(Status::Infeasible, planner, joints) }
+    }
+
+    /// A run that found no path and ruled none out.
+    #[must_use]
+    pub fn unknown(planner: &str, joints: &[Joint; 2], reason: String) -> Self {
+        Self { reason: Some(reason), ..Self::bare(Status::Unknown, planner, joints) }
+    }
+
+    fn bare(status: Status, planner: &str, joints: &[Joint; 2]) -> Self {
+        Self {
+            status,
+            name: None,
+            planner: planner.to_owned(),
+            joints: joints.each_ref().map(|j| j.name.clone()),
+            units: joints.each_ref().map(Joint::unit),
+            reason: None,
+            path: None,
+            length: None,
+            certified: None,
+            clearance: None,
+            closest: None,
+            size: BTreeMap::new(),
+            timings: Vec::new(),
+            duration: None,
+            interpolation: None,
+            trajectory: None,
+        }
+    }
+
+    /// How the run ended.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        self.status
+    }
+
+    /// The result as a JSON object: a line a field, so that people can read it and the trajectory stays compact. Numbers
+    /// have as many digits as it takes to read the same `f64` back.
+    #[must_use]
+    pub fn json(&self) -> String {
+        let mut text = Vec::new();
+        let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());
+        self.serialize(&mut serializer).expect("string keys and a buffer that takes all");
+        text.push(b'\n');
+        String::from_utf8(text).expect("JSON is UTF-8")
+    }
+}
+
+fn as_map<S: Serializer>(pairs: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(pairs.len()))?;
+    for (key, value) in pairs {
+        map.serialize_entry(key, value)?;
+    }
+    map.end()
+}
+
+/// JSON layout: the outermost object's fields on lines of their own, all within them compact with a blank after each
+/// comma and colon.
+#[derive(Default)]
+struct LineAField {
+    depth: usize,
+}
+
+impl Formatter for LineAField {
+    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth += 1;
+        CompactFormatter.begin_object(writer)
+    }
+
+    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        self.depth -= 1;
+        writer.write_all(if self.depth == 0 { b"\n}" } else { b"}" })
+    }
+
+    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(match (first, self.depth) {
+            (true, 1) => b"\n  ",
+            (false, 1) => b",\n  ",
+            (true, _) => b"",
+            (false, _) => b", ",
+        })
+    }
+
+    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
+        writer.write_all(b": ")
+    }
+
+    fn begin_array_value<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
+        writer.write_all(if first { b"" } else { b", " })
+    }
+}

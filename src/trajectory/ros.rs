@@ -1,0 +1,111 @@
+//! Trajectories as ROS 2 messages.
+
+use super::Trajectory;
+use std::fmt::Write;
+
+/// The trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML that `ros2 topic pub` takes.
+///
+/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are rounded to nanoseconds and still
+/// increase strictly, because samples are at least [`super::SHORTEST_INTERVAL`] apart. Numbers have as many digits as it
+/// takes to read the same `f64` back.
+///
+/// A controller that joins samples by quintic splines follows the motion exactly wherever two samples have the same
+/// acceleration; where it changes within the period, the spline smooths the change.
+#[must_use]
+pub fn ros_yaml(joints: &[String; 2], trajectory: &Trajectory) -> String {
+    let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");
+    let mut line = |line: std::fmt::Arguments| {
+        text.write_fmt(line).expect("a string takes all");
+        text.push('\n');
+    };
+    for joint in joints {
+        line(format_args!("- {}", quoted(joint)));
+    }
+    line(format_args!("points:"));
+    for (k, &time) in trajectory.time.iter().enumerate() {
+        let (seconds, nanoseconds) = split(time);
+        line(format_args!("- positions: {}", pair(trajectory.position[k])));
+        line(format_args!("  velocities: {}", pair(trajectory.velocity[k])));
+        line(format_args!("  accelerations: {}", pair(trajectory.acceleration[k])));
+        line(format_args!("  time_from_start: {{sec: {seconds}, nanosec: {nanoseconds}}}"));
+    }
+    text
+}
+
+/// Whole seconds and nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose
+/// nanoseconds a double counts exactly.
+fn split(time: f64) -> (u64, u64) {
+    const PER_SECOND: u64 = 1_000_000_000;
+    let nanoseconds = (time * PER_SECOND as f64).round() as u64;
+    (nanoseconds / PER_SECOND, nanoseconds % PER_SECOND)
+}
+
+fn pair([a, b]: [f64; 2]) -> String {
+    format!("[{}, {}]", number(a), number(b))
+}
+
+/// A number that YAML 1.1 readers, PyYAML among them, take for a number: those want a point in the mantissa and a sign
+/// in the exponent, and read `1e-7` as text.
+fn number(value: f64) -> String {
+    let plain = format!("{value:?}");
+    let Some((mantissa, exponent)) = plain.split_once('e') else { return plain };
+    let point = if mantissa.contains('.') { "" } else { ".0" };
+    let sign = if exponent.starts_with('-') { "" } else { "+" };
+    format!("{mantissa}{point}e{sign}{exponent}")
+}
+
+/// A double-quoted scalar (YAML 1.2.2, section 7.3.1), whatever the name: unquoted, `no`, `1` or `a: b` would be no
+/// names. Characters that YAML does not take raw, or that YAML 1.1 takes for line breaks, are escaped.
+fn quoted(name: &str) -> String {
+    let mut text = String::from("\"");
+    for c in name.chars() {
+        match c {
+            '"' | '\\' => text.extend(['\\', c]),
+            '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fffe}' | '\u{ffff}' => text.push_str(&escape(c)),
+            c if c.is_control() => text.push_str(&escape(c)),
+            c => text.push(c),
+        }
+    }
+    text.push('"');
+    text
+}
+
+fn escape(c: char) -> String {
+    format!("\\u{:04X}", u32::from(c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn numbers_have_a_point_and_a_signed_exponent() {
+        assert_eq!(number(1e-7), "1.0e-7");
+        assert_eq!(number(-2.5e-300), "-2.5e-300");
+        assert_eq!(number(1e20), "1.0e+20");
+        assert_eq!(number(0.25), "0.25");
+        assert_eq!(number(3.0), "3.0");
+    }
+
+    #[test]
+    fn seconds_carry() {
+        assert_eq!(split(0.0), (0, 0));
+        assert_eq!(split(0.999_999_999_9), (1, 0));
+        assert_eq!(split(2.000_000_001), (2, 1));
+        assert_eq!(split(999_999.999_999_999), (999_999, 999_999_999));
+    }
+
+    proptest! {
+        #[test]
+        fn any_name_is_read_back(name in any::<String>()) {
+            let read: String = serde_saphyr::from_str(&quoted(&name)).expect("valid YAML");
+            prop_assert_eq!(read, name);
+        }
+
+        #[test]
+        fn any_number_is_read_back(value in any::<f64>().prop_filter("finite", |v| v.is_finite())) {
+            prop_assert_eq!(number(value).parse::<f64>().expect("a number"), value);
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Files that are there whole or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a file could not be written. Nothing was changed then.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// There is a folder (or a device, a pipe, ...) of that name.
+    #[error("cannot write {}: it exists and is not a file", path.display())]
+    NotAFile {
+        /// The file as given.
+        path: PathBuf,
+    },
+    /// Its folder does not exist.
+    #[error("cannot write {}: there is no folder {}", path.display(), folder.display())]
+    NoFolder {
+        /// The file as given.
+        path: PathBuf,
+        /// What is missing.
+        folder: PathBuf,
+    },
+    /// The operating system refused. Only the kind is shown: the full error names a temporary file that no longer is.
+    #[error("cannot write {}: {}", path.display(), source.kind())]
+    Refused {
+        /// The file as given.
+        path: PathBuf,
+        /// Its reason.
+        source: io::Error,
+    },
+}
+
+/// Writes `bytes` to `path`: into a temporary file in the same folder, which then takes the name in one step. So at any
+/// moment the file is what it was before or what it shall be, even if the program is killed. (If the machine loses power
+/// in that moment, the file system decides.)
+///
+/// An existing file is replaced and keeps its permissions; a new one gets those that the user's umask gives. Through a
+/// symbolic link the file behind it is replaced.
+///
+/// # Errors
+/// [`WriteError`]; nothing is left behind.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
+    let target = if path.is_symlink() { fs::canonicalize(path).map_err(refused)? } else { path.to_owned() };
+    let kept = match fs::metadata(&target) {
+        Ok(found) if found.is_file() => Some(found.permissions()),
+        Ok(_) => return Err(WriteError::NotAFile { path: path.to_owned() }),
+        Err(_) => None,
+    };
+    let folder = match target.parent() {
+        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
+        Some(folder) => folder,
+        None => return Err(WriteError::NotAFile { path: path.to_owned() }),
+    };
+    if !folder.is_dir() {
+        return Err(WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
+    }
+    let mut file = new_temporary(folder).map_err(refused)?;
+    file.write_all(bytes).map_err(refused)?;
+    if let Some(permissions) = kept {
+        file.as_file().set_permissions(permissions).map_err(refused)?;
+    }
+    file.persist(&target).map_err(|e| refused(e.error))?;
+    Ok(())
+}
+
+/// A temporary file with the permissions of an ordinary new one; by default nobody else could read it.
+#[cfg(unix)]
+fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    use std::os::unix::fs::PermissionsExt;
+    tempfile::Builder::new().prefix(".cplan").permissions(fs::Permissions::from_mode(0o666)).tempfile_in(folder)
+}
+
+/// A temporary file.
+#[cfg(not(unix))]
+fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    tempfile::Builder::new().prefix(".cplan").tempfile_in(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn creates_and_replaces() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.json");
+        write_whole(&file, b"one").unwrap();
+        write_whole(&file, b"two").unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"two");
+        assert_eq!(names(folder.path()), ["a.json"]);
+    }
+
+    #[test]
+    fn failures_name_the_file_and_leave_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let inner = folder.path().join("inner.csv");
+        fs::create_dir(&inner).unwrap();
+        let message = write_whole(&inner, b"x").unwrap_err().to_string();
+        assert!(message.contains("inner.csv") && message.contains("not a file"), "{message}");
+        let message = write_whole(&folder.path().join("absent/a.csv"), b"x").unwrap_err().to_string();
+        assert!(message.contains("a.csv: there is no folder") && message.ends_with("absent"), "{message}");
+        assert_eq!(names(folder.path()), ["inner.csv"]);
+        assert!(names(&inner).is_empty());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_are_the_usual_ones_and_kept() {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = |file: &Path| fs::metadata(file).unwrap().permissions().mode() & 0o777;
+        let folder = tempfile::tempdir().unwrap();
+        let (ordinary, ours) = (folder.path().join("ordinary"), folder.path().join("ours.csv"));
+        fs::write(&ordinary, "x").unwrap();
+        write_whole(&ours, b"x").unwrap();
+        assert_eq!(mode(&ours), mode(&ordinary));
+        fs::set_permissions(&ours, fs::Permissions::from_mode(0o640)).unwrap();
+        write_whole(&ours, b"y").unwrap();
+        assert_eq!(mode(&ours), 0o640);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn follows_links_and_refuses_devices() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("a.csv"), folder.path().join("link.csv"));
+        fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_whole(&link, b"new").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        let device = write_whole(Path::new("/dev/null"), b"x").unwrap_err().to_string();
+        assert!(device.contains("not a file"), "{device}");
+    }
+}
