@@ -1,1 +1,79 @@
-//! (to be written)
+//! Pictures: pure functions of results, by way of a neutral figure that knows no file format.
+//!
+//! ```text
+//! Picture (scene, paths, trace, C-obstacles) -> Figure -> SVG -> PNG
+//! ```
+//!
+//! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
+//! trace of its tip; right the configuration space in degrees or metres, with the C-obstacles in the colours of their
+//! obstacles, the path and what the planner saw. The same picture is the same file, byte for byte.
+
+mod axes;
+mod color;
+mod copies;
+mod cspace;
+mod figure;
+mod isolines;
+mod legend;
+mod page;
+#[cfg(feature = "png")]
+mod png_writer;
+mod svg_writer;
+mod trace;
+mod workspace;
+
+use crate::cspace::CObstacle;
+use crate::model::Scene;
+use crate::plan::Trace;
+use crate::space::{Configuration, Path};
+
+/// What a picture shows. With one path, the path of a plan with the arm's poses along it; with several, a comparison
+/// that tells the paths apart by colour and dashes; with none, the problem alone.
+#[derive(Debug, Clone)]
+pub struct Picture<'a> {
+    /// The first line is the title; the others follow in smaller type.
+    pub title: Vec<String>,
+    /// How it ended, in a word or two.
+    pub status: String,
+    /// Arm and obstacles.
+    pub scene: &'a Scene,
+    /// Where the arm begins.
+    pub start: Configuration,
+    /// Where it may end. Without a path the arm is shown at the first.
+    pub goals: &'a [Configuration],
+    /// Names and paths, in unwrapped values.
+    pub paths: Vec<(String, &'a Path)>,
+    /// What the planner saw.
+    pub trace: Option<&'a Trace>,
+    /// Contours in joint space.
+    pub c_obstacles: &'a [CObstacle],
+}
+
+/// Why there is no picture.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DrawError {
+    /// The size is no size.
+    #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
+    Scale(f64),
+    /// The SVG document could not be read back.
+    #[error("cannot rasterise the picture: {0}")]
+    Svg(String),
+    /// The pixels could not be compressed.
+    #[error("cannot write the picture as PNG: {0}")]
+    Png(String),
+}
+
+/// The picture as an SVG document of 1400 x 720 pixels.
+#[must_use]
+pub fn svg(picture: &Picture) -> String {
+    svg_writer::write(&page::compose(picture))
+}
+
+/// The picture as a PNG file of 1400 x 720 pixels times `scale`.
+///
+/// # Errors
+/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
+#[cfg(feature = "png")]
+pub fn png(picture: &Picture, scale: f64) -> Result<Vec<u8>, DrawError> {
+    png_writer::write(&svg(picture), scale)
+}

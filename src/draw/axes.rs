@@ -1,0 +1,240 @@
+//! Coordinate frames: from values to the page, with ticks.
+
+use super::color::{FAINT, GREY, INK, PALE};
+use super::figure::{Anchor, Item, Label, Rect, Spot, Step, Style};
+
+/// Lower and upper value along an axis.
+pub type Range = (f64, f64);
+
+/// What an axis measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Metres.
+    Meters,
+    /// Radians, labelled in degrees.
+    Degrees,
+}
+
+/// A rectangle of the page with values along its sides; `y` goes up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Where it is on the page.
+    pub rect: Rect,
+    /// Values along the lower side.
+    pub x: Range,
+    /// Values along the left side.
+    pub y: Range,
+}
+
+/// A range of positive, finite length: an empty or broken one is widened about its middle.
+fn sound((lower, upper): Range) -> Range {
+    if !(lower.is_finite() && upper.is_finite()) {
+        return (-1.0, 1.0);
+    }
+    let least = f64::max(1e-6, 1e-9 * lower.abs().max(upper.abs()));
+    if upper - lower >= least { (lower, upper) } else { (lower - least / 2.0, lower + least / 2.0) }
+}
+
+impl Frame {
+    /// The largest frame in `area` that shows just these ranges; with `equal_scale` in the middle of the area, with the
+    /// same scale along both axes.
+    #[must_use]
+    pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
+        let (x, y) = (sound(x), sound(y));
+        let mut rect = area;
+        if equal_scale {
+            let scale = (area.width / (x.1 - x.0)).min(area.height / (y.1 - y.0));
+            rect.width = (x.1 - x.0) * scale;
+            rect.height = (y.1 - y.0) * scale;
+            rect.x += (area.width - rect.width) / 2.0;
+            rect.y += (area.height - rect.height) / 2.0;
+        }
+        Self { rect, x, y }
+    }
+
+    /// The frame that fills `area` with the same scale along both axes and shows at least these ranges.
+    #[must_use]
+    pub fn filling(area: Rect, x: Range, y: Range) -> Self {
+        let (x, y) = (sound(x), sound(y));
+        let scale = (area.width / (x.1 - x.0)).min(area.height / (y.1 - y.0));
+        let about = |(lower, upper): Range, length: f64| {
+            let (middle, half) = ((lower + upper) / 2.0, length / scale / 2.0);
+            (middle - half, middle + half)
+        };
+        Self { rect: area, x: about(x, area.width), y: about(y, area.height) }
+    }
+
+    /// Place of the point `(x, y)`.
+    #[must_use]
+    pub fn at(&self, x: f64, y: f64) -> Spot {
+        let Rect { width, height, .. } = self.rect;
+        [
+            self.rect.x + (x - self.x.0) / (self.x.1 - self.x.0) * width,
+            self.rect.bottom() - (y - self.y.0) / (self.y.1 - self.y.0) * height,
+        ]
+    }
+
+    /// Pixels per unit along the lower side.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.rect.width / (self.x.1 - self.x.0)
+    }
+
+    /// Light lines across the frame at the ticks; drawn below everything.
+    #[must_use]
+    pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
+        let pen = Style::line(FAINT, 1.0);
+        let [x, y] = self.ticks(units);
+        let upright = x.into_iter().map(|(value, _)| {
+            let [x, _] = self.at(value, self.y.0);
+            Item::Outline(vec![Step::Move([x, self.rect.y]), Step::Line([x, self.rect.bottom()])], pen)
+        });
+        let level = y.into_iter().map(|(value, _)| {
+            let [_, y] = self.at(self.x.0, value);
+            Item::Outline(vec![Step::Move([self.rect.x, y]), Step::Line([self.rect.right(), y])], pen)
+        });
+        upright.chain(level).collect()
+    }
+
+    /// Sides, ticks and titles; drawn above everything. A side that is a seam, where the space continues on the
+    /// opposite side, is dashed.
+    #[must_use]
+    pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
+        let Rect { x: left, y: top, .. } = self.rect;
+        let (right, bottom) = (self.rect.right(), self.rect.bottom());
+        let side = |a: Spot, b: Spot, seam: bool| {
+            let pen = Style::line(INK, 1.2);
+            let pen = if seam { pen.dashed(&[7.0, 5.0]) } else { pen };
+            Item::Outline(vec![Step::Move(a), Step::Line(b)], pen)
+        };
+        let mut items = vec![
+            side([left, top], [left, bottom], seams[0]),
+            side([right, top], [right, bottom], seams[0]),
+            side([left, top], [right, top], seams[1]),
+            side([left, bottom], [right, bottom], seams[1]),
+        ];
+        let text = |at, text: String, size, anchor, upwards, color| {
+            Item::Text(Label { at, text, size, anchor, upwards, color })
+        };
+        let mark = |a: Spot, b: Spot| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
+        let [x_ticks, y_ticks] = self.ticks(units);
+        for (value, name) in x_ticks {
+            let [x, _] = self.at(value, self.y.0);
+            items.push(mark([x, bottom], [x, bottom + 5.0]));
+            items.push(text([x, bottom + 19.0], name, 13.0, Anchor::Middle, false, GREY));
+        }
+        let mut widest = 0.0_f64;
+        for (value, name) in y_ticks {
+            let [_, y] = self.at(self.x.0, value);
+            items.push(mark([left - 5.0, y], [left, y]));
+            widest = widest.max(super::figure::text_width(&name, 13.0));
+            items.push(text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, false, GREY));
+        }
+        let [x_title, y_title] = titles;
+        let middle = [(left + right) / 2.0, (top + bottom) / 2.0];
+        items.push(text([middle[0], bottom + 38.0], x_title, 14.0, Anchor::Middle, false, INK));
+        items.push(text([left - 16.0 - widest, middle[1]], y_title, 14.0, Anchor::Middle, true, INK));
+        items
+    }
+
+    fn ticks(&self, units: [Unit; 2]) -> [Vec<(f64, String)>; 2] {
+        [
+            ticks(self.x, units[0], (self.rect.width / 65.0) as usize),
+            ticks(self.y, units[1], (self.rect.height / 45.0) as usize),
+        ]
+    }
+}
+
+/// Round values in the range, at most `at_most` (but two at least, if there are any), with their labels.
+fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
+    let factor = match unit {
+        Unit::Meters => 1.0,
+        Unit::Degrees => 180.0 / std::f64::consts::PI,
+    };
+    let (lower, upper) = (range.0 * factor, range.1 * factor);
+    let least = (upper - lower) / at_most.max(2) as f64;
+    let step = match unit {
+        Unit::Meters => decimal_step(least),
+        Unit::Degrees => degree_step(least),
+    };
+    // Half a per mille of a step: a limit that is a round number but for rounding still gets its tick.
+    let slack = 5e-4;
+    let (first, last) = ((lower / step - slack).ceil(), (upper / step + slack).floor());
+    let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
+    let count = (last - first).clamp(-1.0, 1e3) as i64;
+    (0..=count)
+        .map(|k| {
+            let value = (first + k as f64) * step;
+            (value / factor, label(value, decimals))
+        })
+        .collect()
+}
+
+fn label(value: f64, decimals: usize) -> String {
+    let text = format!("{:.decimals$}", value.abs());
+    let is_zero = text.chars().all(|c| matches!(c, '0' | '.'));
+    if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
+}
+
+/// The least of 1, 2, 5 times a power of ten that is not below `least`.
+fn decimal_step(least: f64) -> f64 {
+    let power = 10_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
+}
+
+/// The least step in degrees that divides a turn, or is made of turns, and is not below `least`.
+fn degree_step(least: f64) -> f64 {
+    const STEPS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
+    if least < 0.5 {
+        return decimal_step(least);
+    }
+    let turns = || 360.0 * decimal_step(least / 360.0).ceil();
+    STEPS.into_iter().find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or_else(turns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn names(range: Range, unit: Unit, at_most: usize) -> Vec<String> {
+        ticks(range, unit, at_most).into_iter().map(|(_, name)| name).collect()
+    }
+
+    #[test]
+    fn a_turn_is_divided_evenly() {
+        let expected = ["\u{2212}180", "\u{2212}90", "0", "90", "180"];
+        assert_eq!(names((-PI, PI), Unit::Degrees, 5), expected);
+        assert_eq!(names((-PI, PI), Unit::Degrees, 9).len(), 9);
+        assert_eq!(names((-PI / 2.0, PI / 2.0), Unit::Degrees, 7).len(), 7);
+    }
+
+    #[test]
+    fn metres_have_round_steps() {
+        assert_eq!(names((-0.31, 0.52), Unit::Meters, 6), ["\u{2212}0.2", "0.0", "0.2", "0.4"]);
+        assert_eq!(names((0.0, 12.0), Unit::Meters, 4), ["0", "5", "10"]);
+    }
+
+    #[test]
+    fn extreme_ranges_have_few_finite_ticks() {
+        for range in [(0.0, 0.0), (5.0, 5.0), (1e9, 1e9), (-1e12, 1e12), (0.0, 1e-9), (f64::NAN, 1.0), (3.0, -3.0)] {
+            for unit in [Unit::Meters, Unit::Degrees] {
+                let range = sound(range);
+                let all = ticks(range, unit, 8);
+                assert!((1..=10).contains(&all.len()), "{range:?}: {all:?}");
+                let slack = 0.01 * (range.1 - range.0);
+                assert!(all.iter().all(|t| (range.0 - slack..=range.1 + slack).contains(&t.0)), "{range:?}: {all:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn equal_scale_keeps_shapes() {
+        let area = Rect { x: 10.0, y: 20.0, width: 300.0, height: 100.0 };
+        for frame in [Frame::fitted(area, (0.0, 2.0), (0.0, 1.0), true), Frame::filling(area, (0.0, 2.0), (0.0, 1.0))] {
+            let ([x0, y0], [x1, y1]) = (frame.at(0.0, 0.0), frame.at(1.0, 1.0));
+            assert!(((x1 - x0) - (y0 - y1)).abs() < 1e-9);
+            assert!((x1 - x0 - frame.scale()).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Colours that colour-blind readers can tell apart.
+
+/// A colour, sRGB.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+impl Rgb {
+    /// Mixes in `part` (0 to 1) of another colour.
+    #[must_use]
+    pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
+        let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * part).round() as u8;
+        Rgb(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
+    }
+
+    /// Paler.
+    #[must_use]
+    pub fn lighter(self, part: f64) -> Rgb {
+        self.mixed(WHITE, part)
+    }
+
+    /// Deeper.
+    #[must_use]
+    pub fn darker(self, part: f64) -> Rgb {
+        self.mixed(Rgb(0, 0, 0), part)
+    }
+}
+
+impl std::fmt::Display for Rgb {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "#{:02x}{:02x}{:02x}", self.0, self.1, self.2)
+    }
+}
+
+/// Paper.
+pub const WHITE: Rgb = Rgb(255, 255, 255);
+/// Text, path and arm.
+pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
+/// Minor text.
+pub const GREY: Rgb = Rgb(0x6b, 0x72, 0x7a);
+/// Ghost poses and roadmaps.
+pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
+/// Grid lines.
+pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
+
+/// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), neighbours in the list far apart.
+const MUTED: [Rgb; 9] = [
+    Rgb(0x88, 0xcc, 0xee),
+    Rgb(0xcc, 0x66, 0x77),
+    Rgb(0xdd, 0xcc, 0x77),
+    Rgb(0x44, 0xaa, 0x99),
+    Rgb(0x33, 0x22, 0x88),
+    Rgb(0xaa, 0x44, 0x99),
+    Rgb(0x99, 0x99, 0x33),
+    Rgb(0x88, 0x22, 0x55),
+    Rgb(0x11, 0x77, 0x33),
+];
+
+/// The colour of obstacle `index`. Nine hues; further rounds through them alternate between paler and deeper, so that
+/// 63 obstacles differ before the list begins again.
+#[must_use]
+pub fn obstacle(index: usize) -> Rgb {
+    let hue = MUTED[index % MUTED.len()];
+    match index / MUTED.len() % 7 {
+        0 => hue,
+        1 => hue.lighter(0.4),
+        2 => hue.darker(0.3),
+        3 => hue.lighter(0.2),
+        4 => hue.darker(0.15),
+        5 => hue.lighter(0.55),
+        _ => hue.darker(0.45),
+    }
+}
+
+/// Colour and dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008). The dashes
+/// keep paths apart that lie on top of each other.
+#[must_use]
+pub fn path(index: usize) -> (Rgb, &'static [f64]) {
+    const PENS: [(Rgb, &[f64]); 6] = [
+        (Rgb(0x00, 0x72, 0xb2), &[]),
+        (Rgb(0xd5, 0x5e, 0x00), &[9.0, 4.0]),
+        (Rgb(0x00, 0x9e, 0x73), &[3.0, 3.0]),
+        (Rgb(0xb0, 0x4f, 0x88), &[10.0, 3.0, 2.0, 3.0]),
+        (Rgb(0xc7, 0x8a, 0x00), &[5.0, 5.0]),
+        (Rgb(0x2b, 0x90, 0xc9), &[14.0, 4.0]),
+    ];
+    PENS[index % PENS.len()]
+}
+
+/// A perceptually uniform scale for `value` from 0 (light) to 1 (dark): seaborn's "mako" without its darkest third,
+/// reversed, so that a dark path stays legible on it.
+#[must_use]
+pub fn scale(value: f64) -> Rgb {
+    const STOPS: [Rgb; 8] = [
+        Rgb(0xde, 0xf5, 0xe5),
+        Rgb(0xa8, 0xe1, 0xbc),
+        Rgb(0x60, 0xce, 0xac),
+        Rgb(0x3e, 0xb4, 0xad),
+        Rgb(0x34, 0x98, 0xa9),
+        Rgb(0x35, 0x7b, 0xa3),
+        Rgb(0x3b, 0x5d, 0x9a),
+        Rgb(0x41, 0x3f, 0x80),
+    ];
+    let at = value.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let below = (at as usize).min(STOPS.len() - 2);
+    STOPS[below].mixed(STOPS[below + 1], at - below as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance (WCAG), to measure with something else than the mixing code.
+    fn luminance(c: Rgb) -> f64 {
+        let linear = |v: u8| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(c.0) + 0.7152 * linear(c.1) + 0.0722 * linear(c.2)
+    }
+
+    #[test]
+    fn sixty_obstacles_have_sixty_colours() {
+        let all: Vec<Rgb> = (0..60).map(obstacle).collect();
+        for (i, a) in all.iter().enumerate() {
+            for b in &all[i + 1..] {
+                assert_ne!(a, b);
+            }
+        }
+        assert_eq!(obstacle(63), obstacle(0));
+    }
+
+    #[test]
+    fn the_scale_darkens_steadily() {
+        let all: Vec<f64> = (0..=100).map(|i| luminance(scale(f64::from(i) / 100.0))).collect();
+        assert!(all.windows(2).all(|w| w[1] < w[0]));
+        assert_eq!(scale(-1.0), scale(0.0));
+        assert_eq!(scale(2.0), Rgb(0x41, 0x3f, 0x80));
+    }
+
+    #[test]
+    fn mixing_ends_at_its_arguments() {
+        let a = Rgb(10, 200, 30);
+        assert_eq!(a.mixed(WHITE, 0.0), a);
+        assert_eq!(a.mixed(WHITE, 1.0), WHITE);
+        assert_eq!(a.to_string(), "#0ac81e");
+    }
+}

@@ -1,0 +1,239 @@
+//! The neutral figure: what is drawn where, without a file format.
+
+use super::color::Rgb;
+
+/// A place on the page: pixels from the left and from the top.
+pub type Spot = [f64; 2];
+
+/// A rectangle of the page, pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rect {
+    /// Left side.
+    pub x: f64,
+    /// Upper side.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Rect {
+    /// Right side.
+    #[must_use]
+    pub fn right(&self) -> f64 {
+        self.x + self.width
+    }
+
+    /// Lower side.
+    #[must_use]
+    pub fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+}
+
+/// One step of an outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// Begins a new piece.
+    Move(Spot),
+    /// Straight on.
+    Line(Spot),
+    /// On a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
+    Arc(f64, Spot),
+    /// Back to the beginning of the piece.
+    Close,
+}
+
+/// A pen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pen {
+    /// Colour.
+    pub color: Rgb,
+    /// Pixels.
+    pub width: f64,
+    /// Lengths of dashes and gaps in turn; empty for a solid line.
+    pub dash: &'static [f64],
+}
+
+/// How an outline is drawn: filled by the non-zero rule, then stroked, and the whole made transparent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Style {
+    /// Colour of the inside.
+    pub fill: Option<Rgb>,
+    /// Pen of the outline.
+    pub pen: Option<Pen>,
+    /// Stroke first and fill over it, so that of overlapping pieces only the common outline shows.
+    pub pen_below: bool,
+    /// 0 is invisible, 1 opaque.
+    pub opacity: f64,
+}
+
+impl Style {
+    /// An opaque line.
+    #[must_use]
+    pub fn line(color: Rgb, width: f64) -> Self {
+        Self { fill: None, pen: Some(Pen { color, width, dash: &[] }), pen_below: false, opacity: 1.0 }
+    }
+
+    /// An opaque surface without outline.
+    #[must_use]
+    pub fn fill(color: Rgb) -> Self {
+        Self { fill: Some(color), pen: None, pen_below: false, opacity: 1.0 }
+    }
+
+    /// The same with dashes.
+    #[must_use]
+    pub fn dashed(mut self, dash: &'static [f64]) -> Self {
+        if let Some(pen) = &mut self.pen {
+            pen.dash = dash;
+        }
+        self
+    }
+
+    /// The same with another inside.
+    #[must_use]
+    pub fn filled(mut self, color: Rgb) -> Self {
+        self.fill = Some(color);
+        self
+    }
+
+    /// The same with another opacity.
+    #[must_use]
+    pub fn faded(mut self, opacity: f64) -> Self {
+        self.opacity = opacity;
+        self
+    }
+}
+
+/// Which point of a text its place names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Anchor {
+    /// Left end of the baseline.
+    Start,
+    /// Middle of the baseline.
+    Middle,
+    /// Right end of the baseline.
+    End,
+}
+
+/// A line of text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// Where.
+    pub at: Spot,
+    /// What, any characters.
+    pub text: String,
+    /// Height of the font, pixels.
+    pub size: f64,
+    /// Which point of the text is `at`.
+    pub anchor: Anchor,
+    /// Reads upwards.
+    pub upwards: bool,
+    /// Colour.
+    pub color: Rgb,
+}
+
+/// Something drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Item {
+    /// Lines and surfaces.
+    Outline(Vec<Step>, Style),
+    /// A disc.
+    Disc(Spot, f64, Style),
+    /// Text.
+    Text(Label),
+    /// Items of which only the part within the rectangle shows.
+    Clip(Rect, Vec<Item>),
+    /// A rectangle of coloured cells.
+    Raster(Raster),
+}
+
+/// Cells in columns from left to right, each from the bottom up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Raster {
+    /// Where the cells are.
+    pub rect: Rect,
+    /// Number of columns, number of cells in each.
+    pub cells: [usize; 2],
+    /// The colours in use.
+    pub palette: Vec<Rgb>,
+    /// For every cell an index into the palette, or nothing.
+    pub levels: Vec<Option<usize>>,
+}
+
+/// A page; later items cover earlier ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Pixels.
+    pub width: f64,
+    /// Pixels.
+    pub height: f64,
+    /// In drawing order.
+    pub items: Vec<Item>,
+}
+
+/// The outline of an open (or closed) chain of spots; spots nearer than a quarter of a pixel to the one before are
+/// left out, which no one can see and which keeps files small.
+#[must_use]
+pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
+    const INVISIBLE: f64 = 0.25;
+    let mut steps = Vec::new();
+    let mut kept: Option<Spot> = None;
+    let mut skipped = None;
+    for spot in spots {
+        match kept {
+            Some(last) if (spot[0] - last[0]).abs().max((spot[1] - last[1]).abs()) < INVISIBLE => {
+                skipped = Some(spot);
+            }
+            _ => {
+                steps.push(if steps.is_empty() { Step::Move(spot) } else { Step::Line(spot) });
+                (kept, skipped) = (Some(spot), None);
+            }
+        }
+    }
+    if closed {
+        if !steps.is_empty() {
+            steps.push(Step::Close);
+        }
+    } else {
+        steps.extend(skipped.map(Step::Line));
+    }
+    steps
+}
+
+/// The outline of a rectangle.
+#[must_use]
+pub fn rectangle(rect: Rect) -> Vec<Step> {
+    vec![
+        Step::Move([rect.x, rect.y]),
+        Step::Line([rect.right(), rect.y]),
+        Step::Line([rect.right(), rect.bottom()]),
+        Step::Line([rect.x, rect.bottom()]),
+        Step::Close,
+    ]
+}
+
+/// About how wide a text is, pixels: no font is at hand, so a typical advance (and a full square for East Asian
+/// characters) must do.
+#[must_use]
+pub fn text_width(text: &str, size: f64) -> f64 {
+    text.chars().map(|c| if c >= '\u{2e80}' { 1.0 } else { 0.53 }).sum::<f64>() * size
+}
+
+/// The text, or its beginning and an ellipsis if it is wider than `width` pixels.
+#[must_use]
+pub fn shortened(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let mut kept = String::new();
+    for c in text.chars() {
+        kept.push(c);
+        if text_width(&kept, size) + size > width {
+            break;
+        }
+    }
+    kept.push('\u{2026}');
+    kept
+}

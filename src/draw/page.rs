@@ -1,0 +1,62 @@
+//! The page: titles, two panels, legend.
+
+use super::Picture;
+use super::color::{GREY, INK, Rgb};
+use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Style, shortened, text_width};
+use super::{color, cspace, legend, workspace};
+
+const WIDTH: f64 = 1400.0;
+const HEIGHT: f64 = 720.0;
+const MARGIN: f64 = 28.0;
+
+/// The pen of path `index` out of `count`: a single one is drawn in ink.
+pub fn path_pen(index: usize, count: usize) -> Pen {
+    let (color, dash): (Rgb, &[f64]) = if count == 1 { (INK, &[]) } else { color::path(index) };
+    Pen { color, width: 2.4, dash }
+}
+
+/// A line that stays visible on any ground: a broad pale one under it.
+pub fn haloed(steps: Vec<super::figure::Step>, pen: Pen) -> [Item; 2] {
+    let halo = Style::line(color::WHITE, pen.width + 2.6).faded(0.85);
+    let line = Style { pen: Some(pen), ..Style::line(pen.color, pen.width) };
+    [Item::Outline(steps.clone(), halo), Item::Outline(steps, line)]
+}
+
+/// Draws everything.
+#[must_use]
+pub fn compose(picture: &Picture) -> Figure {
+    let mut items = titles(picture);
+    let top = 62.0 + 18.0 * picture.title.len().max(1) as f64;
+    let keys = legend::layout(legend::keys(picture), WIDTH - 2.0 * MARGIN);
+    let legend_top = HEIGHT - 14.0 - legend::ROW * keys.len() as f64;
+    let height = legend_top - 58.0 - top;
+    let left = Rect { x: 84.0, y: top, width: 570.0, height };
+    let right = Rect { x: 770.0, y: top, width: 530.0, height };
+    items.extend(workspace::panel(picture, left));
+    items.extend(cspace::panel(picture, right));
+    items.extend(heading("Workspace", left));
+    items.extend(heading("Configuration space", right));
+    items.extend(legend::items(&keys, WIDTH / 2.0, legend_top));
+    Figure { width: WIDTH, height: HEIGHT, items }
+}
+
+fn heading(text: &str, area: Rect) -> Option<Item> {
+    let at = [area.x + area.width / 2.0, area.y - 12.0];
+    Some(label(at, text.to_owned(), 16.0, Anchor::Middle, INK))
+}
+
+fn titles(picture: &Picture) -> Vec<Item> {
+    let mut items = Vec::new();
+    let status_width = text_width(&picture.status, 18.0);
+    items.push(label([WIDTH - MARGIN, 36.0], picture.status.clone(), 18.0, Anchor::End, INK));
+    for (i, line) in picture.title.iter().enumerate() {
+        let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
+        let room = WIDTH - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
+        items.push(label([MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
+    }
+    items
+}
+
+fn label(at: [f64; 2], text: String, size: f64, anchor: Anchor, color: Rgb) -> Item {
+    Item::Text(Label { at, text, size, anchor, upwards: false, color })
+}

@@ -1,0 +1,238 @@
+//! Figures as SVG.
+
+use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style};
+use ::svg::Document;
+use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
+use std::fmt::Write;
+
+/// The PNG writer brings the first; viewers take what they have.
+const FONTS: &str = "Ubuntu, 'DejaVu Sans', Helvetica, Arial, sans-serif";
+
+/// Pixels beyond which coordinates are cut off. Nothing that far is visible, and single-precision viewers stay exact
+/// to a tenth of a pixel up to here.
+const FAR: f64 = 1e6;
+
+/// The figure as an SVG document. Deterministic to the byte; coordinates have two decimals.
+#[must_use]
+pub fn write(figure: &Figure) -> String {
+    let mut clips = Vec::new();
+    let mut page = Group::new().set("font-family", FONTS).set("stroke-linejoin", "round");
+    page = page.add(
+        Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height)).set("fill", "#ffffff"),
+    );
+    for item in &figure.items {
+        page = add(page, item, &mut clips);
+    }
+    let mut definitions = Definitions::new();
+    for (i, rect) in clips.iter().enumerate() {
+        definitions = definitions.add(ClipPath::new().set("id", clip_id(i)).add(rectangle(rect)));
+    }
+    Document::new()
+        .set("width", number(figure.width))
+        .set("height", number(figure.height))
+        .set("viewBox", format!("0 0 {} {}", number(figure.width), number(figure.height)))
+        .add(definitions)
+        .add(page)
+        .to_string()
+}
+
+fn add(group: Group, item: &Item, clips: &mut Vec<Rect>) -> Group {
+    match item {
+        Item::Outline(steps, _) if steps.is_empty() => group,
+        Item::Outline(steps, style) => {
+            let path = Path::new().set("d", commands(steps));
+            group.add(attributes(style).into_iter().fold(path, |p, (key, value)| p.set(key, value)))
+        }
+        Item::Disc([x, y], radius, style) => {
+            let disc = Circle::new().set("cx", number(*x)).set("cy", number(*y)).set("r", number(*radius));
+            group.add(attributes(style).into_iter().fold(disc, |d, (key, value)| d.set(key, value)))
+        }
+        Item::Text(label) => group.add(text(label)),
+        Item::Clip(rect, items) => {
+            let id = clip_id(clips.len());
+            clips.push(*rect);
+            let inner = Group::new().set("clip-path", format!("url(#{id})"));
+            group.add(items.iter().fold(inner, |g, item| add(g, item, clips)))
+        }
+        Item::Raster(raster) => group.add(cells(raster)),
+    }
+}
+
+fn clip_id(index: usize) -> String {
+    format!("clip{index}")
+}
+
+fn rectangle(rect: &Rect) -> Rectangle {
+    Rectangle::new()
+        .set("x", number(rect.x))
+        .set("y", number(rect.y))
+        .set("width", number(rect.width))
+        .set("height", number(rect.height))
+}
+
+/// Two decimals at most, no trailing zeros, no negative zero.
+fn number(value: f64) -> String {
+    let cut = value.clamp(-FAR, FAR);
+    let text = format!("{cut:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+fn commands(steps: &[Step]) -> String {
+    let mut d = String::new();
+    for step in steps {
+        match step {
+            Step::Move([x, y]) => d.extend(["M", &number(*x), " ", &number(*y)]),
+            Step::Line([x, y]) => d.extend(["L", &number(*x), " ", &number(*y)]),
+            Step::Arc(radius, [x, y]) => {
+                let r = number(*radius);
+                d.extend(["A", &r, " ", &r, " 0 0 0 ", &number(*x), " ", &number(*y)]);
+            }
+            Step::Close => d.push('Z'),
+        }
+    }
+    d
+}
+
+fn attributes(style: &Style) -> Vec<(&'static str, String)> {
+    let mut all = vec![("fill", style.fill.map_or("none".to_owned(), |c| c.to_string()))];
+    if let Some(pen) = style.pen {
+        all.push(("stroke", pen.color.to_string()));
+        all.push(("stroke-width", number(pen.width)));
+        if !pen.dash.is_empty() {
+            all.push(("stroke-dasharray", pen.dash.iter().map(|&d| number(d)).collect::<Vec<_>>().join(" ")));
+        }
+        if style.pen_below {
+            all.push(("paint-order", "stroke".to_owned()));
+        }
+    }
+    if style.opacity < 1.0 {
+        all.push(("opacity", number(style.opacity)));
+    }
+    all
+}
+
+fn text(label: &Label) -> Text {
+    // Characters that XML 1.0 forbids even when escaped.
+    let clean: String = label.text.chars().map(|c| if is_xml(c) { c } else { '\u{fffd}' }).collect();
+    let [x, y] = label.at.map(number);
+    let mut text = Text::new(clean).set("font-size", number(label.size)).set("fill", label.color.to_string()).set(
+        "text-anchor",
+        match label.anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        },
+    );
+    if label.upwards {
+        text = text.set("transform", format!("rotate(-90 {x} {y})"));
+    }
+    text.set("x", x).set("y", y)
+}
+
+fn is_xml(c: char) -> bool {
+    !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+/// One path a colour, in units of cells, of rectangles: runs of equal colour in a column, merged with equal runs in
+/// the columns that follow. Without smoothing, or seams would show between them.
+fn cells(raster: &Raster) -> Group {
+    let [columns, rows] = raster.cells;
+    let mut paths = vec![String::new(); raster.palette.len()];
+    let mut taken = vec![false; raster.levels.len()];
+    for i in 0..columns {
+        let mut j = 0;
+        while j < rows {
+            let level = raster.levels[i * rows + j];
+            let begin = j;
+            j += 1;
+            let Some(level) = level.filter(|_| !taken[i * rows + begin]) else { continue };
+            let free = |i: usize, j: usize| raster.levels[i * rows + j] == Some(level) && !taken[i * rows + j];
+            while j < rows && free(i, j) {
+                j += 1;
+            }
+            let mut end = i + 1;
+            while end < columns && (begin..j).all(|j| free(end, j)) {
+                end += 1;
+            }
+            for i in i..end {
+                taken[i * rows + begin..i * rows + j].fill(true);
+            }
+            let (w, h) = (end - i, j - begin);
+            // Cells go up, pages go down: row j begins at rows - j from the top.
+            let _ = write!(paths[level], "M{i} {}h{w}v-{h}h-{w}z", rows - begin);
+        }
+    }
+    let Rect { x, y, width, height } = raster.rect;
+    let (sx, sy) = (width / columns.max(1) as f64, height / rows.max(1) as f64);
+    let place = format!("translate({} {}) scale({sx:.5} {sy:.5})", number(x), number(y));
+    let group = Group::new().set("transform", place).set("shape-rendering", "crispEdges");
+    paths
+        .into_iter()
+        .zip(&raster.palette)
+        .filter(|(d, _)| !d.is_empty())
+        .fold(group, |g, (d, color)| g.add(Path::new().set("fill", color.to_string()).set("d", d)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::color::Rgb;
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [(0.0, "0"), (-0.001, "0"), (1.0, "1"), (1.204, "1.2"), (-2.346, "-2.35"), (100.0, "100")]
+        {
+            assert_eq!(number(value), text);
+        }
+        assert_eq!(number(f64::INFINITY), "1000000");
+    }
+
+    #[test]
+    fn text_is_escaped_and_stripped_of_what_xml_forbids() {
+        let label = Label {
+            at: [1.0, 2.0],
+            text: "<a & \"b\">\u{1}".to_owned(),
+            size: 10.0,
+            anchor: Anchor::Start,
+            upwards: true,
+            color: Rgb(0, 0, 0),
+        };
+        let figure = Figure { width: 10.0, height: 10.0, items: vec![Item::Text(label)] };
+        let xml = write(&figure);
+        let tree = roxmltree::Document::parse(&xml).unwrap();
+        let text = tree.descendants().find(|n| n.has_tag_name("text")).unwrap();
+        assert_eq!(text.text(), Some("<a & \"b\">\u{fffd}"));
+    }
+
+    /// Paints the rectangles back and compares with the cells.
+    #[test]
+    fn raster_rectangles_cover_each_cell_once() {
+        let [columns, rows] = [7_usize, 5];
+        let levels: Vec<Option<usize>> =
+            (0..columns * rows).map(|k| (!k.is_multiple_of(4)).then_some((k / 3 + k % 2) % 3)).collect();
+        let raster = Raster {
+            rect: Rect { x: 0.0, y: 0.0, width: 70.0, height: 50.0 },
+            cells: [columns, rows],
+            palette: vec![Rgb(0, 0, 0), Rgb(1, 0, 0), Rgb(2, 0, 0)],
+            levels: levels.clone(),
+        };
+        let xml = write(&Figure { width: 70.0, height: 50.0, items: vec![Item::Raster(raster)] });
+        let tree = roxmltree::Document::parse(&xml).unwrap();
+        let mut painted = vec![None; columns * rows];
+        for path in tree.descendants().filter(|n| n.has_tag_name("path")) {
+            let level = usize::from_str_radix(&path.attribute("fill").unwrap()[1..3], 16).unwrap();
+            for rect in path.attribute("d").unwrap().split_terminator('z') {
+                let n: Vec<usize> = rect[1..].split([' ', 'h', 'v', '-']).filter_map(|s| s.parse().ok()).collect();
+                let [i, bottom, w, h, back] = n[..] else { panic!("odd rectangle {rect}") };
+                assert_eq!(w, back);
+                for i in i..i + w {
+                    for j in rows - bottom..rows - bottom + h {
+                        assert_eq!(painted[i * rows + j].replace(level), None, "cell ({i}, {j}) painted twice");
+                    }
+                }
+            }
+        }
+        assert_eq!(painted, levels);
+    }
+}

@@ -1,0 +1,320 @@
+//! Pictures: well-formed, deterministic, finite, and not blank.
+//!
+//! Set `CPLAN_PICTURES` to a folder to have the pictures written there and look at them.
+
+mod scenes;
+
+use cplan::draw::{Picture, svg};
+use cplan::model::Scene;
+use cplan::plan::Trace;
+use cplan::space::{Axis, Configuration, Path};
+use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
+use std::f64::consts::PI;
+
+/// Writes the picture if someone wants to look, checks what holds for every picture, and returns it.
+fn checked(name: &str, picture: &Picture) -> String {
+    let text = svg(picture);
+    if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
+        let file = |extension: &str| std::path::Path::new(&folder).join(format!("{name}.{extension}"));
+        std::fs::write(file("svg"), &text).unwrap();
+        #[cfg(feature = "png")]
+        std::fs::write(file("png"), cplan::draw::png(picture, 1.0).unwrap()).unwrap();
+    }
+    let tree = roxmltree::Document::parse(&text).expect("well-formed");
+    for node in tree.descendants().filter(|n| n.is_element()) {
+        for attribute in node.attributes().filter(|a| !matches!(a.name(), "font-family" | "fill" | "paint-order")) {
+            assert!(!attribute.value().contains("NaN") && !attribute.value().contains("inf"), "{attribute:?}");
+        }
+    }
+    assert_eq!(text, svg(picture), "drawing twice gives the same bytes");
+    text
+}
+
+fn words(text: &str) -> String {
+    let tree = roxmltree::Document::parse(text).unwrap();
+    let all: Vec<&str> = tree.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect();
+    all.join("\n")
+}
+
+fn planar(axes: [Axis; 2]) -> cplan::model::Arm {
+    arm(["shoulder", "elbow"], [TURN; 2], axes, [1.0, 0.8], [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)])
+}
+
+fn three() -> Scene {
+    scene(
+        planar([interval(-2.8, 2.8), interval(-2.6, 2.6)]),
+        vec![
+            polygon("shelf", &[(1.15, 0.2), (1.7, 0.2), (1.7, 0.34), (1.15, 0.34)]),
+            circle("post <1>", 0.5, -1.2, 0.16),
+            wall("fence & gate", &[(-1.2, -2.5), (-1.2, 0.4), (-0.8, 0.9)]),
+        ],
+    )
+}
+
+fn torus() -> Scene {
+    scene(
+        planar([Axis::Circle, Axis::Circle]),
+        vec![
+            polygon("block", &[(0.9, 0.6), (1.4, 0.6), (1.4, 1.1), (0.9, 1.1)]),
+            circle("post", -1.35, 0.1, 0.2),
+            circle("pipe", 0.4, -1.3, 0.2),
+        ],
+    )
+}
+
+fn gantry() -> Scene {
+    let arm = arm(
+        ["bridge", "trolley"],
+        [slide(1.0, 0.0), slide(0.0, 1.0)],
+        [interval(0.0, 2.0), interval(0.0, 1.2)],
+        [0.0, 0.0],
+        [block(-0.02, -0.1, 0.02, 1.3), block(-0.08, -0.06, 0.08, 0.06)],
+    );
+    let mut arm = arm;
+    arm.links[0].parts.clear();
+    scene(
+        arm,
+        vec![
+            polygon("crate", &[(0.5, -0.1), (0.8, -0.1), (0.8, 0.8), (0.5, 0.8)]),
+            polygon("wedge", &[(1.1, 1.3), (1.5, 0.45), (1.7, 1.3)]),
+        ],
+    )
+}
+
+fn polar() -> Scene {
+    let arm = arm(
+        ["swivel", "boom"],
+        [TURN, slide(1.0, 0.0)],
+        [interval(-1.5 * PI, 1.5 * PI), interval(0.0, 0.6)],
+        [0.4, 0.2],
+        [block(-0.1, -0.1, 0.4, 0.1), block(-0.3, -0.04, 0.2, 0.04)],
+    );
+    scene(arm, vec![circle("column", 0.0, 0.9, 0.2), wall("wall", &[(0.7, -0.5), (0.7, -0.1)])])
+}
+
+fn at(q1: f64, q2: f64) -> Configuration {
+    Configuration::new(q1, q2)
+}
+
+/// A planned picture: the wave's path between two configurations, drawn with the trace that `trace` makes.
+fn planned(
+    name: &str,
+    scene: &Scene,
+    [start, goal]: [Configuration; 2],
+    n: usize,
+    trace: impl Fn(&Cells, &[u32], usize, &Path) -> Trace,
+) -> String {
+    let cells = Cells::look(scene, n);
+    let [from, to] = [start, goal].map(|q| cells.index(q));
+    let labels = cells.labels(to);
+    let path = cells.descend(from, &labels);
+    let c_obstacles = cells.c_obstacles(scene.workspace.obstacles.len());
+    let trace = trace(&cells, &labels, to, &path);
+    let picture = Picture {
+        title: vec![format!("{name}: a picture of a plan"), format!("length {:.2}", path.length())],
+        status: "found".to_owned(),
+        scene,
+        start: path.start(),
+        goals: &[path.goal()],
+        paths: vec![("wavefront".to_owned(), &path)],
+        trace: Some(&trace),
+        c_obstacles: &c_obstacles,
+    };
+    checked(name, &picture)
+}
+
+#[test]
+fn a_wavefront_between_limits() {
+    let text = planned("rr_wavefront", &three(), [at(-1.9, 0.6), at(1.4, -1.0)], 160, |cells, labels, _, _| {
+        Trace::Wavefront { cells: [cells.n; 2], labels: labels.to_vec() }
+    });
+    let words = words(&text);
+    for word in ["shoulder (degrees)", "elbow (degrees)", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
+        assert!(words.contains(word), "{word} is missing in {words}");
+    }
+    assert!(text.contains("post &lt;1&gt;") && text.contains("fence &amp; gate"));
+    assert!(text.len() < 600_000, "{} bytes", text.len());
+}
+
+#[test]
+fn a_field_on_a_torus() {
+    let text = planned("torus_field", &torus(), [at(2.6, 0.3), at(-2.2, -1.6)], 96, |cells, _, goal, _| Trace::Field {
+        cells: [cells.n; 2],
+        potential: cells.potential(goal),
+    });
+    let words = words(&text);
+    assert!(words.contains("shoulder (degrees, wraps around)") && words.contains("equipotentials"));
+    assert!(text.contains("stroke-dasharray"), "seams are dashed");
+}
+
+#[test]
+fn a_channel_of_a_gantry() {
+    let text = planned("gantry_channel", &gantry(), [at(0.2, 0.15), at(1.8, 0.9)], 48, |cells, _, _, path| {
+        let boxes = cells.free_boxes();
+        let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
+        let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
+        Trace::Channel { cells: boxes, channel }
+    });
+    let words = words(&text);
+    for word in ["bridge (m)", "trolley (m)", "channel", "crate"] {
+        assert!(words.contains(word), "{word} is missing in {words}");
+    }
+}
+
+#[test]
+fn a_roadmap_on_an_interval_longer_than_a_turn() {
+    planned("polar_roadmap", &polar(), [at(-3.5, 0.3), at(3.0, 0.1)], 120, |cells, labels, _, _| {
+        let free: Vec<usize> = (0..labels.len()).filter(|k| labels[*k] != u32::MAX).step_by(97).collect();
+        let edges = free.windows(3).flat_map(|w| [[w[0], w[1]], [w[0], w[2]]]);
+        Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect() }
+    });
+}
+
+#[test]
+fn a_comparison_tells_paths_apart() {
+    let scene = torus();
+    let cells = Cells::look(&scene, 96);
+    let goal = cells.index(at(-2.2, -1.6));
+    let labels = cells.labels(goal);
+    let walk = cells.descend(cells.index(at(2.6, 0.3)), &labels);
+    let thinned = |step: usize| {
+        let mut waypoints: Vec<Configuration> = walk.waypoints().iter().copied().step_by(step).collect();
+        waypoints.push(walk.goal());
+        Path::new(waypoints)
+    };
+    let (few, fewer) = (thinned(7), thinned(19));
+    let c_obstacles = cells.c_obstacles(scene.workspace.obstacles.len());
+    let picture = Picture {
+        title: vec!["Comparison".to_owned(), "one line".to_owned(), "and another".to_owned()],
+        status: "3 of 3 found".to_owned(),
+        scene: &scene,
+        start: walk.start(),
+        goals: &[walk.goal()],
+        paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
+        trace: None,
+        c_obstacles: &c_obstacles,
+    };
+    let words = words(&checked("comparison", &picture));
+    for word in ["Comparison", "and another", "visibility", "trapezoid", "wavefront", "3 of 3 found"] {
+        assert!(words.contains(word), "{word} is missing in {words}");
+    }
+}
+
+#[test]
+fn a_crowd_without_a_path() {
+    let crowd = |k: usize| {
+        let (angle, distance) = (k as f64 * 2.4, 0.9 + 0.018 * k as f64);
+        circle(&format!("o{k}"), distance * angle.cos(), distance * angle.sin(), 0.05)
+    };
+    let scene = scene(planar([interval(-2.8, 2.8), interval(-2.6, 2.6)]), (0..60).map(crowd).collect());
+    let c_obstacles = Cells::look(&scene, 90).c_obstacles(60);
+    let picture = Picture {
+        title: vec!["A crowd".to_owned()],
+        status: "infeasible: proven".to_owned(),
+        scene: &scene,
+        start: at(-2.0, 2.4),
+        goals: &[at(1.0, -2.4), at(2.0, 2.4)],
+        paths: Vec::new(),
+        trace: None,
+        c_obstacles: &c_obstacles,
+    };
+    let words = words(&checked("crowd", &picture));
+    assert!(words.contains("infeasible: proven") && !words.contains("o17"));
+}
+
+fn bare<'a>(scene: &'a Scene, goals: &'a [Configuration]) -> Picture<'a> {
+    Picture {
+        title: vec!["<&> \"title\"".to_owned()],
+        status: "unknown".to_owned(),
+        scene,
+        start: at(0.0, 0.0),
+        goals,
+        paths: Vec::new(),
+        trace: None,
+        c_obstacles: &[],
+    }
+}
+
+#[test]
+fn empty_and_degenerate_scenes_have_finite_axes() {
+    let tiny = arm(
+        ["a", "b"],
+        [TURN; 2],
+        [interval(0.3, 0.3), interval(-0.001, 0.001)],
+        [1e-9, 1e-9],
+        [capsule(0.0, 0.0), capsule(0.0, 0.0)],
+    );
+    let no_goals: [Configuration; 0] = [];
+    let far = || vec![circle("far", 1e9, -1e9, 1.0), polygon("farther", &[(1e12, 0.0), (1e12, 1.0), (9e11, 1.0)])];
+    for (name, scene) in [
+        ("empty", scene(planar([Axis::Circle, interval(-1.0, 1.0)]), Vec::new())),
+        ("far", scene(planar([Axis::Circle, interval(-1.0, 1.0)]), far())),
+        ("tiny", scene(tiny.clone(), Vec::new())),
+        ("tiny_far", scene(tiny, far())),
+    ] {
+        let words = words(&checked(name, &bare(&scene, &no_goals)));
+        assert!(words.contains("<&> \"title\""));
+        assert_eq!(words.contains("2 obstacles lie outside"), name.contains("far"));
+    }
+}
+
+#[test]
+fn a_motion_that_stays_where_it_is_is_drawn() {
+    let scene = three();
+    let path = Path::new(vec![at(0.0, 0.0)]);
+    let goals = [at(0.0, 0.0)];
+    for trace in [
+        Trace::Roadmap { edges: Vec::new() },
+        Trace::Channel { cells: Vec::new(), channel: Vec::new() },
+        Trace::Wavefront { cells: [1, 1], labels: vec![0] },
+        Trace::Wavefront { cells: [0, 0], labels: Vec::new() },
+        Trace::Wavefront { cells: [2, 1], labels: vec![u32::MAX; 2] },
+        Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
+        Trace::Field { cells: [0, 0], potential: Vec::new() },
+    ] {
+        let mut picture = bare(&scene, &goals);
+        picture.paths = vec![("visibility".to_owned(), &path)];
+        picture.trace = Some(&trace);
+        assert!(checked("still", &picture).starts_with("<svg"));
+    }
+}
+
+#[cfg(feature = "png")]
+mod raster {
+    use super::*;
+    use cplan::draw::{DrawError, png};
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn a_png_has_its_size_and_is_not_blank() {
+        let scene = three();
+        let goals = [at(1.0, 1.0)];
+        let bytes = png(&bare(&scene, &goals), 0.5).unwrap();
+        assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+        let pixels = resvg::tiny_skia::Pixmap::decode_png(&bytes).unwrap();
+        assert_eq!((pixels.width(), pixels.height()), (700, 360));
+        let colors: BTreeSet<[u8; 3]> = pixels.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect();
+        assert!(colors.len() > 50, "{} colours", colors.len());
+    }
+
+    /// Text needs the font that is built in: the picture with a longer title has more dark pixels at the top.
+    #[test]
+    fn text_is_rendered_without_fonts_of_the_machine() {
+        let scene = three();
+        let dark = |title: &str| {
+            let mut picture = bare(&scene, &[]);
+            picture.title = vec![title.to_owned()];
+            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&picture, 1.0).unwrap()).unwrap();
+            pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
+        };
+        assert!(dark("A title of some length") > dark("") + 300);
+    }
+
+    #[test]
+    fn scales_that_make_no_picture_are_refused() {
+        let scene = three();
+        for scale in [0.0, -1.0, 1e-9, 1e3, f64::NAN, f64::INFINITY] {
+            assert!(matches!(png(&bare(&scene, &[]), scale), Err(DrawError::Scale(_))), "{scale}");
+        }
+    }
+}
