@@ -96,14 +96,12 @@ impl EffortArgs {
     /// A margin that is not a positive number.
     pub fn effort(&self) -> Result<Effort, String> {
         if !(self.margin > 0.0 && self.margin <= 0.1) {
-            return Err(format!("--margin: must be more than 0 and at most 0.1 of the arm's reach, is {}", self.margin));
+            return Err(format!(
+                "--margin: must be more than 0 and at most 0.1 of the arm's reach, is {}",
+                self.margin
+            ));
         }
-        Ok(Effort {
-            levels: self.levels.into(),
-            margin: self.margin,
-            cells: self.cells as usize,
-            ..Effort::default()
-        })
+        Ok(Effort { levels: self.levels.into(), margin: self.margin, cells: self.cells as usize, ..Effort::default() })
     }
 }
 

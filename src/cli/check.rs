@@ -1,14 +1,14 @@
 //! `cplan check`: why a configuration is, or is not, free.
 
+use super::DONE;
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::{configuration, range, value};
-use super::DONE;
-use crate::cspace::c_obstacles;
+use crate::cspace::CObstacle;
 use crate::draw::Picture;
-use crate::geometry::{Point, PolygonTest, polygon_test, shapes_meet};
-use crate::input::{self, LoadedScene, Overrides};
+use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
+use crate::input::{self, LoadedScene};
 use crate::model::{Contact, Scene};
 use crate::space::Configuration;
 use nalgebra::Vector3;
@@ -70,14 +70,17 @@ struct CornerFinding {
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
     let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
-    loaded.keep(&Overrides { clearance: args.clearance, ..Overrides::default() })?;
+    if let Some(clearance) = args.clearance {
+        loaded.scene.workspace.clearance = clearance;
+    }
     loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm.joints, "--at").map_err(input::InputError::from)?;
     let findings = findings(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            output::save_picture(*format, path, &picture(scene, q, &findings))?;
+            let contours = output::contours(scene);
+            output::save_picture(*format, path, &picture(scene, q, &findings, &contours))?;
         }
     }
     if args.json {
@@ -120,10 +123,9 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
     let (a, b) = (part.core(), piece.core());
     // Corners and sides are those of polygons; of rounded shapes the depth says it all.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
-    let test = if sharp { polygon_test(a, b) } else { PolygonTest::default() };
-    let corner = |corners: &[Point], c: &crate::geometry::CornerInside| CornerFinding {
-        at: pair(corners[c.corner]),
-        depth: c.depth,
+    let test = sharp.then(|| polygon_test(a, b));
+    let inside = |corners: &[Point], found: &[CornerInside]| {
+        found.iter().map(|c| CornerFinding { at: pair(corners[c.corner]), depth: c.depth }).collect()
     };
     let side = |corners: &[Point], i: usize| [pair(corners[i]), pair(corners[(i + 1) % corners.len()])];
     let link = &scene.arm.links[indices.link];
@@ -133,9 +135,10 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         obstacle: scene.workspace.obstacles[indices.obstacle].name.clone(),
         touching,
         depth: -separation.distance,
-        link_corners_inside: test.a_inside.iter().map(|c| corner(a, c)).collect(),
-        obstacle_corners_inside: test.b_inside.iter().map(|c| corner(b, c)).collect(),
-        crossing_sides: test.crossings.iter().map(|&(i, k)| [side(a, i), side(b, k)]).collect(),
+        link_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(a, &t.a_inside)),
+        obstacle_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(b, &t.b_inside)),
+        crossing_sides: test
+            .map_or_else(Vec::new, |t| t.crossings.iter().map(|&(i, k)| [side(a, i), side(b, k)]).collect()),
     })
 }
 
@@ -143,7 +146,7 @@ fn pair(p: Point) -> [f64; 2] {
     [p.x, p.y]
 }
 
-fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings) -> Picture<'a> {
+fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours: &'a [CObstacle]) -> Picture<'a> {
     Picture {
         title: vec![scene.arm.name.clone(), configuration(&scene.arm, q)],
         status: if findings.free { "free".into() } else { "not free".into() },
@@ -152,7 +155,7 @@ fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings) -> Pictu
         goals: &[],
         paths: Vec::new(),
         trace: None,
-        c_obstacles: Vec::new(),
+        c_obstacles: contours,
     }
 }
 
@@ -184,8 +187,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
             (false, _) => format!("is {:.6} m away, less than the clearance of {} m", -depth, findings.required),
         };
         line("contact", format!("link {link}, obstacle \"{obstacle}\": {how}"));
-        for (whose, corners) in
-            [("link", &contact.link_corners_inside), ("obstacle", &contact.obstacle_corners_inside)]
+        for (whose, corners) in [("link", &contact.link_corners_inside), ("obstacle", &contact.obstacle_corners_inside)]
         {
             for CornerFinding { at, depth } in corners {
                 line("", format!("  {whose} corner ({:.4}, {:.4}) is {depth:.6} m inside", at[0], at[1]));

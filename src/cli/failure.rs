@@ -2,7 +2,7 @@
 
 use crate::draw::DrawError;
 use crate::input::InputError;
-use crate::trajectory::{TrajectoryError, WriteError};
+use crate::trajectory::{TimingError, WriteError};
 use thiserror::Error;
 
 /// Bad input or I/O, in the user's words.
@@ -13,7 +13,7 @@ pub enum Failure {
     Input(#[from] InputError),
     /// The trajectory cannot be made as asked.
     #[error(transparent)]
-    Trajectory(#[from] TrajectoryError),
+    Trajectory(#[from] TimingError),
     /// An output file.
     #[error(transparent)]
     Write(#[from] WriteError),

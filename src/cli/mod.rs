@@ -30,9 +30,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (None, Some(args)) => plan::run(args),
-        (None, None) => {
-            Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit()
-        }
+        (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };
     ExitCode::from(done.unwrap_or_else(|failure: Failure| {
         eprintln!("error: {failure}");

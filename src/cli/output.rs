@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, Picture};
-use crate::model::Problem;
+use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Verdict};
 use crate::trajectory::{Format, Report, write_whole};
 use std::io::{ErrorKind, Write};
@@ -103,7 +103,7 @@ pub fn write_picture(
     report: &Report,
 ) -> Result<(), Failure> {
     let scene = &problem.scene;
-    let contours = contours(problem);
+    let contours = contours(scene);
     let found = if let Verdict::Found(certified) = &answer.verdict { Some(certified.path()) } else { None };
     let (status, detail) = match (&answer.verdict, report.length) {
         (Verdict::Found(_), Some(length)) => {
@@ -136,9 +136,9 @@ pub fn title(problem: &Problem) -> String {
 }
 
 /// C-obstacles for pictures.
-pub fn contours(problem: &Problem) -> Vec<CObstacle> {
-    let tolerance = PICTURE_TOLERANCE * problem.scene.arm.reach();
-    c_obstacles(&problem.scene, tolerance, tolerance)
+pub fn contours(scene: &Scene) -> Vec<CObstacle> {
+    let tolerance = PICTURE_TOLERANCE * scene.arm.reach();
+    c_obstacles(scene, tolerance, tolerance)
 }
 
 /// Writes a picture.

@@ -81,7 +81,8 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
     let mut lines: Vec<(&str, String)> = Vec::new();
     lines.push(("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name)));
     for joint in &arm.joints {
-        let speeds = format!("at most {} {unit}/s, {} {unit}/s2", joint.velocity, joint.acceleration, unit = joint.unit());
+        let speeds =
+            format!("at most {} {unit}/s, {} {unit}/s2", joint.velocity, joint.acceleration, unit = joint.unit());
         lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
     }
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
@@ -96,16 +97,22 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
         Verdict::Found(certified) => {
             let path = certified.path();
             let segments = path.segments().count();
-            lines.push(("result", format!("found and certified: {segments} straight pieces, length {:.4}", path.length())));
-            lines.push(("clearance", match certified.nearest() {
-                Some(nearest) => format!(
-                    "{:.6} m proven; closest: {} at {}",
-                    certified.clearance(),
-                    scene.describe(nearest.contact.pair),
-                    configuration(arm, nearest.at)
-                ),
-                None => "nothing can be hit".into(),
-            }));
+            lines.push((
+                "result",
+                format!("found and certified: {segments} straight pieces, length {:.4}", path.length()),
+            ));
+            lines.push((
+                "clearance",
+                match certified.nearest() {
+                    Some(nearest) => format!(
+                        "{:.6} m proven; closest: {} at {}",
+                        certified.clearance(),
+                        scene.describe(nearest.contact.pair),
+                        configuration(arm, nearest.at)
+                    ),
+                    None => "nothing can be hit".into(),
+                },
+            ));
         }
         Verdict::Infeasible(_) => {
             lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));

@@ -3,8 +3,8 @@
 use super::Trajectory;
 use crate::model::Joint;
 use crate::space::Path;
-use serde::ser::{SerializeMap, Serializer};
 use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::{CompactFormatter, Formatter};
 use std::collections::BTreeMap;
 use std::io::{self, Write};

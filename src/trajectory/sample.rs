@@ -109,7 +109,8 @@ impl Leg {
         let least = |limit: fn(&Joint) -> f64| {
             (0..2).map(|k| limit(&joints[k]) / direction[k].abs()).fold(f64::INFINITY, f64::min)
         };
-        let profile = Profile::rest_to_rest(length, least(|j| j.velocity), least(|j| j.acceleration), SHORTEST_INTERVAL);
+        let profile =
+            Profile::rest_to_rest(length, least(|j| j.velocity), least(|j| j.acceleration), SHORTEST_INTERVAL);
         Self { from, to, length, direction, profile, begin, end: begin + profile.duration() }
     }
 

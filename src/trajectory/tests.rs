@@ -137,7 +137,8 @@ fn useless_periods_and_endless_motions_are_errors() {
 }
 
 fn joints() -> impl Strategy<Value = [Joint; 2]> {
-    let one = || (any::<bool>(), -2.0..2.0f64, -1.0..3.0f64).prop_map(|(r, v, a)| joint(r, 10f64.powf(v), 10f64.powf(a)));
+    let one =
+        || (any::<bool>(), -2.0..2.0f64, -1.0..3.0f64).prop_map(|(r, v, a)| joint(r, 10f64.powf(v), 10f64.powf(a)));
     (one(), one()).prop_map(|(a, b)| [a, b])
 }
 

@@ -1,0 +1,121 @@
+//! `cplan compare`: every planner on the same problem, side by side.
+
+use super::args::CompareArgs;
+use super::failure::Failure;
+use super::output::{self, Sink};
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::draw::Picture;
+use crate::input;
+use crate::model::Problem;
+use crate::report::{Comparison, Row};
+use crate::solve::{Answer, Method, Verdict, solve};
+use crate::trajectory::time;
+use std::time::Duration;
+
+/// Compares, and returns the exit code: that of the best answer.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
+    let sinks = output::sinks(&[], &args.picture)?;
+    let effort = args.effort.effort().map_err(Failure::Option)?;
+    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    let problem = &loaded.problem;
+    let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
+    let mut answers = Vec::new();
+    let mut rows = Vec::new();
+    for method in methods {
+        if !args.quiet {
+            eprintln!("{method} ...");
+        }
+        let answer = solve(problem, method, &effort, &mut |text| {
+            if !args.quiet {
+                eprintln!("{text}");
+            }
+        });
+        rows.push(row(problem, &answer, args.effort.period)?);
+        answers.push(answer);
+    }
+    let comparison = Comparison { problem: output::title(problem), length_unit: length_unit(problem), rows };
+    for sink in &sinks {
+        if let Sink::Picture(format, path) = sink {
+            draw(problem, &answers, &comparison, *format, path)?;
+        }
+    }
+    let text = if args.json {
+        serde_json::to_string_pretty(&comparison.to_json()).map_err(|e| Failure::Option(e.to_string()))? + "\n"
+    } else if args.csv {
+        comparison.to_csv()
+    } else {
+        comparison.to_text()
+    };
+    output::print(&text)?;
+    Ok(if answers.iter().any(|a| matches!(a.verdict, Verdict::Found(_))) {
+        DONE
+    } else if answers.iter().any(|a| matches!(a.verdict, Verdict::Infeasible(_))) {
+        INFEASIBLE
+    } else {
+        UNKNOWN
+    })
+}
+
+fn row(problem: &Problem, answer: &Answer, period: f64) -> Result<Row, Failure> {
+    let seconds = |time: Duration| (!time.is_zero()).then(|| time.as_secs_f64());
+    let mut row = Row {
+        planner: answer.method.name().into(),
+        outcome: "unknown".into(),
+        length: None,
+        clearance: None,
+        duration: None,
+        size: Some(answer.run.size),
+        build: seconds(answer.stages.build),
+        query: seconds(answer.stages.query),
+        certify: seconds(answer.stages.certify),
+    };
+    match &answer.verdict {
+        Verdict::Found(certified) => {
+            row.outcome = "found".into();
+            row.length = Some(certified.path().length());
+            row.clearance = Some(certified.clearance()).filter(|c| c.is_finite());
+            row.duration = Some(time(certified, &problem.scene.arm.joints, period)?.duration());
+        }
+        Verdict::Infeasible(_) => row.outcome = "infeasible".into(),
+        Verdict::Unknown(_) => {}
+    }
+    Ok(row)
+}
+
+fn length_unit(problem: &Problem) -> String {
+    let units = problem.scene.arm.joints.each_ref().map(|j| j.unit());
+    if units[0] == units[1] { units[0].into() } else { units.join(", ") }
+}
+
+fn draw(
+    problem: &Problem,
+    answers: &[Answer],
+    comparison: &Comparison,
+    format: output::PictureFormat,
+    file: &std::path::Path,
+) -> Result<(), Failure> {
+    let contours = output::contours(&problem.scene);
+    let paths = answers.iter().filter_map(|answer| match &answer.verdict {
+        Verdict::Found(certified) => {
+            Some((format!("{}: {:.3}", answer.method, certified.path().length()), certified.path()))
+        }
+        _ => None,
+    });
+    let paths: Vec<_> = paths.collect();
+    let status = format!("{} of {} found a certified path", paths.len(), answers.len());
+    let picture = Picture {
+        title: vec![output::title(problem), format!("lengths in {}", comparison.length_unit)],
+        status,
+        scene: &problem.scene,
+        start: problem.start,
+        goals: &problem.goals,
+        paths,
+        trace: None,
+        c_obstacles: &contours,
+    };
+    output::save_picture(format, file, &picture)
+}
