@@ -29,7 +29,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
 
     let mut inside = frame.grid(units);
-    inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &topology, &paths)));
+    inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &paths)));
     for index in 0..picture.scene.workspace.obstacles.len() {
         let contours = picture.c_obstacles.iter().filter(|c| c.obstacle == index);
         inside.push(c_obstacle(contours, color::obstacle(index), &frame, &obstacles));
@@ -47,7 +47,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
         let q = topology.wrap(q);
         frame.at(q[0], q[1])
     };
-    // Goals that no path reached are hollow.
+    // Where paths were found, the goals that none of them reached are hollow.
     let reached: Vec<Spot> = picture.paths.iter().map(|(_, path)| place(path.goal())).collect();
     items.extend(picture.goals.iter().flat_map(|&q| goal_marker(place(q), picture.paths.is_empty())));
     items.extend(reached.into_iter().flat_map(|spot| goal_marker(spot, true)));
