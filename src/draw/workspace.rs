@@ -34,9 +34,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     inside.extend(arm_items(&frame, arm, picture.start, &START));
     let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.goals.first().copied());
     inside.extend(goal.into_iter().flat_map(|q| arm_items(&frame, arm, q, &GOAL)));
-    for (i, (_, path)) in picture.paths.iter().enumerate() {
-        inside.extend(page::haloed(tip_trace(&frame, arm, path), page::path_pen(i, picture.paths.len())));
-    }
+    inside.extend(page::path_items(picture.paths.iter().map(|(_, path)| tip_trace(&frame, arm, path)).collect()));
     inside.extend(hidden_note(&frame, obstacles));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
