@@ -31,13 +31,14 @@ fn sound((lower, upper): Range) -> Range {
     if !(lower.is_finite() && upper.is_finite()) {
         return (-1.0, 1.0);
     }
-    let least = f64::max(1e-6, 1e-9 * lower.abs().max(upper.abs()));
+    // A millimetre, or the twentieth part of a degree: less makes labels of many digits and tells nothing.
+    let least = f64::max(1e-3, 1e-9 * lower.abs().max(upper.abs()));
     if upper - lower >= least { (lower, upper) } else { (lower - least / 2.0, lower + least / 2.0) }
 }
 
 impl Frame {
-    /// The largest frame in `area` that shows just these ranges; with `equal_scale` in the middle of the area, with the
-    /// same scale along both axes.
+    /// The largest frame in `area` that shows just these ranges; with `equal_scale` in the upper middle of the area,
+    /// with the same scale along both axes.
     #[must_use]
     pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
         let (x, y) = (sound(x), sound(y));
@@ -47,7 +48,6 @@ impl Frame {
             rect.width = (x.1 - x.0) * scale;
             rect.height = (y.1 - y.0) * scale;
             rect.x += (area.width - rect.width) / 2.0;
-            rect.y += (area.height - rect.height) / 2.0;
         }
         Self { rect, x, y }
     }

@@ -4,6 +4,9 @@ use super::axes::Range;
 use crate::space::Configuration;
 use std::f64::consts::TAU;
 
+/// Copies beyond this number are left out: in a panel of some 500 pixels a turn would be half a pixel wide.
+const MOST_TURNS: f64 = 1000.0;
+
 /// The part of joint space that is shown, and along which axes things repeat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
@@ -37,7 +40,7 @@ impl Window {
         }
         let first = ((window.0 - upper) / TAU).ceil();
         let last = ((window.1 - lower) / TAU).floor();
-        let count = (last - first).max(-1.0) as i64;
+        let count = (last - first).clamp(-1.0, MOST_TURNS) as i64;
         (0..=count).map(|k| (first + k as f64) * TAU).collect()
     }
 

@@ -8,7 +8,7 @@ use super::{Picture, page, trace};
 use crate::cspace::CObstacle;
 use crate::geometry::{Point, cross};
 use crate::model::Joint;
-use crate::space::Configuration;
+use crate::space::{Configuration, Path};
 
 /// Ratio of the ranges of two joints of one kind up to which both are drawn to one scale.
 const ONE_SCALE: f64 = 2.2;
@@ -29,17 +29,17 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
 
     let mut inside = frame.grid(units);
-    inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &topology, &paths)));
+    inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &paths)));
     for index in 0..picture.scene.workspace.obstacles.len() {
         let contours = picture.c_obstacles.iter().filter(|c| c.obstacle == index);
         inside.push(c_obstacle(contours, color::obstacle(index), &frame, &obstacles));
     }
     inside.extend(picture.trace.into_iter().flat_map(|t| trace::above(t, &frame, &topology, &paths)));
-    for (i, (_, path)) in picture.paths.iter().enumerate() {
+    let outline = |path: &Path| {
         let pieces = paths.pieces(path.waypoints());
-        let steps = pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| frame.at(q[0], q[1])), false)).collect();
-        inside.extend(page::haloed(steps, page::path_pen(i, picture.paths.len())));
-    }
+        pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| frame.at(q[0], q[1])), false)).collect()
+    };
+    inside.extend(page::path_items(picture.paths.iter().map(|(_, path)| outline(path)).collect()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border(units, [0, 1].map(|k| title(&arm.joints[k])), seams));
     items.extend(picture.trace.into_iter().flat_map(|t| trace::color_bar(t, &frame)));
@@ -47,7 +47,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
         let q = topology.wrap(q);
         frame.at(q[0], q[1])
     };
-    // Goals that no path reached are hollow.
+    // Where paths were found, the goals that none of them reached are hollow.
     let reached: Vec<Spot> = picture.paths.iter().map(|(_, path)| place(path.goal())).collect();
     items.extend(picture.goals.iter().flat_map(|&q| goal_marker(place(q), picture.paths.is_empty())));
     items.extend(reached.into_iter().flat_map(|spot| goal_marker(spot, true)));

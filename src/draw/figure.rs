@@ -214,11 +214,19 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
     ]
 }
 
-/// About how wide a text is, pixels: no font is at hand, so a typical advance (and a full square for East Asian
-/// characters) must do.
+/// About how wide a text is, pixels: viewers choose their fonts, so typical advances (in units of the font's height)
+/// must do.
 #[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
-    text.chars().map(|c| if c >= '\u{2e80}' { 1.0 } else { 0.53 }).sum::<f64>() * size
+    let advance = |c: char| match c {
+        'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | ' ' | '.' | ',' | ':' | ';' | '\'' | '|' | '(' | ')' => 0.3,
+        'm' | 'w' | 'M' | 'W' | '@' => 0.82,
+        // East Asian characters fill a square.
+        '\u{2e80}'.. => 1.0,
+        c if c.is_uppercase() => 0.64,
+        _ => 0.53,
+    };
+    text.chars().map(advance).sum::<f64>() * size
 }
 
 /// The text, or its beginning and an ellipsis if it is wider than `width` pixels.

@@ -2,7 +2,7 @@
 
 use super::Picture;
 use super::color::{GREY, INK, Rgb};
-use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Style, shortened, text_width};
+use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
 use super::{color, cspace, legend, workspace};
 
 const WIDTH: f64 = 1400.0;
@@ -15,11 +15,19 @@ pub fn path_pen(index: usize, count: usize) -> Pen {
     Pen { color, width: 2.4, dash }
 }
 
-/// A line that stays visible on any ground: a broad pale one under it.
-pub fn haloed(steps: Vec<super::figure::Step>, pen: Pen) -> [Item; 2] {
-    let halo = Style::line(color::WHITE, pen.width + 2.6).faded(0.85);
-    let line = Style { pen: Some(pen), ..Style::line(pen.color, pen.width) };
-    [Item::Outline(steps.clone(), halo), Item::Outline(steps, line)]
+/// The paths, visible on any ground by the broad pale line under each. Those come first, so that no path hides in the
+/// gaps of another's dashes.
+pub fn path_items(outlines: Vec<Vec<Step>>) -> Vec<Item> {
+    let count = outlines.len();
+    let mut halos = Vec::with_capacity(2 * count);
+    let mut lines = Vec::with_capacity(count);
+    for (i, steps) in outlines.into_iter().enumerate() {
+        let pen = path_pen(i, count);
+        halos.push(Item::Outline(steps.clone(), Style::line(color::WHITE, pen.width + 2.6).faded(0.85)));
+        lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
+    }
+    halos.extend(lines);
+    halos
 }
 
 /// Draws everything.

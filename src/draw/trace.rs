@@ -20,11 +20,13 @@ const LINES: usize = 20;
 const TAIL: f64 = 0.02;
 
 const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
+/// Part of white in the colours of surfaces, on which lines must stay legible.
+const SOFT: f64 = 0.22;
 const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 
 /// What lies under the C-obstacles: surfaces.
 #[must_use]
-pub fn below(trace: &Trace, frame: &Frame, _: &Topology, window: &Window) -> Vec<Item> {
+pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
     match trace {
         Trace::Channel { cells, channel } => {
             let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|c| polygon(c, frame, window)).collect();
@@ -87,7 +89,7 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
     };
     let (x, height) = (frame.rect.right() + 16.0, frame.rect.height.min(200.0));
     let rect = Rect { x, y: frame.rect.bottom() - height, width: 12.0, height };
-    let palette = (0..SHADES).map(|k| color::scale(k as f64 / (SHADES - 1) as f64)).collect();
+    let palette = palette(if matches!(trace, Trace::Field { .. }) { 0.0 } else { SOFT });
     let label = |at, text, upwards| {
         let (anchor, color) = if upwards { (Anchor::Middle, INK) } else { (Anchor::Start, GREY) };
         Item::Text(Label { at, text, size: 13.0, anchor, upwards, color })
@@ -98,6 +100,10 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
         label([x + 18.0, rect.bottom()], bottom, false),
         label([x + 30.0, rect.y + height / 2.0], title.to_owned(), true),
     ]
+}
+
+fn palette(white: f64) -> Vec<Rgb> {
+    (0..SHADES).map(|k| color::scale(k as f64 / (SHADES - 1) as f64).lighter(white)).collect()
 }
 
 fn short(value: f64) -> String {
@@ -135,7 +141,7 @@ fn shades(cells: [usize; 2], labels: &[u32], frame: &Frame) -> Raster {
     Raster {
         rect,
         cells: coarse,
-        palette: (0..SHADES).map(|k| color::scale(k as f64 / (SHADES - 1) as f64)).collect(),
+        palette: palette(SOFT),
         levels: least.into_iter().map(|l| (l != u32::MAX).then(|| shade(l))).collect(),
     }
 }

@@ -1,1 +1,6 @@
-//! (to be written)
+//! Comparisons as tables: for people, for spreadsheets, for programs.
+
+mod comparison;
+mod table;
+
+pub use comparison::{Comparison, Row};

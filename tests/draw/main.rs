@@ -138,7 +138,7 @@ fn a_wavefront_between_limits() {
 
 #[test]
 fn a_field_on_a_torus() {
-    let text = planned("torus_field", &torus(), [at(2.6, 0.3), at(-2.2, -1.6)], 96, |cells, _, goal, _| Trace::Field {
+    let text = planned("torus_field", &torus(), [at(2.6, 0.3), at(-2.2, -1.6)], 72, |cells, _, goal, _| Trace::Field {
         cells: [cells.n; 2],
         potential: cells.potential(goal),
     });

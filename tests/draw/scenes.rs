@@ -150,10 +150,10 @@ impl Cells {
         let (i, j) = (index as i64 / n, index as i64 % n);
         let step = |d: [i64; 2]| {
             let mut to = [i + d[0], j + d[1]];
-            for k in 0..2 {
-                if self.topology.axes[k].is_circle() {
-                    to[k] = to[k].rem_euclid(n);
-                } else if !(0..n).contains(&to[k]) {
+            for (to, axis) in to.iter_mut().zip(self.topology.axes) {
+                if axis.is_circle() {
+                    *to = to.rem_euclid(n);
+                } else if !(0..n).contains(to) {
                     return None;
                 }
             }
@@ -201,7 +201,7 @@ impl Cells {
     /// Logarithm of the harmonic potential, by plain relaxation.
     pub fn potential(&self, goal: usize) -> Vec<f64> {
         let mut p = vec![0.0_f64; self.hit.len()];
-        for _ in 0..1500 {
+        for _ in 0..700 {
             for k in 0..p.len() {
                 p[k] = match self.hit[k] {
                     _ if k == goal => 1.0,

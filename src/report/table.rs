@@ -1,0 +1,96 @@
+//! Text tables.
+
+/// Side to which a column's cells are moved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// For words.
+    Left,
+    /// For numbers.
+    Right,
+}
+
+/// A column's header.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    name: String,
+    align: Align,
+}
+
+impl Column {
+    /// A column of this name.
+    pub fn new(name: &str, align: Align) -> Self {
+        Self { name: name.to_owned(), align }
+    }
+}
+
+/// Columns and rows of cells; a missing cell is shown as `-`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Headers.
+    pub columns: Vec<Column>,
+    /// As many cells as columns each.
+    pub rows: Vec<Vec<Option<String>>>,
+}
+
+impl Table {
+    /// Columns two spaces apart, a rule under the header, no trailing spaces.
+    pub fn to_text(&self) -> String {
+        let widths = self.widths();
+        let line = |cells: Vec<String>| format!("{}\n", cells.join("  ").trim_end());
+        let mut text = line(self.padded(&self.header(), &widths));
+        text += &line(widths.iter().map(|&w| "-".repeat(w)).collect());
+        for row in &self.rows {
+            text += &line(self.padded(&shown(row), &widths));
+        }
+        text
+    }
+
+    /// A table of GitHub's Markdown, aligned in the source too.
+    pub fn to_markdown(&self) -> String {
+        let escaped = Self {
+            columns: self.columns.clone(),
+            rows: self
+                .rows
+                .iter()
+                .map(|r| r.iter().map(|c| c.as_ref().map(|c| c.replace('|', "\\|"))).collect())
+                .collect(),
+        };
+        // A rule needs three characters.
+        let widths: Vec<usize> = escaped.widths().into_iter().map(|w| w.max(3)).collect();
+        let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+        let mut text = line(escaped.padded(&escaped.header(), &widths));
+        let rule = |(column, &width): (&Column, &usize)| match column.align {
+            Align::Left => "-".repeat(width),
+            Align::Right => "-".repeat(width - 1) + ":",
+        };
+        text += &line(escaped.columns.iter().zip(&widths).map(rule).collect());
+        for row in &escaped.rows {
+            text += &line(escaped.padded(&shown(row), &widths));
+        }
+        text
+    }
+
+    fn header(&self) -> Vec<&str> {
+        self.columns.iter().map(|c| c.name.as_str()).collect()
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let width = |s: &str| s.chars().count();
+        let of = |(k, column): (usize, &Column)| {
+            self.rows.iter().map(|row| width(shown(row)[k])).fold(width(&column.name), usize::max)
+        };
+        self.columns.iter().enumerate().map(of).collect()
+    }
+
+    fn padded(&self, cells: &[&str], widths: &[usize]) -> Vec<String> {
+        let pad = |((cell, &width), column): ((&&str, &usize), &Column)| match column.align {
+            Align::Left => format!("{cell:<width$}"),
+            Align::Right => format!("{cell:>width$}"),
+        };
+        cells.iter().zip(widths).zip(&self.columns).map(pad).collect()
+    }
+}
+
+fn shown(row: &[Option<String>]) -> Vec<&str> {
+    row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
+}
