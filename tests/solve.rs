@@ -1,0 +1,66 @@
+//! The benchmark problems whose answers are published, with every planner.
+
+mod common;
+
+use common::{Benchmark, benchmark};
+use cplan::model::{Goal, Problem};
+use cplan::solve::{Answer, Effort, Method, Verdict, solve};
+
+fn problem(which: Benchmark) -> Problem {
+    let (scene, start, goal) = benchmark(which);
+    Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }
+}
+
+fn answer(which: Benchmark, method: Method) -> Answer {
+    solve(&problem(which), method, &Effort::default(), &mut |_| {})
+}
+
+/// Length of the path, which must be found.
+fn length(which: Benchmark, method: Method) -> f64 {
+    let answer = answer(which, method);
+    let Verdict::Found(certified) = &answer.verdict else {
+        panic!("{which:?} by {method}: {:?}\n{:?}", answer.verdict, answer.history);
+    };
+    assert!(certified.clearance() > 0.0);
+    certified.path().length()
+}
+
+#[test]
+fn the_visibility_path_is_within_three_thousandths_of_the_optimum() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        let length = length(which, Method::Visibility);
+        assert!(length >= optimum - 1e-3, "{which:?}: {length} is shorter than the optimum");
+        assert!(length <= optimum * 1.003, "{which:?}: {length}");
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_trapezoids() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Trapezoid) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_the_wavefront() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Wavefront) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_the_harmonic_field() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Harmonic) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn closed_ways_are_proven_closed() {
+    for which in [Benchmark::Inf, Benchmark::T] {
+        for method in Method::ALL {
+            let answer = answer(which, method);
+            assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{which:?} by {method}: {:?}", answer.verdict);
+        }
+    }
+}
