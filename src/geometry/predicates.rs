@@ -20,15 +20,33 @@ pub enum Orientation {
 /// On which side of the directed line from `a` to `b` the point `c` lies; exact.
 #[must_use]
 pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
-    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
-    let determinant = robust::orient2d(coord(a), coord(b), coord(c));
-    if determinant > 0.0 {
-        Orientation::CounterClockwise
-    } else if determinant < 0.0 {
-        Orientation::Clockwise
-    } else {
-        Orientation::Collinear
+    Orientation::of(determinant(a, b, c))
+}
+
+impl Orientation {
+    fn of(determinant: f64) -> Self {
+        if determinant > 0.0 {
+            Self::CounterClockwise
+        } else if determinant < 0.0 {
+            Self::Clockwise
+        } else {
+            Self::Collinear
+        }
     }
+}
+
+/// Twice the signed area of the triangle `abc`: the sign exact, the value rounded.
+pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
+    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
+    robust::orient2d(coord(a), coord(b), coord(c))
+}
+
+/// Which way the direction of the segment `s` turns into that of the segment `t`; exact.
+pub(super) fn turn_of_directions(s: [Point; 2], t: [Point; 2]) -> Orientation {
+    // The cross product of two differences is the volume of a tetrahedron with one edge at height 0, one at height 1.
+    let [a, b] = s.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 0.0 });
+    let [c, d] = t.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 1.0 });
+    Orientation::of(robust::orient3d(a, b, c, d))
 }
 
 /// Whether `p` lies on the closed segment `ab` (which may be a point); exact.
