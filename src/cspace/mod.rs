@@ -6,6 +6,8 @@ mod features;
 mod grid;
 mod regions;
 mod rows;
+mod sampled;
+mod slabs;
 mod sliding;
 
 pub use contact::{Hits, ROUNDING, turning, turning_from};
@@ -13,6 +15,8 @@ pub use features::Features;
 pub use grid::Grid;
 pub use regions::{CObstacle, Polygon, Regions};
 pub use rows::{Forbidden, Row, Rows};
+pub use sampled::sampled_grid;
+pub use slabs::{grid_from_rows, outer_grid};
 pub use sliding::sliding;
 
 /// What a representation of free space proves about the real one.

@@ -6,7 +6,7 @@ use super::sliding::{along_and_across, sliding_tracks};
 use crate::geometry::{Convex, Point, Vector};
 use crate::model::{Joint, Motion, Pair, Scene};
 use crate::space::Configuration;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// A scene prepared for rows.
 ///
@@ -175,6 +175,32 @@ impl<'a> Rows<'a> {
     #[must_use]
     pub fn second_link_pairs(&self) -> std::ops::Range<usize> {
         self.pairs.partition_point(|p| p.pair.link == 0)..self.pairs.len()
+    }
+
+    /// Farthest that a point of pair `index`'s part which is within `clearance` of the piece can move, metres, while
+    /// joint 1 moves by at most `step` and joint 2 not at all. About a revolute joint a point's chord grows with its
+    /// distance from the base, and a point near the piece is no farther out than the piece is.
+    #[must_use]
+    pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
+        let pair = &self.pairs[index];
+        match self.scene.arm.joints[0].motion {
+            Motion::Prismatic { .. } => step,
+            Motion::Revolute { .. } => {
+                let carried = pair.sweep.as_ref().unwrap_or(&pair.part).features.shape().reach_from(Point::origin());
+                let touched = self.pieces[pair.piece].shape().reach_from(self.scene.arm.base) + clearance;
+                2.0 * carried.min(touched) * (step.min(PI) / 2.0).sin()
+            }
+        }
+    }
+
+    /// Farthest that a point of pair `index`'s part moves per unit of the joint that carries its link, metres.
+    #[must_use]
+    pub fn lever(&self, index: usize) -> f64 {
+        let part = &self.pairs[index].part;
+        match part.motion {
+            Motion::Prismatic { .. } => 1.0,
+            Motion::Revolute { .. } => part.features.shape().reach_from(Point::origin()),
+        }
     }
 
     /// Where joint 2 is at `q1`, and the direction of link 1's x axis.

@@ -1,0 +1,37 @@
+//! Configuration space from rows beside the same by parry2d's collision tests.
+
+#[path = "../tests/scenes/mod.rs"]
+mod scenes;
+
+use cplan::cspace::{Row, Rows, grid_from_rows, outer_grid, sampled_grid};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+const CELLS: [usize; 2] = [1024, 1024];
+
+fn rows(c: &mut Criterion) {
+    let scene = scenes::w20();
+    let rows = Rows::new(&scene);
+    let mut row = Row::default();
+    let mut step = 0_u32;
+    c.bench_function("one row of intervals, 20 obstacles", |b| {
+        b.iter(|| {
+            step = (step + 37) % 1024;
+            rows.row(black_box(f64::from(step) * 0.006_135 - 3.14), 0.0, &mut row);
+            row.merged.len()
+        });
+    });
+}
+
+fn grids(c: &mut Criterion) {
+    let scene = scenes::w20();
+    let mut group = c.benchmark_group("W20, 1024 x 1024 cells");
+    group.bench_function("from rows", |b| b.iter(|| grid_from_rows(black_box(&scene), CELLS, 0.0)));
+    group.bench_function("from rows, outer", |b| b.iter(|| outer_grid(black_box(&scene), CELLS, 0.0)));
+    group.sample_size(10);
+    group.bench_function("by parry2d", |b| b.iter(|| sampled_grid(black_box(&scene), CELLS, 0.0)));
+    group.finish();
+}
+
+criterion_group!(benches, rows, grids);
+criterion_main!(benches);

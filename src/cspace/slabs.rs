@@ -1,0 +1,125 @@
+//! Grids from rows: no collision test a cell.
+
+use super::contact::ROUNDING;
+use super::rows::{Rows, on_axis};
+use super::{Grid, Proves};
+use crate::model::Scene;
+use std::f64::consts::TAU;
+
+/// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
+/// some 1e-13 of a cell.
+const WIDENING: f64 = 1e-9;
+
+/// The grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. What a sampled grid
+/// shows, up to centres within [`ROUNDING`] of contact, in `O(rows * contacts + cells)`.
+#[must_use]
+pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
+    let rows = Rows::new(scene);
+    let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let columns = Columns::new(&grid);
+    let bands = rows.bands(clearance);
+    let mut intervals = Vec::new();
+    for i in 0..cells[0] {
+        let q1 = grid.center(i * cells[1])[0];
+        let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
+        if bands.forbids(q1) {
+            row.fill(true);
+            continue;
+        }
+        let (elbow, heading) = rows.elbow(q1);
+        for index in rows.second_link_pairs() {
+            intervals.clear();
+            let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
+            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
+        }
+    }
+    grid
+}
+
+/// A grid whose free cells are *wholly* free: each of their configurations keeps at least `clearance` (and more than 0)
+/// from every obstacle.
+///
+/// A row stands for its slab `q1 +- h1 / 2`: every obstacle is grown by the farthest that a point of link 2 which
+/// touches it can move while joint 1 does so (a chord about the base), and a cell is blocked when its closed range of
+/// `q2` meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an
+/// obstacle, `margin` being that of the grid's [`Proves::Outer`].
+#[must_use]
+pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
+    let rows = Rows::new(scene);
+    let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let [h1, h2] = grid.step();
+    let kept = clearance + 2.0 * ROUNDING;
+    let motions: Vec<f64> = rows.second_link_pairs().map(|index| rows.motion(index, h1 / 2.0, kept)).collect();
+    grid.proves = Proves::Outer { margin: margin(&rows, &motions, [h1, h2], clearance) };
+
+    let columns = Columns::new(&grid);
+    let bands = rows.bands(kept);
+    let axis = grid.topology.axes[0];
+    let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
+    let mut intervals = Vec::new();
+    for i in 0..cells[0] {
+        let q1 = grid.center(i * cells[1])[0];
+        let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
+        let half = h1 / 2.0 + WIDENING;
+        let banned = |band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
+        if bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(band, turn))) {
+            row.fill(true);
+            continue;
+        }
+        let (elbow, heading) = rows.elbow(q1);
+        for (index, motion) in rows.second_link_pairs().zip(&motions) {
+            intervals.clear();
+            let hits = rows.at_elbow(index, elbow, heading, kept + motion, &mut intervals);
+            intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
+            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_touched(row, start, end));
+        }
+    }
+    grid
+}
+
+fn free(cells: [usize; 2]) -> Vec<bool> {
+    vec![false; cells[0] * cells[1]]
+}
+
+/// What the two joints' motion over a cell adds to `clearance` at most.
+fn margin(rows: &Rows<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
+    let first = (0..rows.second_link_pairs().start).map(|index| rows.motion(index, h1, clearance));
+    let second = rows.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + rows.lever(index) * h2);
+    first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + WIDENING
+}
+
+/// The cells of a row by value of joint 2.
+struct Columns {
+    lower: f64,
+    per_cell: f64,
+    count: usize,
+}
+
+impl Columns {
+    fn new(grid: &Grid) -> Self {
+        Self { lower: grid.topology.axes[1].domain().0, per_cell: 1.0 / grid.step()[1], count: grid.cells[1] }
+    }
+
+    /// Blocks the cells whose centre lies in the closed interval.
+    fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
+        let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
+        let last = ((end - self.lower) * self.per_cell - 0.5).floor();
+        self.block(row, first, last);
+    }
+
+    /// Blocks the closed cells that meet the closed interval.
+    fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
+        let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
+        let last = ((end - self.lower) * self.per_cell).floor();
+        self.block(row, first, last);
+    }
+
+    fn block(&self, row: &mut [bool], first: f64, last: f64) {
+        // Conversions saturate: what lies before the row becomes 0, and `last + 1` beyond it the count.
+        let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
+        let to = to.min(self.count);
+        if from < to {
+            row[from..to].fill(true);
+        }
+    }
+}
