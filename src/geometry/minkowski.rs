@@ -1,5 +1,7 @@
 //! Minkowski differences of convex polygons: the C-obstacles of a body that translates.
 
+use std::cmp::Ordering;
+
 use super::penetration::origin_depth;
 use super::predicates::turn_of_directions;
 use super::{Convex, Orientation, Point, Vector};
@@ -18,19 +20,18 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let mut corners = Vec::with_capacity(b.len() + a.len());
     loop {
         corners.push(Point::from(plus.corner() - minus.corner()));
-        let direction = match (plus.side(), minus.side()) {
+        let order = match (plus.side(), minus.side()) {
             (None, None) => break,
-            (Some(side), None) | (None, Some(side)) => side,
-            (Some(p), Some(m)) => {
-                if m.precedes(&p) {
-                    m
-                } else {
-                    p
-                }
-            }
+            (Some(_), None) => Ordering::Less,
+            (None, Some(_)) => Ordering::Greater,
+            (Some(p), Some(m)) => p.order(&m),
         };
-        plus.pass(&direction);
-        minus.pass(&direction);
+        if order.is_le() {
+            plus.pass();
+        }
+        if order.is_ge() {
+            minus.pass();
+        }
     }
     // The last step leads back to the first corner; rounding can make neighbours coincide.
     corners.dedup();
@@ -69,13 +70,14 @@ impl Side {
         d.y < 0.0 || (d.y == 0.0 && d.x < 0.0)
     }
 
-    /// Whether the direction comes before that of `other`, counting from 0 to 2 pi; exact.
-    fn precedes(&self, other: &Side) -> bool {
-        match (self.downward(), other.downward()) {
-            (false, true) => true,
-            (true, false) => false,
-            _ => turn_of_directions([self.start, self.end], [other.start, other.end]) == Orientation::CounterClockwise,
-        }
+    /// Order of the directions, counting from 0 to 2 pi; exact.
+    fn order(&self, other: &Side) -> Ordering {
+        let turn = || turn_of_directions([self.start, self.end], [other.start, other.end]);
+        self.downward().cmp(&other.downward()).then_with(|| match turn() {
+            Orientation::CounterClockwise => Ordering::Less,
+            Orientation::Collinear => Ordering::Equal,
+            Orientation::Clockwise => Ordering::Greater,
+        })
     }
 }
 
@@ -118,12 +120,12 @@ impl<'a> Sweep<'a> {
         Some(if self.reflected { Side { start: to, end: from } } else { Side { start: from, end: to } })
     }
 
-    /// Passes the sides that have the direction of `side`.
-    fn pass(&mut self, side: &Side) {
-        while let Some(next) = self.side() {
-            if side.precedes(&next) {
-                break;
-            }
+    /// Passes a side, and those that continue it in the same direction.
+    fn pass(&mut self) {
+        let Some(side) = self.side() else { return };
+        self.passed += 1;
+        self.skip_empty();
+        while self.side().is_some_and(|next| side.order(&next).is_ge()) {
             self.passed += 1;
             self.skip_empty();
         }

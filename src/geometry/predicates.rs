@@ -43,6 +43,13 @@ pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
 
 /// Which way the direction of the segment `s` turns into that of the segment `t`; exact.
 pub(super) fn turn_of_directions(s: [Point; 2], t: [Point; 2]) -> Orientation {
+    // Each product below is off by three roundings, their difference by a fourth: at most 2 epsilon of their sum.
+    let (u, v) = (s[1] - s[0], t[1] - t[0]);
+    let (left, right) = (u.x * v.y, u.y * v.x);
+    let difference = left - right;
+    if difference.abs() > 4.0 * f64::EPSILON * (left.abs() + right.abs()) {
+        return Orientation::of(difference);
+    }
     // The cross product of two differences is the volume of a tetrahedron with one edge at height 0, one at height 1.
     let [a, b] = s.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 0.0 });
     let [c, d] = t.map(|p| robust::Coord3D { x: p.x, y: p.y, z: 1.0 });

@@ -85,7 +85,7 @@ fn radii_add_up() {
     let difference = b.grown(0.5).minkowski_difference(&a);
     assert_eq!(difference.radius(), 0.75);
     assert_eq!(difference.core(), [Point::new(-1.0, -2.0), Point::new(0.0, -2.0)]);
-    // Cores that turn out empty or without length do no harm.
+    // Cores without corners or without length do no harm.
     assert!(minkowski_difference(&[], a.core()).is_empty());
     assert_eq!(Convex::segment(Point::origin(), Point::origin()).core().len(), 1);
 }
@@ -95,4 +95,12 @@ fn negative_zero_does_not_mislead_the_sweep() {
     let square = [(0.0, 0.0), (1.0, -0.0), (1.0, 1.0), (-0.0, 1.0)].map(|(x, y)| Point::new(x, y));
     let expected = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point::new(x, y));
     assert_eq!(minkowski_difference(&square, &square), expected);
+}
+
+#[test]
+fn straight_corners_of_the_operands_are_dropped() {
+    let square = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (0, 2), (0, 1)];
+    let wall = [(0, 0), (3, 0)];
+    let difference = minkowski_difference(&points(&square), &points(&wall));
+    assert_eq!(difference, points(&[(-3, 0), (2, 0), (2, 2), (-3, 2)]));
 }
