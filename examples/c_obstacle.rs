@@ -1,0 +1,49 @@
+//! Builds the C-obstacles of an arm in a workspace and draws them beside it.
+//!
+//! ```text
+//! cargo run --release --example c_obstacle -- robots/planar_2r_continuous.urdf workspaces/wrap_around.toml torus.svg
+//! ```
+
+use cplan::cspace::{Rows, c_obstacles};
+use cplan::draw::{Picture, svg};
+use cplan::input;
+use cplan::trajectory::write_whole;
+use std::error::Error;
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut args = std::env::args().skip(1).map(PathBuf::from);
+    let urdf = args.next().unwrap_or_else(|| "robots/planar_2r.urdf".into());
+    let world = args.next().unwrap_or_else(|| "workspaces/shelf.toml".into());
+    let file = args.next().unwrap_or_else(|| "c_obstacles.svg".into());
+
+    let loaded = input::load(&urdf, &world, &input::Overrides::default())?;
+    let scene = &loaded.problem.scene;
+
+    // One row: with joint 1 at its start value, exactly which values of joint 2 collide, and with what.
+    let start = loaded.problem.start;
+    let mut row = cplan::cspace::Row::default();
+    Rows::new(scene).row(start[0], 0.0, &mut row);
+    println!("with {} at {:.4}, {} must stay out of", scene.arm.joints[0].name, start[0], scene.arm.joints[1].name);
+    for interval in &row.merged {
+        println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm.joints[1].unit());
+    }
+
+    // All of it: the boundary curves as polygons, here within a millimetre of workspace distance.
+    let contours = c_obstacles(scene, 1e-3, 1e-3);
+    println!("{} C-obstacle contours with {} corners", contours.len(), contours.iter().map(|c| c.contour.len()).sum::<usize>());
+
+    let picture = Picture {
+        title: vec![format!("{}: {}", scene.workspace.name, scene.arm.name)],
+        status: String::new(),
+        scene,
+        start,
+        goals: &loaded.problem.goals,
+        paths: Vec::new(),
+        trace: None,
+        c_obstacles: &contours,
+    };
+    write_whole(&file, svg(&picture).as_bytes())?;
+    println!("drawn to {}", file.display());
+    Ok(())
+}
