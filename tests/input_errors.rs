@@ -36,7 +36,7 @@ joints = [0.0, 0.5]
 joints = [1.0, -0.5]
 [[obstacle]]
 name = "post"
-circle = { center = [-1.5, 0], radius = 0.1 }
+circle = { center = [-1.5, 0], radius = 0.2 }
 "#;
 
 fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Overrides) -> Result<Loaded, InputError> {
@@ -132,7 +132,8 @@ fn trees_that_are_none() {
 
 #[test]
 fn files_that_are_no_urdf() {
-    bad_arm("</robot>", "", &["line 2", "not well-formed XML"]);
+    bad_arm("<link name=\"tool\"/>", "<link name=\"tool\">", &["line 22", "not well-formed XML"]);
+    bad_arm("</robot>", "", &["not well-formed XML", "never closed"]);
     bad_arm("</robot>", "<xacro:include filename=\"a\"/></robot>", &["line 22", "xacro file", "xacro arm.urdf"]);
     bad_arm(
         "name=\"arm\"",
@@ -197,7 +198,7 @@ fn robot_tables_that_do_not_fit() {
 
 #[test]
 fn obstacles_that_are_none() {
-    let shape = "circle = { center = [-1.5, 0], radius = 0.1 }";
+    let shape = "circle = { center = [-1.5, 0], radius = 0.2 }";
     for (text, parts) in [
         ("polygon = [[5, 0], [6, 0]]", &["line 8, column 11", "obstacle \"post\"", "three corners", "^"][..]),
         ("polygon = [[5, 0], [6, 1], [6, 0], [5, 1]]", &["line 8", "not a simple polygon"]),
