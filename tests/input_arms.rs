@@ -282,3 +282,44 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     assert!(load_arm(&turning, "").scene.arm.joints[0].axis.is_circle());
     assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm.joints[0].axis, limit(-1.0, 1.0));
 }
+
+/// An RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
+fn folding() -> LoadedScene {
+    let joint = |x: f64| TestJoint { revolute: true, xyz: [x, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+    let text = urdf([joint(0.0), joint(1.0)]).replace("0.3 -0.2 0.5", "1 0 0");
+    load_arm(&text, "limits = { a = [-9, 9], b = [-3.2, 3.2] }")
+}
+
+#[test]
+fn where_a_joint_does_not_matter_the_preferred_value_is_taken() {
+    let arm = folding().scene.arm;
+    let folded = inverse(&arm, Point::origin(), Configuration::new(0.7, 0.2));
+    assert_eq!(folded.free, Some(0));
+    assert_eq!((folded.branches.len(), folded.branches[0][0]), (1, 0.7));
+    assert!((folded.branches[0][1].abs() - std::f64::consts::PI).abs() < 1e-9);
+    let stretched = inverse(&arm, Point::new(0.0, 2.0), Configuration::zeros());
+    assert_eq!((stretched.branches.len(), stretched.free), (1, None));
+    assert!(inverse(&arm, Point::new(0.0, 2.0 + 1e-6), Configuration::zeros()).branches.is_empty());
+}
+
+#[test]
+fn a_goal_of_the_tip_counts_every_turn_within_the_limits() {
+    let overrides = cplan::input::Overrides {
+        start: Some("0,0.5".parse().unwrap()),
+        goal_tip: Some("1,1".parse().unwrap()),
+        ..Default::default()
+    };
+    let problem = folding().problem(&overrides).unwrap().problem;
+    // Elbow up: 0 and -+2 pi; elbow down: pi/2, pi/2 + 2 pi and pi/2 - 2 pi.
+    let mut first: Vec<f64> = problem.goals.iter().map(|q| q[0]).collect();
+    first.sort_by(f64::total_cmp);
+    let pi = std::f64::consts::PI;
+    let expected = [-2.0 * pi, -1.5 * pi, 0.0, 0.5 * pi, 2.0 * pi, 2.5 * pi];
+    assert_eq!(first.len(), expected.len(), "{first:?}");
+    for (q, e) in first.iter().zip(expected) {
+        assert!((q - e).abs() < 1e-9, "{first:?}");
+    }
+    for q in &problem.goals {
+        assert!((problem.scene.arm.tip_at(*q) - Point::new(1.0, 1.0)).norm() < 1e-9);
+    }
+}

@@ -150,6 +150,11 @@ fn files_that_are_no_urdf() {
     // Declaring the namespace alone is no xacro.
     let declared = ARM.replace("<robot", "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"");
     assert!(run("arm.urdf", &declared).is_ok());
+    let folder = tempfile::tempdir().unwrap();
+    let (urdf, world) = (folder.path().join("arm.urdf"), folder.path().join("world.toml"));
+    fs::write(&urdf, ARM).unwrap();
+    fs::write(&world, WORLD).unwrap();
+    refused(load(&world, &urdf, &Overrides::default()), &["arm.urdf", "XML", "the URDF first"]);
     let missing = load("/nowhere/arm.urdf".as_ref(), "/nowhere/world.toml".as_ref(), &Overrides::default());
     refused(missing, &["/nowhere/world.toml", "cannot be read"]);
 }
