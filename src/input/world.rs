@@ -104,6 +104,10 @@ const LARGEST: f64 = 1e6;
 /// On malformed TOML, unknown keys and invalid values, with line, column and a caret.
 pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let source = Source::read(path)?;
+    if source.text.trim_start().starts_with('<') {
+        let defect = source.defect("this is XML, not a world file (TOML)");
+        return Err(defect.cure("give the URDF first and the world file second").into());
+    }
     let file: WorldFile = toml::from_str(&source.text).map_err(|error| match error.span() {
         Some(span) => source.defect_at(span, error.message()),
         None => source.defect(error.message()),

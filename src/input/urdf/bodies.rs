@@ -97,9 +97,10 @@ impl Bodies<'_> {
         if found.parts.is_empty() && found.unread.is_empty() {
             let empty = std::mem::take(&mut found.empty);
             found = self.gather(index, &bodies, Kind::Visual);
-            found.empty.splice(0..0, empty);
+            found.empty.extend(empty);
             source = OutlineSource::Visual;
         }
+        found.empty.sort();
         found.empty.dedup();
         if !found.empty.is_empty() {
             let bodies = found.empty.join(", ");

@@ -40,14 +40,9 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Defect {
     if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
         message.truncate(cut);
     }
-    Defect { position: Some(Position { line, column }), ..source.defect_at(offset..offset + 1, "") }
-        .with_message(format!("this is not well-formed XML: {message}"))
-}
-
-impl Defect {
-    fn with_message(self, message: String) -> Self {
-        Self { message, ..self }
-    }
+    let defect = source.defect_at(offset..offset + 1, format!("this is not well-formed XML: {message}"));
+    Defect { position: Some(Position { line, column }), ..defect }
+        .cure("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
 }
 
 /// Refuses documents that are something else than a URDF. A URDF that merely declares the xacro namespace is fine.

@@ -141,7 +141,7 @@ impl Limits<'_> {
         let acceleration = velocity / DEFAULT_TIME_TO_TOP_SPEED;
         let unit = if joint.joint_type == JointType::Prismatic { "m/s^2" } else { "rad/s^2" };
         let note = format!(
-            "joint \"{name}\": no acceleration limit given; taken as {acceleration} {unit} (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
+            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit} (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
         );
         Ok(Rates { velocity, acceleration, note: Some(note) })
     }

@@ -54,6 +54,7 @@ pub(super) fn load(path: &Path, world: &World) -> Result<(Arm, RobotReport), Inp
     if tree.implicit_world {
         report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
     }
+    report.notes.push(format!("tip: origin of link \"{}\"", tree.links[chain.tip]));
     report.notes.extend(chain.notes.iter().cloned());
 
     let limits = Limits { document: &document, world };

@@ -1,0 +1,325 @@
+//! Loaded arms against full kinematics in space, outlines against projected samples, inverse against forward
+//! kinematics.
+
+use cplan::geometry::{Convex, Point, separation};
+use cplan::input::{LoadedScene, inverse, load_scene};
+use cplan::model::{Arm, OutlineSource};
+use cplan::space::{Axis, Configuration};
+use nalgebra::{Matrix3, Vector3};
+use proptest::prelude::*;
+use std::fs;
+
+fn load_arm(urdf: &str, robot: &str) -> LoadedScene {
+    let folder = tempfile::tempdir().unwrap();
+    let (u, w) = (folder.path().join("arm.urdf"), folder.path().join("world.toml"));
+    fs::write(&u, urdf).unwrap();
+    fs::write(&w, format!("[robot]\n{robot}\n")).unwrap();
+    load_scene(&u, &w).unwrap_or_else(|e| panic!("{e}\n{urdf}"))
+}
+
+/// Rotation about a unit axis by Rodrigues' formula.
+fn rotation(axis: Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    let k = axis.cross_matrix();
+    Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
+}
+
+fn rpy([r, p, y]: [f64; 3]) -> Matrix3<f64> {
+    rotation(Vector3::z(), y) * rotation(Vector3::y(), p) * rotation(Vector3::x(), r)
+}
+
+/// A joint as a test sees it.
+#[derive(Debug, Clone, Copy)]
+struct TestJoint {
+    revolute: bool,
+    xyz: [f64; 3],
+    rpy: [f64; 3],
+    axis: [f64; 3],
+}
+
+impl TestJoint {
+    fn xml(&self, name: &str, parent: &str, child: &str) -> String {
+        let t = |v: [f64; 3]| format!("{} {} {}", v[0], v[1], v[2]);
+        let kind = if self.revolute { "revolute" } else { "prismatic" };
+        format!(
+            r#"<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>
+            <origin xyz="{}" rpy="{}"/><axis xyz="{}"/><limit lower="-3" upper="3" velocity="1"/></joint>"#,
+            t(self.xyz),
+            t(self.rpy),
+            t(self.axis)
+        )
+    }
+
+    /// Frame of the child, given the parent's.
+    fn step(&self, (r, p): (Matrix3<f64>, Vector3<f64>), q: f64) -> (Matrix3<f64>, Vector3<f64>) {
+        let p = p + r * Vector3::from(self.xyz);
+        let r = r * rpy(self.rpy);
+        let axis = Vector3::from(self.axis).normalize();
+        if self.revolute { (r * rotation(axis, q), p) } else { (r, p + r * axis * q) }
+    }
+}
+
+const TIP: [f64; 3] = [0.3, -0.2, 0.5];
+
+fn urdf(joints: [TestJoint; 2]) -> String {
+    format!(
+        r#"<robot name="t"><link name="base"/>{}<link name="one"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
+        {}<link name="two"/><joint name="end" type="fixed"><parent link="two"/><child link="tip"/><origin xyz="{} {} {}"/></joint><link name="tip"/></robot>"#,
+        joints[0].xml("a", "base", "one"),
+        joints[1].xml("b", "one", "two"),
+        TIP[0],
+        TIP[1],
+        TIP[2]
+    )
+}
+
+/// Arms of all kinds in planes of all directions: the second joint's frame is turned about the normal only.
+fn arms() -> impl Strategy<Value = [TestJoint; 2]> {
+    let number = -1.0..1.0f64;
+    let triple = || [number.clone(), number.clone(), number.clone()];
+    let mount = prop_oneof![
+        Just([0.0; 3]),
+        Just([std::f64::consts::FRAC_PI_2, 0.0, 0.0]),
+        Just([0.0, -std::f64::consts::FRAC_PI_2, 0.0]),
+        Just([std::f64::consts::PI, 0.0, 0.3]),
+        triple()
+    ];
+    (mount, triple(), triple(), number.clone(), any::<[bool; 2]>(), any::<[bool; 2]>(), [-3.0..3.0f64, 0.5..2.5])
+        .prop_map(|(mount, xyz1, xyz2, yaw, revolute, flip, heading)| {
+            let axis = |i: usize| {
+                let turn = [0.0, 0.0, if flip[i] { -1.2 } else { 1.0 }];
+                // Slides lie in the frame's (x, y) plane and are never parallel: their headings differ.
+                let angle = heading[0] + if i == 1 { heading[1] - yaw } else { 0.0 };
+                if revolute[i] { turn } else { [angle.cos(), angle.sin(), 0.0] }
+            };
+            [
+                TestJoint { revolute: revolute[0], xyz: xyz1, rpy: mount, axis: axis(0) },
+                TestJoint { revolute: revolute[1], xyz: xyz2, rpy: [0.0, 0.0, yaw], axis: axis(1) },
+            ]
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn planar_kinematics_are_the_spatial_ones_projected(joints in arms(), q in [-3.0..3.0f64, -3.0..3.0]) {
+        let arm = load_arm(&urdf(joints), "").scene.arm;
+        prop_assert!((arm.plane.u.cross(&arm.plane.v).dot(&arm.plane.normal).abs() - 1.0).abs() < 1e-12);
+        let q = Configuration::from(q);
+        let one = joints[0].step((Matrix3::identity(), Vector3::zeros()), q[0]);
+        let two = joints[1].step(one, q[1]);
+        let project = |x: Vector3<f64>| Point::new(x.dot(&arm.plane.u), x.dot(&arm.plane.v));
+        let tip = project(two.1 + two.0 * Vector3::from(TIP));
+        prop_assert!((arm.tip_at(q) - tip).norm() < 1e-9, "{:?} against {tip:?}, kind {}", arm.tip_at(q), arm.kind());
+        // A ball about link 1's origin is a disc about its projection, whatever the pose.
+        let disc = arm.links[0].parts[0].shape.at(&arm.pose(0, q));
+        prop_assert!((disc.core()[0] - project(one.1)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn inverse_kinematics_put_the_tip_back(joints in arms(), q in [-3.0..3.0f64, -3.0..3.0]) {
+        let arm = load_arm(&urdf(joints), "").scene.arm;
+        let q = Configuration::from(q);
+        let target = arm.tip_at(q);
+        let solved = inverse(&arm, target, Configuration::zeros());
+        prop_assert!(!solved.branches.is_empty() && solved.branches.len() <= 2);
+        for branch in &solved.branches {
+            prop_assert!((arm.tip_at(*branch) - target).norm() < 1e-9);
+        }
+        // The posture that the target came from is among them, up to whole turns.
+        let turns = |i: usize| if arm.joints[i].motion.is_revolute() { Axis::Circle } else { Axis::Interval { lower: -9.0, upper: 9.0 } };
+        let near = |b: &Configuration| (0..2).all(|i| turns(i).displacement(q[i], b[i]).abs() < 1e-4);
+        prop_assert!(solved.branches.iter().any(near), "{q:?} not in {:?}", solved.branches);
+    }
+
+    #[test]
+    fn outlines_hold_the_projected_solid_and_little_more(
+        shape in 0..4usize, r in [-3.0..3.0f64, -3.0..3.0, -3.0..3.0], right in any::<bool>(), seed in any::<u64>()
+    ) {
+        // Right angles as well as general ones.
+        let r = if right { r.map(|a| a.round() * std::f64::consts::FRAC_PI_2) } else { r };
+        let (xml, points) = solid(shape, seed);
+        let urdf = urdf_with(&format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"{} {} {}\"/><geometry>{xml}</geometry>", r[0], r[1], r[2]));
+        let arm = load_arm(&urdf, "").scene.arm;
+        let part = &arm.links[0].parts[0];
+        let placed: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::new(0.1, 0.2, 0.3) + rpy(r) * p).collect();
+        for p in &placed {
+            let inside = separation(&part.shape, &Convex::disc(Point::new(p.x, p.y), 0.0)).distance;
+            prop_assert!(inside < 2e-9, "{inside} outside");
+            prop_assert!(part.heights.lower - 1e-9 <= p.z && p.z <= part.heights.upper + 1e-9);
+        }
+        // The outline's support exceeds the sampled solid's by no more than the sampling and the stated bound allow.
+        for i in 0..64 {
+            let a = f64::from(i) * std::f64::consts::TAU / 64.0;
+            let d = nalgebra::Vector2::new(a.cos(), a.sin());
+            let outline = part.shape.core().iter().map(|p| p.coords.dot(&d)).fold(f64::MIN, f64::max) + part.shape.radius();
+            let sampled = placed.iter().map(|p| p.xy().dot(&d)).fold(f64::MIN, f64::max);
+            prop_assert!(outline - sampled < 0.005 * RADIUS + SAMPLING, "excess {}", outline - sampled);
+        }
+    }
+}
+
+const RADIUS: f64 = 0.2;
+/// Sagitta of 96 samples round a circle of radius 0.2, and 48 down to the pole, with room for both at once.
+const SAMPLING: f64 = 6e-4;
+
+/// A solid as URDF and as points of its surface.
+fn solid(shape: usize, seed: u64) -> (String, Vec<Vector3<f64>>) {
+    let length = 0.1 + (seed % 7) as f64 * 0.15;
+    let ring = |radius: f64, z: f64| {
+        (0..96).map(move |i| {
+            let a = f64::from(i) * std::f64::consts::TAU / 96.0;
+            Vector3::new(radius * a.cos(), radius * a.sin(), z)
+        })
+    };
+    let ball = |z: f64| {
+        (0..=48).flat_map(move |i| {
+            let b = f64::from(i) * std::f64::consts::PI / 48.0;
+            ring(RADIUS * b.sin(), z + RADIUS * b.cos())
+        })
+    };
+    match shape {
+        0 => {
+            let corner = |i: u8| {
+                let s = |bit: u8| if i & bit == 0 { -0.5 } else { 0.5 };
+                Vector3::new(s(1) * length, s(2) * 0.3, s(4) * 0.1)
+            };
+            (format!("<box size=\"{length} 0.3 0.1\"/>"), (0..8).map(corner).collect())
+        }
+        1 => {
+            let points = ring(RADIUS, length / 2.0).chain(ring(RADIUS, -length / 2.0)).collect();
+            (format!("<cylinder radius=\"{RADIUS}\" length=\"{length}\"/>"), points)
+        }
+        2 => (format!("<sphere radius=\"{RADIUS}\"/>"), ball(0.0).collect()),
+        _ => {
+            let points = ball(length / 2.0).chain(ball(-length / 2.0)).collect();
+            (format!("<capsule radius=\"{RADIUS}\" length=\"{length}\"/>"), points)
+        }
+    }
+}
+
+/// An arm turning about z whose first link has this collision geometry.
+fn urdf_with(collision: &str) -> String {
+    format!(
+        r#"<robot name="t"><link name="base"/><joint name="a" type="continuous"><parent link="base"/><child link="one"/><axis xyz="0 0 1"/><limit velocity="1"/></joint>
+        <link name="one"><collision>{collision}</collision></link>
+        <joint name="b" type="continuous"><parent link="one"/><child link="two"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/><limit velocity="1"/></joint><link name="two"/></robot>"#
+    )
+}
+
+#[test]
+fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
+    let folder = tempfile::tempdir().unwrap();
+    let vertices = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
+    let vertex = |v: &[f32; 3]| format!("vertex {} {} {}\n", v[0], v[1], v[2]);
+    let text = format!(
+        "solid t\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid t\n",
+        vertices.iter().map(vertex).collect::<String>()
+    );
+    // A binary file whose header begins like a text file's, as exporters write them.
+    let mut binary = b"solid exported".to_vec();
+    binary.resize(80, b' ');
+    binary.extend(1u32.to_le_bytes());
+    binary.extend([0u8; 12]);
+    binary.extend(vertices.iter().flatten().flat_map(|c| c.to_le_bytes()));
+    binary.extend([0u8; 2]);
+    let package = folder.path().join("my_robot");
+    fs::create_dir_all(package.join("urdf")).unwrap();
+    fs::write(package.join("text.stl"), text).unwrap();
+    fs::write(package.join("binary.STL"), binary).unwrap();
+    let world = folder.path().join("world.toml");
+    fs::write(&world, "").unwrap();
+    for mesh in ["../text.stl", "package://my_robot/binary.STL", "package://my_robot/text.stl"] {
+        let path = package.join("urdf/arm.urdf");
+        fs::write(&path, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"0.1 -0.1 1\"/></geometry>")))
+            .unwrap();
+        let arm = load_scene(&path, &world).unwrap_or_else(|e| panic!("{e}")).scene.arm;
+        let part = &arm.links[0].parts[0];
+        assert!((part.shape.area() - 0.01).abs() < 1e-8, "{mesh}: {:?}", part.shape);
+        assert!(part.shape.core().iter().all(|p| p.y <= 0.0));
+        assert_eq!((part.heights.lower, part.heights.upper), (0.0, 0.5));
+    }
+    fs::write(package.join("short.stl"), [0u8; 90]).unwrap();
+    let path = package.join("urdf/arm.urdf");
+    fs::write(&path, urdf_with("<geometry><mesh filename=\"../short.stl\"/></geometry>")).unwrap();
+    assert!(load_scene(&path, &world).unwrap_err().to_string().contains("does not fit its number of triangles"));
+}
+
+#[test]
+fn a_bar_stands_in_only_where_it_is_asked_for() {
+    let bare = urdf_with("<geometry><cylinder radius=\"0\" length=\"0\"/></geometry>");
+    let loaded = load_arm(&bare, "bar = 0.05");
+    let arm: &Arm = &loaded.scene.arm;
+    assert_eq!(arm.links[0].source, OutlineSource::Bar);
+    assert_eq!(arm.links[0].parts[0].shape, Convex::new(vec![Point::origin(), Point::new(1.0, 0.0)], 0.05));
+    assert!(loaded.robot.notes.iter().any(|n| n.contains("size zero are ignored (in \"one\")")));
+    let half = load_arm(&urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>"), "");
+    assert_eq!(half.scene.arm.links[1].source, OutlineSource::None);
+    assert!(half.robot.warnings[0].contains("link 2 \"two\" has no geometry"));
+}
+
+#[test]
+fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
+    let limit = |lower, upper| Axis::Interval { lower, upper };
+    let joint = TestJoint { revolute: true, xyz: [1.0, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+    let hard = urdf([joint; 2]);
+    let soft = hard.replacen(
+        "</joint>",
+        "<safety_controller soft_lower_limit=\"-1\" soft_upper_limit=\"9\" k_velocity=\"1\"/></joint>",
+        1,
+    );
+    assert_eq!(load_arm(&hard, "").scene.arm.joints[0].axis, limit(-3.0, 3.0));
+    assert_eq!(load_arm(&soft, "").scene.arm.joints[0].axis, limit(-1.0, 3.0));
+    let world = load_arm(&soft, "limits = { a = [-9, 9] }\nvelocity = { a = 3 }\nacceleration = { b = 7 }").scene.arm;
+    assert_eq!(world.joints[0].axis, limit(-9.0, 9.0));
+    assert_eq!(
+        (world.joints[0].velocity, world.joints[0].acceleration, world.joints[1].acceleration),
+        (3.0, 12.0, 7.0)
+    );
+    let newer = hard.replacen("velocity=\"1\"", "velocity=\"1\" acceleration=\"5\"", 1);
+    assert_eq!(load_arm(&newer, "").scene.arm.joints[0].acceleration, 5.0);
+    let turning = urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>");
+    assert!(load_arm(&turning, "").scene.arm.joints[0].axis.is_circle());
+    assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm.joints[0].axis, limit(-1.0, 1.0));
+}
+
+/// An RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
+fn folding() -> LoadedScene {
+    let joint = |x: f64| TestJoint { revolute: true, xyz: [x, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+    let text = urdf([joint(0.0), joint(1.0)]).replace("0.3 -0.2 0.5", "1 0 0");
+    load_arm(&text, "limits = { a = [-9, 9], b = [-3.2, 3.2] }")
+}
+
+#[test]
+fn where_a_joint_does_not_matter_the_preferred_value_is_taken() {
+    let arm = folding().scene.arm;
+    let folded = inverse(&arm, Point::origin(), Configuration::new(0.7, 0.2));
+    assert_eq!(folded.free, Some(0));
+    assert_eq!((folded.branches.len(), folded.branches[0][0]), (1, 0.7));
+    assert!((folded.branches[0][1].abs() - std::f64::consts::PI).abs() < 1e-9);
+    let stretched = inverse(&arm, Point::new(0.0, 2.0), Configuration::zeros());
+    assert_eq!((stretched.branches.len(), stretched.free), (1, None));
+    assert!(inverse(&arm, Point::new(0.0, 2.0 + 1e-6), Configuration::zeros()).branches.is_empty());
+}
+
+#[test]
+fn a_goal_of_the_tip_counts_every_turn_within_the_limits() {
+    let overrides = cplan::input::Overrides {
+        start: Some("0,0.5".parse().unwrap()),
+        goal_tip: Some("1,1".parse().unwrap()),
+        ..Default::default()
+    };
+    let problem = folding().problem(&overrides).unwrap().problem;
+    // Elbow up: 0 and -+2 pi; elbow down: pi/2, pi/2 + 2 pi and pi/2 - 2 pi.
+    let mut first: Vec<f64> = problem.goals.iter().map(|q| q[0]).collect();
+    first.sort_by(f64::total_cmp);
+    let pi = std::f64::consts::PI;
+    let expected = [-2.0 * pi, -1.5 * pi, 0.0, 0.5 * pi, 2.0 * pi, 2.5 * pi];
+    assert_eq!(first.len(), expected.len(), "{first:?}");
+    for (q, e) in first.iter().zip(expected) {
+        assert!((q - e).abs() < 1e-9, "{first:?}");
+    }
+    for q in &problem.goals {
+        assert!((problem.scene.arm.tip_at(*q) - Point::new(1.0, 1.0)).norm() < 1e-9);
+    }
+}
