@@ -1,8 +1,9 @@
 //! The patient way to the arcs of contact: every critical angle, and one distance between neighbours.
 
-use super::contact::{Hits, ROUNDING};
-use super::features::{Features, quotient};
-use crate::geometry::{Point, Pose, Vector, separation};
+use super::contact::{Hits, ROUNDING, normalized};
+use super::features::quotient;
+use super::touching::Placement;
+use crate::geometry::{Pose, Vector, separation};
 use crate::space::Axis;
 use std::f64::consts::{PI, TAU};
 
@@ -13,18 +14,12 @@ const SAME_ANGLE: f64 = 1e-12;
 /// `cos` may exceed 1 by this and still count as grazing, so that a touch lost to rounding is looked at.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// The arcs of [`super::contact::turning_from`] for cores within `radius`, right in every degenerate position: on the
+/// The arcs of [`super::contact::turning_from`] right in every degenerate position: on the
 /// critical angles themselves and halfway between neighbours the distance decides, with [`ROUNDING`] in favour of
 /// contact. `O(n m)` critical angles and as many distances.
-pub(super) fn critical_arcs(
-    part: &Features,
-    pivot: Point,
-    zero: Vector,
-    piece: &Features,
-    radius: f64,
-    out: &mut Vec<[f64; 2]>,
-) -> Hits {
-    let mut angles = critical_angles(part, pivot, piece, radius);
+pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
+    let &Placement { part, pivot, zero, piece, radius, .. } = placement;
+    let mut angles = critical_angles(placement);
     let zero_angle = zero.y.atan2(zero.x);
     angles.iter_mut().for_each(|angle| *angle = Axis::Circle.wrap(*angle - zero_angle));
     angles.sort_unstable_by(f64::total_cmp);
@@ -58,14 +53,15 @@ pub(super) fn critical_arcs(
         }
     }
     for arc in &mut out[from..] {
-        *arc = super::contact::normalized(*arc);
+        *arc = normalized(*arc);
     }
     out[from..].sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     if out.len() == from { Hits::Never } else { Hits::Within }
 }
 
 /// Every angle at which some corner lies on the line of some side (at `radius`), or two corners are `radius` apart.
-fn critical_angles(part: &Features, pivot: Point, piece: &Features, radius: f64) -> Vec<f64> {
+fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
+    let &Placement { part, pivot, piece, radius, .. } = placement;
     let mut angles = Vec::new();
     let mut solve = |reference: Vector, cosine: f64| {
         if cosine.abs() <= 1.0 + GRAZING_COSINE {
