@@ -94,3 +94,52 @@ fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
     }
     angles
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::features::Features;
+    use crate::geometry::{Convex, Point};
+
+    fn regular(corners: u8, size: f64, radius: f64) -> Convex {
+        let corner = |k: u8| {
+            let angle = 0.3 + TAU * f64::from(k) / f64::from(corners);
+            Point::new(size * angle.cos(), size * angle.sin())
+        };
+        Convex::new((0..corners).map(corner).collect(), radius)
+    }
+
+    /// In general position no comparison is in doubt, and both ways give the same arcs.
+    #[test]
+    fn the_local_test_and_the_patient_way_agree() {
+        let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let parts = [Convex::new(bar.clone(), 0.0), Convex::new(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];
+        let pieces = [regular(1, 0.2, 0.1), regular(2, 0.3, 0.0), regular(4, 0.3, 0.0), regular(7, 0.3, 0.05)];
+        let mut compared = 0;
+        for (i, (part, piece)) in parts.iter().flat_map(|a| pieces.iter().map(move |b| (a, b))).enumerate() {
+            let (part, piece) = (Features::new(part), Features::new(piece));
+            for k in 0..200 {
+                let (distance, angle) = (f64::from(k) * 0.0061 + 0.0137, f64::from(k) * 2.4 + 0.1 * i as f64);
+                let pivot = Point::new(distance * angle.cos(), distance * angle.sin());
+                let radius = part.shape().radius() + piece.shape().radius();
+                let zero = Vector::new(0.6, 0.8);
+                let reach = (0.0, f64::INFINITY);
+                let placement = Placement { part: &part, pivot, zero, piece: &piece, radius, reach };
+                let (mut local, mut patient) = (Vec::new(), Vec::new());
+                let hits = critical_arcs(&placement, &mut patient);
+                let ends = placement.ends().unwrap_or_else(|_| panic!("doubt at {pivot} for {part:?} and {piece:?}"));
+                if ends.is_empty() {
+                    assert_ne!(hits, Hits::Within);
+                    continue;
+                }
+                assert!(ends.arcs(&mut local).is_ok());
+                assert_eq!(local.len(), patient.len(), "{local:?} {patient:?}");
+                for (a, b) in local.iter().zip(&patient) {
+                    assert!((a[0] - b[0]).abs() < 1e-7 && (a[1] - b[1]).abs() < 1e-7, "{local:?} {patient:?}");
+                }
+                compared += 1;
+            }
+        }
+        assert!(compared > 1000, "only {compared} positions have arcs");
+    }
+}
