@@ -1,8 +1,9 @@
 //! The patient way to the arcs of contact: every critical angle, and one distance between neighbours.
 
-use super::contact::{Hits, ROUNDING};
-use super::features::{Features, quotient};
-use crate::geometry::{Point, Pose, Vector, separation};
+use super::contact::{Hits, ROUNDING, normalized};
+use super::features::quotient;
+use super::touching::Placement;
+use crate::geometry::{Pose, Vector, separation};
 use crate::space::Axis;
 use std::f64::consts::{PI, TAU};
 
@@ -13,18 +14,12 @@ const SAME_ANGLE: f64 = 1e-12;
 /// `cos` may exceed 1 by this and still count as grazing, so that a touch lost to rounding is looked at.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// The arcs of [`super::contact::turning_from`] for cores within `radius`, right in every degenerate position: on the
+/// The arcs of [`super::contact::turning_from`] right in every degenerate position: on the
 /// critical angles themselves and halfway between neighbours the distance decides, with [`ROUNDING`] in favour of
 /// contact. `O(n m)` critical angles and as many distances.
-pub(super) fn critical_arcs(
-    part: &Features,
-    pivot: Point,
-    zero: Vector,
-    piece: &Features,
-    radius: f64,
-    out: &mut Vec<[f64; 2]>,
-) -> Hits {
-    let mut angles = critical_angles(part, pivot, piece, radius);
+pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
+    let &Placement { part, pivot, zero, piece, radius, .. } = placement;
+    let mut angles = critical_angles(placement);
     let zero_angle = zero.y.atan2(zero.x);
     angles.iter_mut().for_each(|angle| *angle = Axis::Circle.wrap(*angle - zero_angle));
     angles.sort_unstable_by(f64::total_cmp);
@@ -58,14 +53,15 @@ pub(super) fn critical_arcs(
         }
     }
     for arc in &mut out[from..] {
-        *arc = super::contact::normalized(*arc);
+        *arc = normalized(*arc);
     }
     out[from..].sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
     if out.len() == from { Hits::Never } else { Hits::Within }
 }
 
 /// Every angle at which some corner lies on the line of some side (at `radius`), or two corners are `radius` apart.
-fn critical_angles(part: &Features, pivot: Point, piece: &Features, radius: f64) -> Vec<f64> {
+fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
+    let &Placement { part, pivot, piece, radius, .. } = placement;
     let mut angles = Vec::new();
     let mut solve = |reference: Vector, cosine: f64| {
         if cosine.abs() <= 1.0 + GRAZING_COSINE {
@@ -97,4 +93,53 @@ fn critical_angles(part: &Features, pivot: Point, piece: &Features, radius: f64)
         }
     }
     angles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::features::Features;
+    use crate::geometry::{Convex, Point};
+
+    fn regular(corners: u8, size: f64, radius: f64) -> Convex {
+        let corner = |k: u8| {
+            let angle = 0.3 + TAU * f64::from(k) / f64::from(corners);
+            Point::new(size * angle.cos(), size * angle.sin())
+        };
+        Convex::new((0..corners).map(corner).collect(), radius)
+    }
+
+    /// In general position no comparison is in doubt, and both ways give the same arcs.
+    #[test]
+    fn the_local_test_and_the_patient_way_agree() {
+        let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let parts = [Convex::new(bar.clone(), 0.0), Convex::new(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];
+        let pieces = [regular(1, 0.2, 0.1), regular(2, 0.3, 0.0), regular(4, 0.3, 0.0), regular(7, 0.3, 0.05)];
+        let mut compared = 0;
+        for (i, (part, piece)) in parts.iter().flat_map(|a| pieces.iter().map(move |b| (a, b))).enumerate() {
+            let (part, piece) = (Features::new(part), Features::new(piece));
+            for k in 0..200 {
+                let (distance, angle) = (f64::from(k) * 0.0061 + 0.0137, f64::from(k) * 2.4 + 0.1 * i as f64);
+                let pivot = Point::new(distance * angle.cos(), distance * angle.sin());
+                let radius = part.shape().radius() + piece.shape().radius();
+                let zero = Vector::new(0.6, 0.8);
+                let reach = (0.0, f64::INFINITY);
+                let placement = Placement { part: &part, pivot, zero, piece: &piece, radius, reach };
+                let (mut local, mut patient) = (Vec::new(), Vec::new());
+                let hits = critical_arcs(&placement, &mut patient);
+                let ends = placement.ends().unwrap_or_else(|_| panic!("doubt at {pivot} for {part:?} and {piece:?}"));
+                if ends.is_empty() {
+                    assert_ne!(hits, Hits::Within);
+                    continue;
+                }
+                assert!(ends.arcs(&mut local).is_ok());
+                assert_eq!(local.len(), patient.len(), "{local:?} {patient:?}");
+                for (a, b) in local.iter().zip(&patient) {
+                    assert!((a[0] - b[0]).abs() < 1e-7 && (a[1] - b[1]).abs() < 1e-7, "{local:?} {patient:?}");
+                }
+                compared += 1;
+            }
+        }
+        assert!(compared > 1000, "only {compared} positions have arcs");
+    }
 }

@@ -24,10 +24,21 @@ pub(super) struct Corner {
     pub distance2: f64,
     /// Distance from the origin.
     pub distance: f64,
-    /// To the next corner and to the previous one.
-    pub to_neighbors: [Vector; 2],
-    /// The same in the corner's own polar frame: seen from the origin with the corner at `(1, 0)`. Zero at the origin.
-    pub polar: [Vector; 2],
+    to_neighbors: [Vector; 2],
+    polar: [Vector; 2],
+    neighbors: usize,
+}
+
+impl Corner {
+    /// To the next corner and to the previous one, as far as there are any.
+    pub fn to_neighbors(&self) -> &[Vector] {
+        &self.to_neighbors[..self.neighbors]
+    }
+
+    /// The same turned and scaled with the corner's position to `(1, 0)`. Zero for a corner at the origin.
+    pub fn polar(&self) -> &[Vector] {
+        &self.polar[..self.neighbors]
+    }
 }
 
 /// A side of a core: the points `normal * offset + tangent * t`, `t` from `from` to `to`.
@@ -70,7 +81,7 @@ impl Features {
                 let distance2 = at.norm_squared();
                 let polar =
                     to_neighbors.map(|v| if distance2 > 0.0 { quotient(v, at) / distance2 } else { Vector::zeros() });
-                Corner { at, distance2, distance: distance2.sqrt(), to_neighbors, polar }
+                Corner { at, distance2, distance: distance2.sqrt(), to_neighbors, polar, neighbors: (n - 1).min(2) }
             })
             .collect::<Vec<_>>();
         let sides: Vec<Side> = (0..if n > 1 { n } else { 0 })

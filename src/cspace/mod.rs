@@ -9,6 +9,7 @@ mod rows;
 mod sampled;
 mod slabs;
 mod sliding;
+mod touching;
 
 pub use contact::{Hits, ROUNDING, turning, turning_from};
 pub use features::Features;

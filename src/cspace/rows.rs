@@ -1,11 +1,12 @@
 //! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
 
 use super::contact::{Hits, normalized, turning_from};
-use super::features::Features;
+use super::features::{Features, product};
 use super::sliding::{along_and_across, sliding_tracks};
 use crate::geometry::{Convex, Point, Vector};
 use crate::model::{Joint, Motion, Pair, Scene};
 use crate::space::Configuration;
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 /// A scene prepared for rows.
@@ -63,7 +64,7 @@ impl Carried {
             }
             Motion::Prismatic { direction } => {
                 let radius = self.features.shape().radius() + piece.shape().radius() + grow;
-                let direction = super::features::product(heading, direction);
+                let direction = product(heading, direction);
                 let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
                 match sliding_tracks(&self.track, &track, radius) {
                     Some(interval) => {
@@ -83,7 +84,7 @@ impl<'a> Rows<'a> {
     pub fn new(scene: &'a Scene) -> Self {
         let [first, second] = &scene.arm.joints;
         let mut pieces = Vec::new();
-        let mut piece_of = std::collections::BTreeMap::new();
+        let mut piece_of = BTreeMap::new();
         let pairs = scene
             .pairs()
             .iter()
