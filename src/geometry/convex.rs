@@ -31,10 +31,10 @@ impl Convex {
         Self::new(vec![center], radius)
     }
 
-    /// A thin wall from `a` to `b`: no area, still solid.
+    /// A thin wall from `a` to `b`: no area, still solid. A point if `a` and `b` coincide.
     #[must_use]
     pub fn segment(a: Point, b: Point) -> Self {
-        Self::new(vec![a, b], 0.0)
+        Self::new(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
 
     /// Corners of the core, counter-clockwise.
@@ -53,6 +53,13 @@ impl Convex {
     #[must_use]
     pub fn grown(&self, distance: f64) -> Self {
         Self::new(self.core.clone(), self.radius + distance)
+    }
+
+    /// The differences `q - p` of the points `q` of this shape and `p` of `other`: the translations that make `other`
+    /// meet this shape, its *C-obstacle*. See [`super::minkowski_difference`]; the radii add up, exactly.
+    #[must_use]
+    pub fn minkowski_difference(&self, other: &Self) -> Self {
+        Self::new(super::minkowski_difference(&self.core, &other.core), self.radius + other.radius)
     }
 
     /// The shape moved by `pose`.

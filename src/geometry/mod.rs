@@ -5,9 +5,27 @@
 //! depth) is a plain `f64`. Touching counts as contact, everywhere.
 
 mod convex;
+mod decompose;
+mod hull;
+mod intervals;
+mod meet;
+mod minkowski;
+mod penetration;
+mod polygon;
+mod predicates;
 mod separation;
 
 pub use convex::Convex;
+pub use decompose::decompose;
+pub use hull::hull;
+pub use intervals::{Interval, Intervals, complement_into, merge_in_place, unroll_arc};
+pub use meet::shapes_meet;
+pub use minkowski::{minkowski_difference, penetration_depth};
+pub use penetration::{
+    CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
+};
+pub use polygon::{PolygonDefect, SimplePolygon};
+pub use predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
 pub use separation::{Separation, separation};
 
 /// A point of the plane, metres.

@@ -1,5 +1,6 @@
 //! Distance and penetration depth of two convex shapes.
 
+use super::meet::cores_meet;
 use super::{Convex, Point, Vector, perpendicular};
 
 /// How two convex shapes lie to each other.
@@ -26,6 +27,10 @@ pub fn separation(a: &Convex, b: &Convex) -> Separation {
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }
 }
 
+/// Rounding error of a side distance, relative to the largest coordinate: a difference, two products and a sum at
+/// coordinates twice as large, and the normal's own error, are some 6 epsilon together.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     let face_a = best_face(a, b);
     let face_b = best_face(b, a).map(|s| Separation { direction: -s.direction, ..s });
@@ -33,9 +38,20 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
         (Some(x), Some(y)) => Some(if x.distance >= y.distance { x } else { y }),
         (x, y) => x.or(y),
     };
-    match face {
-        Some(face) if face.distance < 0.0 => face,
-        _ => nearest_features(a, b),
+    let Some(face) = face else { return nearest_features(a, b) };
+    let error = ROUNDING * a.iter().chain(b).map(|p| p.coords.amax()).fold(0.0, f64::max);
+    if face.distance < -error {
+        return face;
+    }
+    // Disjoint, or touching up to rounding. Cores that lie apart on one line (as two walls in a row do) are separated by
+    // no side normal; only their distance tells them from cores that touch, whose distance is within `error` of 0.
+    let nearest = nearest_features(a, b);
+    if nearest.distance > 4.0 * error {
+        nearest
+    } else if cores_meet(a, b) {
+        Separation { distance: face.distance.min(0.0), ..face }
+    } else {
+        Separation { distance: nearest.distance, ..face }
     }
 }
 
@@ -57,7 +73,7 @@ fn best_face(a: &[Point], b: &[Point]) -> Option<Separation> {
     best
 }
 
-/// Least distance between the boundaries of two disjoint cores.
+/// Least distance between the boundaries of two cores.
 fn nearest_features(a: &[Point], b: &[Point]) -> Separation {
     let mut best = Separation { distance: f64::INFINITY, direction: Vector::x() };
     let mut consider = |offset: Vector| {
@@ -69,7 +85,8 @@ fn nearest_features(a: &[Point], b: &[Point]) -> Separation {
     for_each_vertex_side(b, a, &mut consider);
     for_each_vertex_side(a, b, |offset| consider(-offset));
     let distance = best.distance.sqrt();
-    let direction = if distance > 0.0 { best.direction / distance } else { touching_direction(a, b) };
+    // Only points that coincide have no direction; any will do for them.
+    let direction = if distance > 0.0 { best.direction / distance } else { Vector::x() };
     Separation { distance, direction }
 }
 
@@ -82,14 +99,16 @@ fn for_each_vertex_side(corners: &[Point], sides: &[Point], mut f: impl FnMut(Ve
         let along = q - p;
         let length2 = along.norm_squared();
         for v in corners {
-            let t = if length2 > 0.0 { ((v - p).dot(&along) / length2).clamp(0.0, 1.0) } else { 0.0 };
-            f(v - (p + along * t));
+            let t = (v - p).dot(&along);
+            f(if t <= 0.0 {
+                v - p
+            } else if t >= length2 {
+                v - q
+            } else {
+                // Along the normal, rather than to a rounded foot on the side: keeps the direction of small offsets.
+                let normal = perpendicular(along);
+                normal * (normal.dot(&(v - p)) / length2)
+            });
         }
     }
-}
-
-/// Some direction for shapes whose distance is exactly zero: along their centres.
-fn touching_direction(a: &[Point], b: &[Point]) -> Vector {
-    let centre = |s: &[Point]| s.iter().map(|p| p.coords).sum::<Vector>() / s.len() as f64;
-    (centre(b) - centre(a)).try_normalize(0.0).unwrap_or_else(Vector::x)
 }

@@ -1,0 +1,135 @@
+//! How deep a point lies in a convex polygon, and whether two convex polygons meet: the classical tests on the signed
+//! distances of corners to sides (point penetration, polygon penetration).
+//!
+//! Every sign is exact; degenerate cases (collinear sides, a side through a corner, touching, polygons without area)
+//! need no treatment of their own.
+
+use super::meet::sides;
+use super::predicates::{determinant, point_on_segment, segments_cross};
+use super::{Point, Vector};
+
+/// Signed distance of `p` to the line directed from `a` to `b`, metres: positive on the left. NaN if `a == b`.
+///
+/// The sign is exact (0 only on the line); the value is rounded.
+#[must_use]
+pub fn signed_distance(p: Point, a: Point, b: Point) -> f64 {
+    determinant(a, b, p) / (b - a).norm()
+}
+
+/// Where a point lies with respect to a closed set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Location {
+    /// In the interior.
+    Inside,
+    /// On the boundary. A polygon without area is all boundary.
+    Boundary,
+    /// Not in the set.
+    Outside,
+}
+
+/// How deep a point lies in a convex polygon.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointPenetration {
+    /// Signed distance to the line through each side, metres: positive on the polygon's side of it.
+    ///
+    /// Side `i` starts at corner `i`. A segment has two sides, there and back; a point has none.
+    pub distances: Vec<f64>,
+    /// The least of the distances, metres. Inside, the distance to the nearest side; outside, minus a lower bound of the
+    /// distance to the polygon. For a polygon that is a point: minus the distance to it.
+    pub depth: f64,
+    /// The side of least distance, the first of several; none if the polygon is a point.
+    pub side: Option<usize>,
+    /// Where the point lies; exact.
+    pub location: Location,
+}
+
+/// Penetration of `point` in a convex counter-clockwise polygon, which may be a segment or a point. `O(n)`.
+#[must_use]
+pub fn point_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
+    let n = polygon.len();
+    if n < 2 || (n == 2 && polygon[0] == polygon[1]) {
+        let distance = polygon.first().map_or(f64::INFINITY, |c| (point - c).norm());
+        let location = if polygon.first() == Some(&point) { Location::Boundary } else { Location::Outside };
+        return PointPenetration { distances: Vec::new(), depth: -distance, side: None, location };
+    }
+    let distances: Vec<f64> = (0..n).map(|i| signed_distance(point, polygon[i], polygon[(i + 1) % n])).collect();
+    let (side, depth) =
+        distances.iter().copied().enumerate().fold((0, f64::INFINITY), |best, d| if d.1 < best.1 { d } else { best });
+    let location = if depth > 0.0 {
+        Location::Inside
+    } else if depth == 0.0 && (n > 2 || point_on_segment(point, polygon[0], polygon[1])) {
+        Location::Boundary
+    } else {
+        Location::Outside
+    };
+    PointPenetration { distances, depth, side: Some(side), location }
+}
+
+/// A corner of one polygon that lies in the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CornerInside {
+    /// Index of the corner.
+    pub corner: usize,
+    /// How deep it lies, metres; 0 on the boundary.
+    pub depth: f64,
+}
+
+/// What the polygon penetration test finds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolygonTest {
+    /// Whether the polygons have a point in common: whether anything is listed below. Touching counts. Exact.
+    pub meet: bool,
+    /// Corners of the first polygon in the second or on its boundary.
+    pub a_inside: Vec<CornerInside>,
+    /// Corners of the second polygon in the first or on its boundary.
+    pub b_inside: Vec<CornerInside>,
+    /// Sides of the first and of the second polygon that cross properly, in a point interior to both.
+    pub crossings: Vec<(usize, usize)>,
+}
+
+/// The polygon penetration test: corners of each of two convex polygons inside the other, and sides that cross.
+///
+/// The polygons are counter-clockwise and may be segments or points. Complete: where two convex polygons meet without
+/// a corner of either in the other, their boundaries cross, and none of the crossings is at a corner. `O(n m)`.
+#[must_use]
+pub fn polygon_test(a: &[Point], b: &[Point]) -> PolygonTest {
+    let a_inside = corners_inside(a, b);
+    let b_inside = corners_inside(b, a);
+    let mut crossings = Vec::new();
+    for (i, (p, q)) in sides(a).enumerate() {
+        for (k, (r, s)) in sides(b).enumerate() {
+            if segments_cross(p, q, r, s) {
+                crossings.push((i, k));
+            }
+        }
+    }
+    let meet = !(a_inside.is_empty() && b_inside.is_empty() && crossings.is_empty());
+    PolygonTest { meet, a_inside, b_inside, crossings }
+}
+
+fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
+    let inside = |(corner, &p): (usize, &Point)| {
+        let penetration = point_penetration(p, polygon);
+        // On a segment both signed distances are 0, and at a point the distance is: never below.
+        (penetration.location != Location::Outside).then(|| CornerInside { corner, depth: penetration.depth.abs() })
+    };
+    corners.iter().enumerate().filter_map(inside).collect()
+}
+
+/// Penetration depth of the origin in a convex counter-clockwise polygon, or minus its distance from it, metres.
+pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
+    let origin = Point::origin();
+    let penetration = point_penetration(origin, polygon);
+    if penetration.location == Location::Outside {
+        -sides(polygon).map(|(a, b)| distance_to_segment(origin, a, b)).fold(f64::INFINITY, f64::min)
+    } else {
+        penetration.depth.abs()
+    }
+}
+
+/// Distance of `p` from the closed segment `ab`.
+fn distance_to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let along: Vector = b - a;
+    let t = (p - a).dot(&along) / along.norm_squared();
+    if t > 0.0 && t < 1.0 { signed_distance(p, a, b).abs() } else { (p - a).norm().min((p - b).norm()) }
+}

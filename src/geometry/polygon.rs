@@ -1,0 +1,252 @@
+//! Simple polygons: validation, orientation, area.
+
+use super::predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
+use super::{Convex, Point, cross, decompose};
+
+/// Why a list of corners is no simple polygon.
+///
+/// Indices refer to the list as it was given; side `i` runs from corner `i` to corner `i + 1` (the last to the first).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum PolygonDefect {
+    /// Fewer than three corners.
+    #[error("a polygon needs at least three corners, this one has {count}")]
+    TooFewCorners {
+        /// Number of corners given.
+        count: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("corner {corner} has a coordinate that is not finite")]
+    NotFinite {
+        /// The corner.
+        corner: usize,
+    },
+    /// Two corners lie in the same place.
+    #[error("corners {first} and {second} coincide")]
+    RepeatedCorner {
+        /// The one that comes first in the list.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// All corners lie on one line.
+    #[error("all corners lie on one line: the polygon has no area")]
+    NoArea,
+    /// The boundary turns back on itself.
+    #[error("the side after corner {corner} folds back onto the side before it")]
+    Spike {
+        /// The corner at the tip.
+        corner: usize,
+    },
+    /// Two sides cross.
+    #[error("sides {first} and {second} cross")]
+    SidesCross {
+        /// The lower index.
+        first: usize,
+        /// The higher index.
+        second: usize,
+    },
+    /// Two sides that are no neighbours touch or overlap.
+    #[error("sides {first} and {second} touch")]
+    SidesTouch {
+        /// The lower index.
+        first: usize,
+        /// The higher index.
+        second: usize,
+    },
+}
+
+/// A polygon whose boundary neither crosses nor touches itself; counter-clockwise.
+///
+/// Corners in the middle of a straight side are allowed and kept.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimplePolygon {
+    corners: Vec<Point>,
+}
+
+impl SimplePolygon {
+    /// The polygon with these corners, given in either direction.
+    ///
+    /// All conditions are decided exactly. `O(n log n + k)` for `k` pairs of sides whose extents in x overlap, so
+    /// `O(n^2)` at worst, with a small constant.
+    ///
+    /// # Errors
+    /// The first defect found, in the order of [`PolygonDefect`]'s variants.
+    pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonDefect> {
+        check_corners(&corners)?;
+        check_neighbours(&corners)?;
+        check_sides(&corners)?;
+        if !is_counter_clockwise(&corners) {
+            corners[1..].reverse();
+        }
+        Ok(Self { corners })
+    }
+
+    /// The corners, counter-clockwise, from the one that was given first.
+    #[must_use]
+    pub fn corners(&self) -> &[Point] {
+        &self.corners
+    }
+
+    /// Area, square metres.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        // Relative to a corner, so that a small polygon far from the origin loses no digits.
+        let origin = self.corners[0];
+        self.corners[1..].windows(2).map(|w| cross(w[0] - origin, w[1] - origin)).sum::<f64>() / 2.0
+    }
+
+    /// Whether the polygon is convex (straight corners allowed); exact.
+    #[must_use]
+    pub fn is_convex(&self) -> bool {
+        let n = self.corners.len();
+        (0..n).all(|i| turn(&self.corners, i) != Orientation::Clockwise)
+    }
+
+    /// Strictly convex polygons with disjoint interiors whose union is this polygon; no new corners.
+    ///
+    /// At most four times as many as the least possible number: see [`decompose`].
+    #[must_use]
+    pub fn convex_pieces(&self) -> Vec<Convex> {
+        decompose(self)
+    }
+}
+
+/// Which way the boundary turns at corner `i`.
+pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
+    let n = corners.len();
+    orientation(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n])
+}
+
+/// Number of corners, coordinates, repetitions.
+fn check_corners(corners: &[Point]) -> Result<(), PolygonDefect> {
+    if corners.len() < 3 {
+        return Err(PolygonDefect::TooFewCorners { count: corners.len() });
+    }
+    if let Some(corner) = corners.iter().position(|p| !p.x.is_finite() || !p.y.is_finite()) {
+        return Err(PolygonDefect::NotFinite { corner });
+    }
+    let mut order: Vec<usize> = (0..corners.len()).collect();
+    // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
+    let key = |i: usize| (corners[i].x + 0.0, corners[i].y + 0.0);
+    order.sort_unstable_by(|&i, &j| {
+        let (a, b) = (key(i), key(j));
+        a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(i.cmp(&j))
+    });
+    let repeated = order.windows(2).filter(|w| corners[w[0]] == corners[w[1]]).map(|w| (w[0], w[1])).min();
+    match repeated {
+        Some((first, second)) => Err(PolygonDefect::RepeatedCorner { first, second }),
+        None => Ok(()),
+    }
+}
+
+/// Area and spikes: what a corner and its neighbours tell.
+fn check_neighbours(corners: &[Point]) -> Result<(), PolygonDefect> {
+    let n = corners.len();
+    if (0..n).all(|i| turn(corners, i) == Orientation::Collinear) {
+        return Err(PolygonDefect::NoArea);
+    }
+    let spike = |&i: &usize| {
+        let (before, after) = (corners[(i + n - 1) % n], corners[(i + 1) % n]);
+        turn(corners, i) == Orientation::Collinear && !point_on_segment(corners[i], before, after)
+    };
+    match (0..n).find(spike) {
+        Some(corner) => Err(PolygonDefect::Spike { corner }),
+        None => Ok(()),
+    }
+}
+
+/// No two sides meet but neighbours in their common corner. Neighbours are without spikes already.
+fn check_sides(corners: &[Point]) -> Result<(), PolygonDefect> {
+    let n = corners.len();
+    let side = |i: usize| (corners[i], corners[(i + 1) % n]);
+    let extent = |i: usize| {
+        let (a, b) = side(i);
+        (a.x.min(b.x), a.x.max(b.x))
+    };
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_unstable_by(|&i, &j| extent(i).0.total_cmp(&extent(j).0).then(i.cmp(&j)));
+    let mut worst: Option<(usize, usize)> = None;
+    for (k, &i) in order.iter().enumerate() {
+        let (a, b) = side(i);
+        let right = extent(i).1;
+        for &j in order[k + 1..].iter().take_while(|&&j| extent(j).0 <= right) {
+            let (first, second) = (i.min(j), i.max(j));
+            let neighbours = second - first == 1 || second - first == n - 1;
+            let (c, d) = side(j);
+            if !neighbours && segments_meet(a, b, c, d) && worst.is_none_or(|w| (first, second) < w) {
+                worst = Some((first, second));
+            }
+        }
+    }
+    let Some((first, second)) = worst else { return Ok(()) };
+    let ((a, b), (c, d)) = (side(first), side(second));
+    Err(if segments_cross(a, b, c, d) {
+        PolygonDefect::SidesCross { first, second }
+    } else {
+        PolygonDefect::SidesTouch { first, second }
+    })
+}
+
+/// Direction of a simple boundary, from its leftmost (of these the lowest) corner, where it cannot be straight.
+fn is_counter_clockwise(corners: &[Point]) -> bool {
+    let lower = |i: usize, j: usize| {
+        let (p, q) = (corners[i], corners[j]);
+        if (p.x, p.y) < (q.x, q.y) { i } else { j }
+    };
+    let extreme = (1..corners.len()).fold(0, lower);
+    turn(corners, extreme) == Orientation::CounterClockwise
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(list: &[(f64, f64)]) -> Vec<Point> {
+        list.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    fn defect(list: &[(f64, f64)]) -> PolygonDefect {
+        SimplePolygon::new(points(list)).unwrap_err()
+    }
+
+    #[test]
+    fn names_the_defect() {
+        use PolygonDefect::*;
+        assert_eq!(defect(&[(0., 0.), (1., 0.)]), TooFewCorners { count: 2 });
+        assert_eq!(defect(&[(0., 0.), (1., f64::NAN), (1., 1.)]), NotFinite { corner: 1 });
+        assert_eq!(defect(&[(0., 0.), (1., 0.), (1., 1.), (-0., 0.)]), RepeatedCorner { first: 0, second: 3 });
+        assert_eq!(defect(&[(0., 0.), (3., 3.), (1., 1.), (2., 2.)]), NoArea);
+        assert_eq!(defect(&[(0., 0.), (4., 0.), (2., 0.), (2., 2.)]), Spike { corner: 1 });
+        assert_eq!(defect(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]), SidesCross { first: 0, second: 2 });
+        // A corner on the opposite side.
+        let pinched = [(0., 0.), (4., 0.), (4., 4.), (2., 0.), (0., 4.)];
+        assert_eq!(defect(&pinched), SidesTouch { first: 0, second: 2 });
+        // Two sides that overlap.
+        let overlap = [(0., 0.), (4., 0.), (4., 2.), (3., 2.), (3., 0.), (1., 0.), (1., 2.), (0., 2.)];
+        assert!(matches!(defect(&overlap), SidesTouch { first: 0, .. }));
+    }
+
+    #[test]
+    fn touching_is_decided_exactly() {
+        // The fourth corner lies on the line y = x / 3 up to rounding, on one side of it or the other.
+        let tip = 1.0 / 3.0;
+        for (y, simple) in [(tip + f64::EPSILON, true), (tip - f64::EPSILON, false)] {
+            let corners = points(&[(0., 0.), (3., 1.), (3., 3.), (1., y), (0., 3.)]);
+            assert_eq!(SimplePolygon::new(corners).is_ok(), simple);
+        }
+    }
+
+    #[test]
+    fn either_direction_is_stored_counter_clockwise() {
+        let list = [(0., 0.), (2., 0.), (4., 0.), (4., 3.), (2., 1.), (0., 3.)];
+        let polygon = SimplePolygon::new(points(&list)).unwrap();
+        let mut reversed = list;
+        reversed.reverse();
+        let other = SimplePolygon::new(points(&reversed)).unwrap();
+        assert_eq!(polygon.corners(), points(&list));
+        assert_eq!(other.area(), 8.0);
+        assert_eq!(polygon.area(), 8.0);
+        assert!(!polygon.is_convex());
+        assert!(SimplePolygon::new(points(&[(0., 0.), (1., 0.), (2., 0.), (0., 2.)])).unwrap().is_convex());
+    }
+}

@@ -1,0 +1,9 @@
+//! The geometry against oracles that share no code with it: integer arithmetic, brute force, identities of areas, and
+//! the collision library parry2d.
+
+mod lattice;
+mod measures;
+mod minkowski;
+mod parry;
+mod polygons;
+mod verdicts;

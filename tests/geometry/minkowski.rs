@@ -1,0 +1,98 @@
+//! Minkowski differences against brute force and against identities of convex geometry.
+
+use cplan::geometry::{Convex, Location, Point, Vector, hull, minkowski_difference, point_penetration};
+use proptest::prelude::*;
+
+use crate::lattice::{Corner, core, meet, points};
+
+/// The corners, counter-clockwise from the leftmost (lowest).
+fn from_leftmost(mut polygon: Vec<Point>) -> Vec<Point> {
+    let leftmost = (0..polygon.len()).min_by(|&i, &j| {
+        let (p, q) = (polygon[i], polygon[j]);
+        (p.x, p.y).partial_cmp(&(q.x, q.y)).unwrap()
+    });
+    polygon.rotate_left(leftmost.unwrap_or(0));
+    polygon
+}
+
+fn sides(polygon: &[Point]) -> impl Iterator<Item = Vector> {
+    (0..polygon.len()).map(|i| polygon[(i + 1) % polygon.len()] - polygon[i])
+}
+
+/// The greatest value of `n . p` over the polygon.
+fn support(polygon: &[Point], n: Vector) -> f64 {
+    polygon.iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Polygons from points on a circle of random radius, in random position.
+fn polygon() -> impl Strategy<Value = Vec<Point>> {
+    let angles = prop::collection::vec(0.0..std::f64::consts::TAU, 1..20);
+    (angles, 0.01..10.0f64, -10.0..10.0f64, -10.0..10.0f64).prop_map(|(angles, r, x, y)| {
+        let on_circle = |t: f64| Point::new(x + r * t.cos(), y + r * t.sin());
+        hull(&angles.into_iter().map(on_circle).collect::<Vec<_>>())
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn lattice_differences_are_hulls_of_all_differences(a in core(), b in core()) {
+        let (a, b) = (points(&a), points(&b));
+        let all: Vec<Point> = b.iter().flat_map(|q| a.iter().map(move |p| Point::from(q - p))).collect();
+        prop_assert_eq!(from_leftmost(minkowski_difference(&b, &a)), hull(&all));
+    }
+
+    #[test]
+    fn support_area_and_perimeter_add_up(a in polygon(), b in polygon(), direction in 0.0..std::f64::consts::TAU) {
+        let difference = minkowski_difference(&b, &a);
+        let minus_a: Vec<Point> = a.iter().map(|p| Point::from(-p.coords)).collect();
+        let n = Vector::new(direction.cos(), direction.sin());
+        let tolerance = 1e-12;
+        prop_assert!((support(&difference, n) - support(&b, n) - support(&minus_a, n)).abs() < 100.0 * tolerance);
+        prop_assert!(difference.len() <= a.len() + b.len());
+
+        let length = |polygon: &[Point]| sides(polygon).map(|s| s.norm()).sum::<f64>();
+        prop_assert!((length(&difference) - length(&a) - length(&b)).abs() < 1000.0 * tolerance);
+
+        // area(B + K) = area(B) + sum over the sides of B of (length times support of K) + area(K).
+        let mixed: f64 = sides(&b).map(|s| support(&minus_a, Vector::new(s.y, -s.x))).sum();
+        let area = |polygon: &[Point]| Convex::new(polygon.to_vec(), 0.0).area();
+        prop_assert!((area(&difference) - area(&b) - mixed - area(&a)).abs() < 1e4 * tolerance);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn translations_that_collide_are_the_points_of_the_difference(a in core(), b in core()) {
+        let difference = minkowski_difference(&points(&b), &points(&a));
+        for x in -9..=9 {
+            for y in -9..=9 {
+                let moved: Vec<Corner> = a.iter().map(|p| (p.0 + x, p.1 + y)).collect();
+                let location = point_penetration(Point::new(x as f64, y as f64), &difference).location;
+                prop_assert_eq!(location != Location::Outside, meet(&moved, &b));
+            }
+        }
+    }
+}
+
+#[test]
+fn radii_add_up() {
+    let (a, b) =
+        (Convex::disc(Point::new(1.0, 2.0), 0.25), Convex::segment(Point::new(0.0, 0.0), Point::new(1.0, 0.0)));
+    let difference = b.grown(0.5).minkowski_difference(&a);
+    assert_eq!(difference.radius(), 0.75);
+    assert_eq!(difference.core(), [Point::new(-1.0, -2.0), Point::new(0.0, -2.0)]);
+    // Cores that turn out empty or without length do no harm.
+    assert!(minkowski_difference(&[], a.core()).is_empty());
+    assert_eq!(Convex::segment(Point::origin(), Point::origin()).core().len(), 1);
+}
+
+#[test]
+fn negative_zero_does_not_mislead_the_sweep() {
+    let square = [(0.0, 0.0), (1.0, -0.0), (1.0, 1.0), (-0.0, 1.0)].map(|(x, y)| Point::new(x, y));
+    let expected = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Point::new(x, y));
+    assert_eq!(minkowski_difference(&square, &square), expected);
+}

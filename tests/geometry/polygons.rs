@@ -1,0 +1,146 @@
+//! Validation and convex decomposition of polygons against integer arithmetic.
+
+use cplan::geometry::{Point, PolygonDefect, SimplePolygon, decompose};
+use proptest::prelude::*;
+
+use crate::lattice::{Corner, cross, meet, point, points};
+
+/// Whether a ring of corners is a simple polygon: no two sides meet but neighbours, and these in one corner only.
+fn is_simple(ring: &[Corner]) -> bool {
+    let n = ring.len();
+    let side = |i: usize| [ring[i], ring[(i + 1) % n]];
+    n >= 3
+        && (0..n).all(|i| side(i)[0] != side(i)[1])
+        && (0..n).all(|i| {
+            (i + 1..n).all(|j| {
+                let far_end = if j == i + 1 { Some(side(j)[1]) } else { (i == 0 && j == n - 1).then(|| side(j)[0]) };
+                match far_end {
+                    None => !meet(&side(i), &side(j)),
+                    // Neighbours overlap iff the far end of the one lies on the other, or the reverse.
+                    Some(end) => {
+                        let other = if j == i + 1 { side(i)[0] } else { side(i)[1] };
+                        !meet(&side(i), &[end]) && !meet(&side(j), &[other])
+                    }
+                }
+            })
+        })
+}
+
+fn twice_area(ring: &[Corner]) -> i64 {
+    (1..ring.len() - 1).map(|i| cross(ring[0], ring[i], ring[i + 1])).sum()
+}
+
+/// Simple polygons with up to 30 corners, straight ones among them: corners put into sides one by one.
+fn simple_ring() -> impl Strategy<Value = Vec<Corner>> {
+    prop::collection::vec((-8..=8i64, -8..=8i64, 0..30usize), 3..40).prop_map(|list| {
+        let mut ring = vec![(-9, -9), (9, -9), (0, 9)];
+        for (x, y, at) in list {
+            let mut grown = ring.clone();
+            grown.insert(at % ring.len() + 1, (x, y));
+            if is_simple(&grown) {
+                ring = grown;
+            }
+        }
+        ring
+    })
+}
+
+/// Whether a ring contains a point that is not on its boundary (crossing number; coordinates in thirds of the lattice).
+fn contains(ring: &[Corner], p: Corner) -> bool {
+    let scaled = |i: usize| (3 * ring[i % ring.len()].0, 3 * ring[i % ring.len()].1);
+    let crossings = (0..ring.len()).filter(|&i| {
+        let (a, b) = (scaled(i), scaled(i + 1));
+        (a.1 > p.1) != (b.1 > p.1) && (cross(a, b, p) > 0) == (b.1 > a.1)
+    });
+    crossings.count() % 2 == 1
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn validation_agrees_with_the_definition(ring in prop::collection::vec((-2..=2i64, -2..=2i64), 3..7)) {
+        let found = SimplePolygon::new(points(&ring));
+        prop_assert_eq!(found.is_ok(), is_simple(&ring), "{:?}", found);
+        let side = |i: usize| [ring[i], ring[(i + 1) % ring.len()]];
+        match found {
+            Ok(polygon) => prop_assert_eq!(polygon.area() * 2.0, twice_area(&ring).abs() as f64),
+            Err(PolygonDefect::RepeatedCorner { first, second }) => {
+                prop_assert!(first < second && ring[first] == ring[second]);
+            }
+            Err(PolygonDefect::NoArea) => prop_assert!((2..ring.len()).all(|i| cross(ring[0], ring[1], ring[i]) == 0)),
+            Err(PolygonDefect::Spike { corner }) => {
+                let before = ring[(corner + ring.len() - 1) % ring.len()];
+                prop_assert!(meet(&side(corner), &[before]) || meet(&[before, ring[corner]], &[side(corner)[1]]));
+            }
+            Err(PolygonDefect::SidesCross { first, second } | PolygonDefect::SidesTouch { first, second }) => {
+                prop_assert!(first < second && meet(&side(first), &side(second)));
+            }
+            Err(other) => prop_assert!(false, "{other}"),
+        }
+    }
+
+    #[test]
+    fn pieces_make_up_the_polygon(ring in simple_ring()) {
+        let polygon = SimplePolygon::new(points(&ring)).unwrap();
+        let pieces: Vec<Vec<Corner>> = decompose(&polygon)
+            .iter()
+            .map(|piece| piece.core().iter().map(|p| (p.x as i64, p.y as i64)).collect())
+            .collect();
+        let mut area = 0;
+        for piece in &pieces {
+            let n = piece.len();
+            prop_assert!((0..n).all(|i| cross(piece[i], piece[(i + 1) % n], piece[(i + 2) % n]) > 0));
+            prop_assert!(piece.iter().all(|p| ring.contains(p)));
+            area += twice_area(piece);
+        }
+        prop_assert_eq!(area, twice_area(&ring));
+        // Every point that lies on no line of a side is in as many pieces as it is in the polygon: one or none.
+        for x in -27..=27 {
+            for y in -27..=27 {
+                let p = (x, y);
+                let on_side = |ring: &[Corner]| (0..ring.len()).any(|i| {
+                    let scaled = |i: usize| (3 * ring[i % ring.len()].0, 3 * ring[i % ring.len()].1);
+                    cross(scaled(i), scaled(i + 1), p) == 0
+                });
+                if x % 3 == 0 || y % 3 == 0 || on_side(&ring) || pieces.iter().any(|piece| on_side(piece)) {
+                    continue;
+                }
+                let count = pieces.iter().filter(|piece| contains(piece, p)).count();
+                prop_assert_eq!(count, usize::from(contains(&ring, p)));
+            }
+        }
+        let n = ring.len();
+        let reflex = (0..n).filter(|&i| cross(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0).count();
+        prop_assert!(pieces.len() <= 2 * reflex + 1);
+        prop_assert_eq!(pieces.len() == 1, polygon.is_convex());
+    }
+}
+
+/// A gear with `teeth` teeth between radius 1 and 2, four corners a tooth.
+fn gear(teeth: u32) -> Vec<Point> {
+    let corner = |k: u32| {
+        let angle = f64::from(k) / f64::from(4 * teeth) * std::f64::consts::TAU;
+        let radius = if k % 4 < 2 { 2.0 } else { 1.0 };
+        Point::new(radius * angle.cos(), radius * angle.sin())
+    };
+    (0..4 * teeth).map(corner).collect()
+}
+
+#[test]
+fn a_polygon_of_5000_corners_decomposes() {
+    let polygon = SimplePolygon::new(gear(1250)).unwrap();
+    let pieces = polygon.convex_pieces();
+    let area: f64 = pieces.iter().map(|piece| piece.area()).sum();
+    assert!((area - polygon.area()).abs() < 1e-9);
+    assert!(pieces.len() <= 5000, "{} pieces", pieces.len());
+}
+
+#[test]
+fn a_convex_polygon_is_one_piece_whatever_its_direction() {
+    let ring = [(0, 0), (0, 4), (2, 4), (4, 4), (4, 0), (1, 0)];
+    let pieces = SimplePolygon::new(points(&ring)).unwrap().convex_pieces();
+    assert_eq!(pieces.len(), 1);
+    assert_eq!(pieces[0].core().len(), 4);
+    assert!(pieces[0].core().contains(&point((4, 4))));
+}
