@@ -154,7 +154,7 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
     fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {

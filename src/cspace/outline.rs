@@ -202,7 +202,10 @@ impl<S: Source> Tracer<'_, S> {
                 || [0, 1].map(|side| chain.rows.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
             let sides = if ordered(&sides) { sides } else { whole() };
             let contour = outline(&sides, self.how.overlap);
-            self.finish(contour);
+            // Between two tips a single chord may do for both sides: then there is nothing in between to cover.
+            if contour.len() > 2 {
+                self.finish(contour);
+            }
         }
     }
 
