@@ -1,8 +1,30 @@
 //! Configuration space as polygons.
 
-use super::Proves;
-use crate::geometry::Point;
-use crate::space::Topology;
+use super::chord::{Contact, PairMotion};
+use super::events::events;
+use super::outline::{Break, Flattening, Source, contours};
+use super::rows::Rows;
+use super::union::free_space;
+use super::{Hits, Proves, translation};
+use crate::geometry::{Point, cross};
+use crate::model::{Joint, Scene};
+use crate::space::{Axis, Configuration, Topology};
+use std::f64::consts::{PI, TAU};
+
+/// Share of the margin that is left of it, as proven distance, on the contours of [`regions`] after flattening. The rest
+/// is what chords may cut off; the more, the fewer corners.
+const KEPT: f64 = 0.25;
+
+/// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
+const SPARE: f64 = 1.0 / 16.0;
+
+/// Rows to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse rows could
+/// overlook is found by [`events`].
+const FIRST_ROWS: usize = 24;
+
+/// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
+/// and far below the tolerance.
+const OVERLAP: f64 = 1e-3;
 
 /// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +33,37 @@ pub struct Polygon {
     pub outer: Vec<Point>,
     /// Contours of the holes.
     pub holes: Vec<Vec<Point>>,
+}
+
+impl Polygon {
+    /// Area without the holes.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
+    }
+
+    /// Whether `p` is inside, by the parity of crossings; points on a contour may come out either way. Linear.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        let contours = std::iter::once(&self.outer).chain(&self.holes);
+        contours.filter(|contour| crossings(contour, p) % 2 == 1).count() % 2 == 1
+    }
+}
+
+fn signed_area(contour: &[Point]) -> f64 {
+    let n = contour.len();
+    (0..n).map(|i| cross(contour[i] - contour[0], contour[(i + 1) % n] - contour[0])).sum::<f64>() / 2.0
+}
+
+/// How many sides the ray from `p` along the first axis crosses.
+fn crossings(contour: &[Point], p: Point) -> usize {
+    let n = contour.len();
+    (0..n)
+        .filter(|&i| {
+            let (a, b) = (contour[i], contour[(i + 1) % n]);
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y))
+        })
+        .count()
 }
 
 /// The part of a C-obstacle that one obstacle contributes, as a simple polygon in unwrapped joint values; on a circle
@@ -40,4 +93,192 @@ pub struct Regions {
     pub obstacles: Vec<CObstacle>,
     /// The window less all obstacles: one polygon a connected component.
     pub free: Vec<Polygon>,
+}
+
+impl Regions {
+    /// The component of free space that holds `q`, given within the window. Linear in the number of corners.
+    #[must_use]
+    pub fn component(&self, q: Configuration) -> Option<usize> {
+        self.free.iter().position(|polygon| polygon.contains(Point::from(q)))
+    }
+}
+
+/// Free space of a scene with obstacles grown by its clearance and at most `margin` metres more, over the limits of
+/// interval axes and `periods` turns to either side of `center` on circles.
+///
+/// All along the boundary of the free space, and so within it, arm and obstacles are at least the clearance plus a
+/// quarter of `margin` apart (see [`c_obstacles`] for the argument); configurations with more than the clearance and
+/// three times `margin` are free here. Vertices grow like `1 / sqrt(margin)`.
+///
+/// # Panics
+/// If `margin` is not positive.
+#[must_use]
+pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
+    assert!(margin > 0.0, "a margin for the flattening of curves");
+    let topology = scene.arm.topology();
+    let turns = TAU * periods as f64;
+    let window = [0, 1].map(|k| match topology.axes[k] {
+        Axis::Interval { lower, upper } => (lower, upper),
+        Axis::Circle => (center[k] - turns, center[k] + turns),
+    });
+    let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
+    let periods = [0, 1].map(|k| scene.arm.joints[k].motion.is_revolute().then_some(TAU));
+    let free = free_space(window, periods, obstacles.iter().map(|o| o.contour.as_slice()));
+    Regions { topology, proves: Proves::Outer { margin }, window, obstacles, free }
+}
+
+/// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
+/// hardly any in which it is more than twice `tolerance` farther; metres, `tolerance` positive. Each obstacle appears
+/// once for every pair, strip or band it takes; contours of one obstacle may overlap.
+///
+/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
+/// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact rows, and
+/// that they cover what they should is proven, not sampled: no point of the set `S` to be covered lies on the boundary of
+/// the union, since chords keep their distance (as the module `chord` proves) and rows are exact; so every
+/// connected part of `S` is all inside or all outside. And each has a point inside: it either reaches the end of the
+/// range of `q1`, where there is a row, or has a point of least `q1`, where there is one too (module `events`).
+///
+/// # Panics
+/// If `tolerance` is not positive.
+#[must_use]
+pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
+    assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
+    let level = scene.workspace.clearance + margin;
+    let rows = Rows::new(scene);
+    let map = translation::joint_map(&scene.arm);
+    let mut obstacles = Vec::new();
+    for (index, pair) in scene.pairs().iter().enumerate() {
+        let contours = match (pair.link, &map) {
+            (0, _) => bands(&rows, index, level + tolerance),
+            (_, Some(map)) => {
+                let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+                vec![translation::contour(&scene.arm, map, part, piece, level, tolerance)]
+            }
+            (_, None) => Curves::new(&rows, index, level, tolerance).contours(),
+        };
+        let (obstacle, link) = (pair.obstacle, pair.link);
+        obstacles.extend(contours.into_iter().map(|contour| CObstacle { obstacle, link, contour }));
+    }
+    obstacles
+}
+
+/// The values of `q1` at which a pair of link 1 is within `level`, for all `q2`.
+fn bands(rows: &Rows, index: usize, level: f64) -> Vec<Vec<Point>> {
+    let domain = |joint: &Joint| if joint.motion.is_revolute() { (-PI, PI) } else { joint.axis.domain() };
+    let [first, second] = &rows.scene().arm.joints;
+    let mut spans = Vec::new();
+    if rows.first_link(index, level, &mut spans) == Hits::Always {
+        spans = vec![<[f64; 2]>::from(domain(first))];
+    }
+    // The overlap closes the seam between the copies of a whole turn.
+    let (lower, upper) = domain(second);
+    let pad = OVERLAP * level.min(1.0);
+    let corners = |[a, b]: [f64; 2]| {
+        [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)].map(|(x, y)| Point::new(x, y)).to_vec()
+    };
+    spans.into_iter().map(corners).collect()
+}
+
+/// The rows of one pair of link 2, and what chords between them must keep.
+struct Curves<'a> {
+    rows: &'a Rows<'a>,
+    index: usize,
+    motion: PairMotion<'a>,
+    /// Distance that chords must keep, at the least.
+    floor: f64,
+    /// Distance on the boundary of the rows.
+    level: f64,
+    /// Distance that the middle of a chord may have, at the most.
+    ceiling: f64,
+    min_width: f64,
+}
+
+impl<'a> Curves<'a> {
+    fn new(rows: &'a Rows<'a>, index: usize, level: f64, tolerance: f64) -> Self {
+        let scene = rows.scene();
+        let pair = scene.pairs()[index];
+        let motion = PairMotion::new(&scene.arm, scene.part(pair), scene.piece(pair));
+        // Over half of this no distance changes by more than the tolerance.
+        let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
+        let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
+        Self { rows, index, motion, floor, level: level + tolerance, ceiling, min_width }
+    }
+
+    fn contours(&self) -> Vec<Vec<Point>> {
+        if self.rows.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
+            return Vec::new();
+        }
+        let turning = self.rows.scene().arm.joints[1].motion.is_revolute();
+        let overlap = OVERLAP * self.min_width;
+        contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
+    }
+
+    /// Rows to begin with, in order.
+    fn breaks(&self) -> Vec<Break> {
+        let scene = self.rows.scene();
+        let pair = scene.pairs()[self.index];
+        let joint = &scene.arm.joints[0];
+        let (start, end) = if joint.motion.is_revolute() {
+            let start = self.seam();
+            (start, start + TAU)
+        } else {
+            joint.axis.domain()
+        };
+        let step = (end - start) / FIRST_ROWS as f64;
+        let mut breaks: Vec<Break> = (0..FIRST_ROWS)
+            .map(|i| Break { q1: start + step * i as f64, keep: false })
+            .chain([Break { q1: end, keep: false }])
+            .collect();
+        for (level, keep) in [(self.floor, true), (self.level, false)] {
+            for q1 in events(&scene.arm, scene.part(pair), scene.piece(pair), level) {
+                let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
+                if start <= q1 && q1 <= end {
+                    breaks.push(Break { q1, keep });
+                }
+            }
+        }
+        breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
+        breaks.dedup_by(|b, a| {
+            let same = b.q1 - a.q1 <= OVERLAP * self.min_width;
+            a.keep |= same && b.keep;
+            same
+        });
+        breaks
+    }
+
+    /// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
+    fn seam(&self) -> f64 {
+        let mut intervals = Vec::new();
+        (0..FIRST_ROWS)
+            .map(|i| -PI + TAU / FIRST_ROWS as f64 * i as f64)
+            .find(|&q1| self.rows.second_link(self.index, q1, self.level, &mut intervals) == Hits::Never)
+            .unwrap_or(-PI)
+    }
+}
+
+impl Source for &Curves<'_> {
+    type End = Contact;
+
+    fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>) {
+        if self.rows.second_link(self.index, q1, self.level, out) == Hits::Always {
+            out.push([-PI, PI]);
+        }
+    }
+
+    fn end(&self, q1: f64, q2: f64) -> Contact {
+        self.motion.contact(Configuration::new(q1, q2))
+    }
+
+    fn point(&self, end: &Contact) -> Point {
+        Point::from(end.q)
+    }
+
+    fn shifted(&self, end: &Contact, turns: f64) -> Contact {
+        end.turned(turns)
+    }
+
+    fn accepts(&self, from: &Contact, to: &Contact) -> bool {
+        self.motion.least_distance(from, to) >= self.floor
+            && self.motion.separation((from.q + to.q) / 2.0).distance <= self.ceiling
+    }
 }

@@ -1,0 +1,98 @@
+//! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
+
+use crate::geometry::{Convex, Point, Vector, minkowski_difference, perpendicular};
+use crate::model::{Arm, Motion};
+use nalgebra::Matrix2;
+use std::f64::consts::TAU;
+
+/// Slides whose directions enclose less than this sine are parallel: the map from the plane to joint values would
+/// magnify rounding by its inverse.
+const PARALLEL: f64 = 1e-9;
+
+/// The map from displacements in the plane to joint values, for a gantry whose slides are not parallel.
+pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
+    let [Motion::Prismatic { direction: first }, Motion::Prismatic { direction: second }] =
+        [arm.joints[0].motion, arm.joints[1].motion]
+    else {
+        return None;
+    };
+    let directions = Matrix2::from_columns(&[first, second]);
+    if directions.determinant().abs() < PARALLEL { None } else { directions.try_inverse() }
+}
+
+/// The joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon that also holds some
+/// at which they are up to `level + tolerance` apart: arcs are replaced by tangents, flat sides are exact. `map` is
+/// [`joint_map`]'s. `O(n + m)` and as many corners, plus those on arcs.
+pub(super) fn contour(
+    arm: &Arm,
+    map: &Matrix2<f64>,
+    part: &Convex,
+    piece: &Convex,
+    level: f64,
+    tolerance: f64,
+) -> Vec<Point> {
+    let radius = part.radius() + piece.radius() + level;
+    let core = minkowski_difference(piece.core(), part.core());
+    let origin = arm.base + arm.offset;
+    let mut contour: Vec<Point> =
+        tangent_polygon(&core, radius, radius + tolerance).iter().map(|p| Point::from(map * (p - origin))).collect();
+    if map.determinant() < 0.0 {
+        contour.reverse();
+    }
+    contour
+}
+
+/// A polygon around all points within `radius` of a convex polygon, none of its corners farther than `reach` from it.
+fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
+    if radius <= 0.0 {
+        return core.to_vec();
+    }
+    let n = core.len();
+    let widest = 2.0 * (radius / reach).acos();
+    let mut polygon = Vec::new();
+    for i in 0..n {
+        let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
+        let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
+        let tangents = (turn / widest).ceil().max(1.0);
+        let step = turn / tangents;
+        for k in 0..tangents as usize {
+            let angle = normal.y.atan2(normal.x) + (k as f64 + 0.5) * step;
+            let distance = radius / (step / 2.0).cos();
+            polygon.push(at + distance * Vector::new(angle.cos(), angle.sin()));
+        }
+    }
+    polygon
+}
+
+/// The outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
+fn corner(before: Point, at: Point, after: Point) -> (Vector, f64) {
+    let (into, out) = (at - before, after - at);
+    (-perpendicular(into), into.angle(&out))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::separation;
+
+    #[test]
+    fn tangent_polygons_lie_between_radius_and_reach() {
+        let cores = [
+            vec![Point::new(0.3, -0.2)],
+            vec![Point::new(0.0, 0.0), Point::new(1.0, 0.5)],
+            vec![Point::new(0.0, 0.0), Point::new(1.0, 0.0), Point::new(0.0, 0.1)],
+        ];
+        for core in cores {
+            let polygon = tangent_polygon(&core, 0.2, 0.21);
+            let shape = Convex::new(core, 0.0);
+            let distance = |p: Point| separation(&shape, &Convex::disc(p, 0.0)).distance;
+            for (i, &a) in polygon.iter().enumerate() {
+                let b = polygon[(i + 1) % polygon.len()];
+                assert!(distance(a) <= 0.21 + 1e-12);
+                for k in 0..=10 {
+                    assert!(distance(a + (b - a) * (f64::from(k) / 10.0)) >= 0.2 - 1e-12);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! Polygonal regions against distances of sampled configurations.
+
+use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
+use cplan::geometry::{Convex, Point, Vector, cross};
+use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::space::{Axis, Configuration};
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
+    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+}
+
+fn link(name: &str, shapes: Vec<Convex>) -> Link {
+    let part = |shape| Part { shape, heights: Heights::ALL, body: name.into() };
+    Link { name: name.into(), parts: shapes.into_iter().map(part).collect(), source: OutlineSource::Collision }
+}
+
+fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Vec<Convex>, clearance: f64) -> Scene {
+    let [first, second] = links;
+    let arm = Arm {
+        name: "test".into(),
+        joints,
+        links: [link("upper", first), link("fore", second)],
+        base: Point::new(0.02, -0.01),
+        offset,
+        tip: Point::new(0.8, 0.0),
+        tip_name: "tip".into(),
+        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+    };
+    let obstacles = pieces
+        .into_iter()
+        .enumerate()
+        .map(|(i, piece)| Obstacle {
+            name: format!("obstacle {}", i + 1),
+            shape: Shape::Polygon(piece.core().to_vec()),
+            pieces: vec![piece],
+            heights: Heights::ALL,
+        })
+        .collect();
+    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance })
+}
+
+fn polygon(corners: &[(f64, f64)]) -> Convex {
+    Convex::new(corners.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.0)
+}
+
+fn bar(length: f64, half: f64) -> Convex {
+    polygon(&[(0.0, -half), (length, -half), (length, half), (0.0, half)])
+}
+
+/// Two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, four convex obstacles; the one below is moved by `shift`.
+fn torus(shift: f64) -> Scene {
+    let turning = |name| joint(name, Motion::Revolute { sign: 1.0 }, Axis::Circle);
+    let below = [(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)];
+    let obstacles = vec![
+        polygon(&below.map(|(x, y)| (x + shift, y))),
+        polygon(&[(0.99, -0.17), (1.14, -0.35), (1.38, -0.27), (1.42, -0.16), (1.28, 0.07), (1.04, 0.0)]),
+        polygon(&[(0.11, 1.33), (0.27, 1.12), (0.53, 1.19), (0.51, 1.51), (0.20, 1.53)]),
+        polygon(&[(-1.02, 0.33), (-0.89, 0.12), (-0.63, 0.32), (-0.85, 0.51)]),
+    ];
+    let mut scene = scene(
+        [turning("shoulder"), turning("elbow")],
+        Vector::new(1.0, 0.0),
+        [vec![bar(1.0, 0.05)], vec![bar(0.8, 0.05)]],
+        obstacles,
+        0.0,
+    );
+    scene.arm.base = Point::origin();
+    scene
+}
+
+/// Corners of a regular polygon, a disc, a thin wall or a point.
+fn shape(size: f64) -> impl Strategy<Value = Convex> {
+    (1usize..7, 0.2..1.0f64, 0.0..TAU, (-1.0..1.0f64, -1.0..1.0f64), prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(
+        move |(n, scale, turn, (x, y), radius)| {
+            let at = |i: usize| {
+                let angle = turn + TAU * i as f64 / n as f64;
+                Point::new(size * (x + scale * angle.cos()), size * (y + scale * angle.sin()))
+            };
+            Convex::new((0..n).map(at).collect(), radius * size)
+        },
+    )
+}
+
+fn any_joint(name: &'static str) -> impl Strategy<Value = Joint> {
+    let turning = (
+        prop_oneof![Just(1.0), Just(-1.0)],
+        prop_oneof![
+            Just(Axis::Circle),
+            Just(Axis::Interval { lower: -3.0, upper: 3.0 }),
+            Just(Axis::Interval { lower: -4.0, upper: 5.5 }),
+        ],
+    )
+        .prop_map(|(sign, axis)| (Motion::Revolute { sign }, axis));
+    let sliding = (0.0..TAU).prop_map(|angle: f64| {
+        let direction = Vector::new(angle.cos(), angle.sin());
+        (Motion::Prismatic { direction }, Axis::Interval { lower: -0.7, upper: 1.1 })
+    });
+    prop_oneof![turning, sliding].prop_map(move |(motion, axis)| joint(name, motion, axis))
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let obstacle = (shape(0.25), -1.5..1.5f64, -1.5..1.5f64).prop_map(|(shape, x, y)| {
+        let core = shape.core().iter().map(|p| p + Vector::new(x, y)).collect();
+        Convex::new(core, shape.radius())
+    });
+    (
+        [any_joint("first"), any_joint("second")],
+        (-0.2..1.0f64, -0.2..0.2f64),
+        [prop::collection::vec(shape(0.3), 0..2), prop::collection::vec(shape(0.5), 1..3)],
+        prop::collection::vec(obstacle, 1..4),
+        prop_oneof![Just(0.0), 0.0..0.05f64],
+    )
+        .prop_map(|(joints, (x, y), links, pieces, clearance)| {
+            scene(joints, Vector::new(x, y), links, pieces, clearance)
+        })
+}
+
+fn is_free(regions: &Regions, q: Configuration) -> bool {
+    regions.component(q).is_some()
+}
+
+fn points(polygon: &Polygon) -> impl Iterator<Item = (Point, Point)> + '_ {
+    std::iter::once(&polygon.outer)
+        .chain(&polygon.holes)
+        .flat_map(|contour| (0..contour.len()).map(move |i| (contour[i], contour[(i + 1) % contour.len()])))
+}
+
+fn area(contour: &[Point]) -> f64 {
+    let n = contour.len();
+    (0..n).map(|i| cross(contour[i].coords, contour[(i + 1) % n].coords)).sum::<f64>() / 2.0
+}
+
+/// No two sides that are not neighbours cross.
+fn is_simple(contour: &[Point]) -> bool {
+    let n = contour.len();
+    let side = |a: Point, b: Point, c: Point| cross(b - a, c - a);
+    (0..n).all(|i| {
+        (i + 2..n).all(|j| {
+            let (a, b, c, d) = (contour[i], contour[i + 1], contour[j], contour[(j + 1) % n]);
+            (j + 1) % n == i || side(a, b, c) * side(a, b, d) >= 0.0 || side(c, d, a) * side(c, d, b) >= 0.0
+        })
+    })
+}
+
+/// Evenly spread points of the window.
+fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configuration> {
+    let at = move |k: usize, t: f64| window[k].0 + (window[k].1 - window[k].0) * t;
+    (0..n).flat_map(move |i| {
+        (0..n).map(move |j| Configuration::new(at(0, (i as f64 + 0.5) / n as f64), at(1, (j as f64 + 0.43) / n as f64)))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {
+        let keep = scene.workspace.clearance;
+        let regions = regions(&scene, margin, Configuration::new(0.3, -0.8), 1);
+        prop_assert_eq!(regions.proves, Proves::Outer { margin });
+        for q in lattice(regions.window, 60) {
+            let clearance = scene.clearance(q);
+            let free = is_free(&regions, q);
+            prop_assert!(!free || clearance > keep, "{q} is free at {clearance}");
+            prop_assert!(free || clearance <= keep + 3.0 * margin, "{q} is blocked at {clearance}");
+        }
+        // On the boundary, where a mistake shows first, the proven distance is kept.
+        for (a, b) in regions.free.iter().flat_map(points) {
+            for t in [0.0, 0.21, 0.5, 0.83] {
+                let q = a.coords + (b - a) * t;
+                prop_assert!(scene.clearance(q) >= keep + 0.25 * margin - 1e-9, "{} at {q}", scene.clearance(q));
+            }
+        }
+    }
+
+    #[test]
+    fn contours_are_simple_and_oriented(scene in any_scene()) {
+        let regions = regions(&scene, 0.01, Configuration::zeros(), 1);
+        for polygon in &regions.free {
+            prop_assert!(area(&polygon.outer) > 0.0 && is_simple(&polygon.outer));
+            prop_assert!(polygon.holes.iter().all(|hole| area(hole) < 0.0 && is_simple(hole)));
+        }
+        for obstacle in &regions.obstacles {
+            prop_assert!(area(&obstacle.contour) > 0.0 && is_simple(&obstacle.contour), "{:?}", obstacle.contour);
+        }
+    }
+}
+
+#[test]
+fn copies_on_the_torus_agree() {
+    let regions = regions(&torus(0.0), 1e-3, Configuration::new(-0.7, 0.0), 1);
+    let half = [0, 1].map(|k| (regions.window[k].0, regions.window[k].0 + TAU));
+    for q in lattice(half, 80) {
+        for shift in [(TAU, 0.0), (0.0, TAU), (TAU, TAU)] {
+            let copy = q + Configuration::new(shift.0, shift.1);
+            assert_eq!(is_free(&regions, q), is_free(&regions, copy), "{q}");
+        }
+    }
+}
+
+#[test]
+fn free_area_converges_from_below() {
+    let scene = torus(0.0);
+    let areas: Vec<f64> = [4e-3, 2e-3, 1e-3, 5e-4]
+        .iter()
+        .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(Polygon::area).sum())
+        .collect();
+    let gains: Vec<f64> = areas.windows(2).map(|w| w[1] - w[0]).collect();
+    // The error is linear in the margin: halving it halves the gain, in about.
+    assert!(gains.iter().all(|&g| g > 0.0), "{areas:?}");
+    assert!(gains.windows(2).all(|w| w[1] < 0.75 * w[0]), "{areas:?}");
+}
+
+/// Whether one component of free space holds the start and a copy of the goal.
+fn connected(scene: &Scene, margin: f64, goal: Configuration) -> bool {
+    let start = Configuration::new(-0.7, 0.0);
+    let regions = regions(scene, margin, start, 1);
+    let from = regions.component(start);
+    assert!(from.is_some());
+    (-2..=2).any(|i| {
+        (-2..=2).any(|j| {
+            let copy = goal + TAU * Configuration::new(f64::from(i), f64::from(j));
+            let inside = (0..2).all(|k| regions.window[k].0 <= copy[k] && copy[k] <= regions.window[k].1);
+            inside && regions.component(copy) == from
+        })
+    })
+}
+
+#[test]
+fn narrow_passages_stay_open_and_walls_closed() {
+    let goal = Configuration::new(1.75, 0.5);
+    assert!(connected(&torus(0.0), 1e-3, goal), "a passage 0.070 rad wide");
+    assert!(connected(&torus(0.04), 1e-3, goal), "a passage 0.022 rad wide");
+    assert!(!connected(&torus(0.0), 1e-3, Configuration::new(-2.8, 0.4)), "an enclosed goal");
+}
+
+#[test]
+fn a_thin_wall_of_two_bands_is_closed() {
+    let mut scene = torus(0.0);
+    let moved: Vec<Point> =
+        scene.workspace.obstacles[1].pieces[0].core().iter().map(|p| p - Vector::new(0.0036, 0.0)).collect();
+    scene.workspace.obstacles[1].pieces = vec![Convex::new(moved, 0.0)];
+    let goal = Configuration::new(1.75, 0.5);
+    for margin in [1e-3, 1e-4, 1e-5] {
+        assert!(!connected(&scene, margin, goal), "margin {margin}");
+    }
+}
+
+#[test]
+fn a_gantry_without_margin_is_exact() {
+    let slide =
+        |name, direction| joint(name, Motion::Prismatic { direction }, Axis::Interval { lower: -2.0, upper: 2.0 });
+    // Slides 60 degrees apart, the second one turned clockwise so that the map to joint values reflects.
+    let joints = [slide("x", Vector::x()), slide("y", Vector::new(0.5, -0.75f64.sqrt()))];
+    let tool = polygon(&[(-0.1, -0.1), (0.2, -0.1), (0.0, 0.15)]);
+    let block = polygon(&[(0.5, 0.2), (0.9, 0.1), (1.0, 0.6), (0.6, 0.7)]);
+    let scene = scene(joints, Vector::zeros(), [vec![], vec![tool]], vec![block], 0.0);
+    let contours = c_obstacles(&scene, 0.0, 1e-3);
+    assert_eq!(contours.len(), 1);
+    let exact = Polygon { outer: contours[0].contour.clone(), holes: vec![] };
+    assert_eq!(exact.outer.len(), 7);
+    assert!(exact.area() > 0.0);
+    for q in lattice([(-2.0, 2.0), (-2.0, 2.0)], 150) {
+        let distance = scene.clearance(q);
+        assert!(distance.abs() < 1e-9 || exact.contains(Point::from(q)) == (distance < 0.0), "{q}: {distance}");
+    }
+}
+
+#[test]
+fn windows_follow_axes() {
+    let mut scene = torus(0.0);
+    scene.arm.joints[1].axis = Axis::Interval { lower: -2.0, upper: 2.5 };
+    let regions = regions(&scene, 1e-2, Configuration::new(1.0, 0.0), 2);
+    assert_eq!(regions.window, [(1.0 - 2.0 * TAU, 1.0 + 2.0 * TAU), (-2.0, 2.5)]);
+    for point in regions.free.iter().flat_map(points).map(|(a, _)| a) {
+        assert!((0..2).all(|k| regions.window[k].0 <= point[k] && point[k] <= regions.window[k].1));
+    }
+}
+
+#[test]
+fn nothing_to_hit_leaves_the_window_free() {
+    let mut scene = torus(0.0);
+    scene.workspace.obstacles.clear();
+    let scene = Scene::new(scene.arm, scene.workspace);
+    let regions = regions(&scene, 1e-3, Configuration::zeros(), 1);
+    assert_eq!(regions.free.len(), 1);
+    assert!((regions.free[0].area() - (4.0 * PI).powi(2)).abs() < 1e-9);
+}
