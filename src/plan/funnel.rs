@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn it_turns_at_the_nearer_end_of_a_passage_aside() {
-        let above = [passage((1.0, 3.0), (1.0, 2.0)), passage((2.0, 3.0), (2.0, 1.0))];
+        let above = [passage((1.0, 3.0), (1.0, 2.0)), passage((2.0, 3.0), (2.0, 1.5))];
         let string = taut_string(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
-        assert_eq!(string, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0), (3.0, 0.0)]));
+        assert_eq!(string, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
     }
 
     #[test]

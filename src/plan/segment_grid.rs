@@ -10,8 +10,7 @@ const PAD: f64 = 1e-6;
 /// Most cells along one axis.
 const MAX_CELLS: usize = 512;
 
-/// Cells along one axis for `n` segments: `CELLS_PER_ROOT * sqrt(n)`. With 2 a cell holds about one segment; finer
-/// grids made tests slower, coarser ones as well.
+/// Cells along one axis for `n` segments: `CELLS_PER_ROOT * sqrt(n)`, so that there are four cells a segment.
 const CELLS_PER_ROOT: f64 = 2.0;
 
 /// Segments by the cells that they pass through.
