@@ -1,5 +1,14 @@
 //! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
 
+mod attach;
+mod grid_path;
+mod harmonic;
+mod shortcut;
+mod wavefront;
+
+pub use harmonic::Harmonic;
+pub use wavefront::Wavefront;
+
 use crate::space::{Configuration, Path};
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
