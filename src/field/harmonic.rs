@@ -18,7 +18,8 @@ pub struct Field {
 ///
 /// Guarantee: every cell that is no goal has a strictly greater neighbour, however early the relaxation ended: this is
 /// checked, and a field that fails (over-relaxed and far from converged) is replaced by one relaxed with factor 1 from a
-/// subharmonic start, where it holds at any time; `progress.converged` is then false. Costs some nanoseconds a cell and
+/// subharmonic start, where it holds at any time; `progress.converged` is then false. (A torus without walls is such a
+/// case: there the only harmonic function is constant.) Costs some nanoseconds a cell and
 /// sweep; the sweeps needed grow like the width of the widest room in cells.
 #[must_use]
 pub fn harmonic(component: &Component, factor: Option<f64>, tolerance: f64, max_sweeps: usize) -> Field {
@@ -29,12 +30,14 @@ pub fn harmonic(component: &Component, factor: Option<f64>, tolerance: f64, max_
     };
     let mut potential = Potential::from_log2(&decay_guess(component, &room));
     let mut progress = Relaxation { factors, tolerance, max_sweeps }.run(component, &mut potential);
-    if !potential.navigates(component) {
+    for limit in CAUTIOUS_SWEEPS {
+        if potential.navigates(component) {
+            break;
+        }
         potential = Potential::from_log2(&subharmonic_guess(component));
-        let cautious =
-            Relaxation { factors: vec![1.0; component.len()], tolerance, max_sweeps: max_sweeps.min(CAUTIOUS_SWEEPS) };
+        let cautious = Relaxation { factors: vec![1.0; component.len()], tolerance: 0.0, max_sweeps: limit };
         let again = cautious.run(component, &mut potential);
-        progress = Progress { sweeps: progress.sweeps + again.sweeps, ..again };
+        progress = Progress { sweeps: progress.sweeps + again.sweeps, change: again.change, converged: false };
     }
     Field { potential, progress }
 }
@@ -46,8 +49,9 @@ pub fn rough_harmonic(component: &Component) -> Potential {
     Potential::from_log2(&decay_guess(component, &component.room()))
 }
 
-/// Sweeps spent on the field that navigates at any time: enough to smooth it, not to converge it.
-const CAUTIOUS_SWEEPS: usize = 64;
+/// Sweeps spent on the field that navigates at any time: enough to smooth it, not to converge it. Without walls it tends
+/// to a constant and would be flat up to rounding on a small grid: then the start itself, which navigates as it is.
+const CAUTIOUS_SWEEPS: [usize; 2] = [64, 0];
 
 /// A factor near the best one for a room of this greatest clearance.
 ///

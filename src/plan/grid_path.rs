@@ -92,8 +92,17 @@ pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize],
     if cells.len() == 1 && joined.start.contained && attachment.contained {
         return Some(Path::new(vec![query.start, goal]));
     }
-    line.insert(0, to_lattice(grid, query.start));
-    line.push(to_lattice(grid, goal));
+    // A configuration that is the centre of its cell, up to rounding, takes the centre's place.
+    let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
+    let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
+    let ends = cells.len() - 1;
+    let mut at = 0..;
+    line.retain(|center| {
+        let k = at.next();
+        (k != Some(0) || apart(center, from)) && (k != Some(ends) || apart(center, to))
+    });
+    line.insert(0, from);
+    line.push(to);
     if shorten {
         line = shortcut::shortcut(grid, &line);
     }

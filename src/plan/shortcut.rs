@@ -6,7 +6,7 @@ use crate::cspace::Grid;
 /// A segment counts as passing through a cell that it comes as near as this to (in cells), so that touching a corner is
 /// passing both sides of it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), far
 /// below anything that matters to a path.
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// At most so many rounds of tightening; ...
 const ROUNDS: usize = 8;
