@@ -1,16 +1,23 @@
 //! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
 
+mod attach;
 mod boundary;
 mod decomposition;
 mod funnel;
+mod grid_path;
+mod harmonic;
 mod segment_grid;
+mod shortcut;
 mod sight;
 mod terminals;
 mod trapezoid;
 mod visibility;
+mod wavefront;
 
+pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
+pub use wavefront::Wavefront;
 
 use crate::space::{Configuration, Path};
 

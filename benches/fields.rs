@@ -1,0 +1,54 @@
+//! Grid planners: the wave at 1024 x 1024, the harmonic field at 256 x 256, and the shortening of a path.
+
+use cplan::cspace::{Grid, Proves};
+use cplan::field::{Component, Lattice, harmonic};
+use cplan::plan::{Planner, Query, Wavefront};
+use cplan::space::{Axis, Topology};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+/// A torus of `n x n` cells with 25 boxes, scattered by the golden ratio.
+fn boxes(n: usize) -> Grid {
+    let corner = |k: usize, by: f64| (k as f64 * by).fract() * n as f64;
+    let mut blocked = vec![false; n * n];
+    for k in 0..25 {
+        let (top, left) = (corner(k, 0.618_034) as usize, corner(k, 0.754_878) as usize);
+        let (height, width) = (n * (3 + k % 7) / 100, n * (3 + k % 5) / 100);
+        for i in top..(top + height).min(n) {
+            blocked[i * n + left..i * n + (left + width).min(n)].fill(true);
+        }
+    }
+    Grid { topology: Topology { axes: [Axis::Circle; 2] }, proves: Proves::Sampled, cells: [n, n], blocked }
+}
+
+/// The first and the middle free cell.
+fn ends(grid: &Grid) -> (usize, usize) {
+    let free: Vec<usize> = (0..grid.blocked.len()).filter(|&cell| !grid.blocked[cell]).collect();
+    (free[0], free[free.len() / 2])
+}
+
+fn fields(c: &mut Criterion) {
+    let grid = boxes(1024);
+    let (start, goal) = ends(&grid);
+    let query = Query { start: grid.center(start), goals: vec![grid.center(goal)] };
+    let lattice = Lattice::new(&grid);
+    c.bench_function("wavefront/build 1024^2", |b| b.iter(|| Lattice::new(black_box(&grid))));
+    c.bench_function("wavefront/labels 1024^2", |b| b.iter(|| lattice.wave(black_box(&[goal]))));
+    for shortcut in [false, true] {
+        let planner = Wavefront { shortcut };
+        let name = format!("wavefront/query 1024^2{}", if shortcut { " with shortcut" } else { "" });
+        c.bench_function(&name, |b| b.iter(|| planner.query(&grid, &lattice, black_box(&query))));
+    }
+
+    let grid = boxes(256);
+    let lattice = Lattice::new(&grid);
+    let wave = lattice.wave(&[ends(&grid).1]);
+    let component = Component::new(&lattice, &wave);
+    let mut group = c.benchmark_group("harmonic");
+    group.sample_size(10);
+    group.bench_function("component 256^2", |b| b.iter(|| Component::new(&lattice, black_box(&wave))));
+    group.bench_function("field to 1e-6, 256^2", |b| b.iter(|| harmonic(black_box(&component), None, 1e-6, 10_000)));
+}
+
+criterion_group!(benches, fields);
+criterion_main!(benches);

@@ -1,0 +1,148 @@
+//! Positive numbers of unbounded range.
+
+use super::Component;
+
+/// The exponent counts in steps of this many binary orders, so that neighbours mostly share theirs and can be averaged
+/// as plain doubles.
+const STEP: i32 = 256;
+/// `2^-STEP`.
+const DOWN: f64 = f64::from_bits(((1023 - STEP) as u64) << 52);
+/// `2^STEP`.
+const UP: f64 = f64::from_bits(((1023 + STEP) as u64) << 52);
+/// A mantissa within `2^-192 ..= 2^192` keeps its exponent. Wider than a step, so that a value near a boundary does not
+/// hop to and fro; and narrow enough that the products and sums of a chunk of cells stay within the doubles.
+const LEAST: f64 = f64::from_bits((1023 - 192) << 52);
+const GREATEST: f64 = f64::from_bits((1023 + 192) << 52);
+
+/// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to a quarter or so with each cell of a
+/// narrow corridor, so doubles would underflow after 540 cells; these never do (before 10^9 cells).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scaled {
+    pub mantissa: f64,
+    pub exponent: i32,
+}
+
+impl Scaled {
+    /// The same number with a mantissa in `2^-192 ..= 2^192`, by the least change of exponent.
+    pub fn normalized(mut self) -> Self {
+        while self.mantissa < LEAST {
+            self.mantissa *= UP;
+            self.exponent -= 1;
+        }
+        while self.mantissa > GREATEST {
+            self.mantissa *= DOWN;
+            self.exponent += 1;
+        }
+        self
+    }
+
+    /// `2^log2`.
+    pub fn exp2(log2: f64) -> Self {
+        let exponent = (log2 / f64::from(STEP)).round();
+        Self { mantissa: (log2 - exponent * f64::from(STEP)).exp2(), exponent: exponent as i32 }
+    }
+
+    /// The mantissa that goes with `exponent`. Zero, or `2^704`, where the number is too small or too great to count
+    /// beside one of that exponent.
+    pub fn mantissa_at(self, exponent: i32) -> f64 {
+        match exponent.saturating_sub(self.exponent) {
+            ..=-2 => GREATEST * UP * UP,
+            -1 => self.mantissa * UP,
+            0 => self.mantissa,
+            1 => self.mantissa * DOWN,
+            2 => self.mantissa * DOWN * DOWN,
+            _ => 0.0,
+        }
+    }
+
+    /// The same number with `exponent` where its mantissa allows, else normalised.
+    pub fn keeping(self, exponent: i32) -> Self {
+        let mantissa = self.mantissa_at(exponent);
+        if is_normal(mantissa) { Self { mantissa, exponent } } else { self.normalized() }
+    }
+}
+
+/// Whether a mantissa may keep its exponent.
+pub(super) fn is_normal(mantissa: f64) -> bool {
+    (LEAST..=GREATEST).contains(&mantissa)
+}
+
+/// A positive value for every position of a [`Component`], zero for the wall. Each has an exponent of its own, so that
+/// relative precision is that of doubles however far the goal is.
+#[derive(Debug, Clone)]
+pub struct Potential {
+    /// One a position, and the wall's 0 last.
+    pub(super) mantissa: Vec<f64>,
+    /// One a position; the wall's is never looked at.
+    pub(super) exponent: Vec<i32>,
+}
+
+impl Potential {
+    /// `2^log2` for every position.
+    #[must_use]
+    pub fn from_log2(log2: &[f64]) -> Self {
+        let (mut mantissa, mut exponent): (Vec<f64>, Vec<i32>) = log2
+            .iter()
+            .map(|&log2| {
+                let value = Scaled::exp2(log2);
+                (value.mantissa, value.exponent)
+            })
+            .unzip();
+        mantissa.push(0.0);
+        exponent.push(0);
+        Self { mantissa, exponent }
+    }
+
+    /// The number at a position.
+    pub(super) fn at(&self, position: usize) -> Scaled {
+        Scaled { mantissa: self.mantissa[position], exponent: self.exponent[position] }
+    }
+
+    /// Natural logarithm of the value at `position`; minus infinity for the wall.
+    #[must_use]
+    pub fn ln(&self, position: usize) -> f64 {
+        self.mantissa[position].ln() + f64::from(self.exponent[position]) * f64::from(STEP) * std::f64::consts::LN_2
+    }
+
+    /// Whether the value at `a` is strictly greater than that at `b`. Exact.
+    #[must_use]
+    pub fn is_greater(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.at(a), self.at(b));
+        if a.mantissa == 0.0 || b.mantissa == 0.0 {
+            return a.mantissa > b.mantissa;
+        }
+        let exponent = a.exponent.max(b.exponent);
+        a.mantissa_at(exponent) > b.mantissa_at(exponent)
+    }
+
+    /// The neighbour of `position` with the greatest value (the first of equals), if it is strictly greater than at
+    /// `position` itself.
+    #[must_use]
+    pub fn ascent(&self, component: &Component, position: usize) -> Option<usize> {
+        component.neighbors[position]
+            .iter()
+            .map(|&n| n as usize)
+            .fold(None, |best, n| if self.is_greater(n, best.unwrap_or(position)) { Some(n) } else { best })
+    }
+
+    /// Whether the goals are the only local maxima: every other cell has a strictly greater neighbour. Then the steepest
+    /// ascent leads to a goal from everywhere. Linear.
+    #[must_use]
+    pub fn navigates(&self, component: &Component) -> bool {
+        (component.goals..component.len())
+            .all(|i| component.neighbors[i].iter().any(|&n| self.is_greater(n as usize, i)))
+    }
+
+    /// Positions from `from` to a goal by steepest ascent. Nothing if it ends in a local maximum, which cannot be where
+    /// [`Potential::navigates`].
+    #[must_use]
+    pub fn ascend(&self, component: &Component, from: usize) -> Option<Vec<usize>> {
+        let mut positions = vec![from];
+        let mut at = from;
+        while at >= component.goals {
+            at = self.ascent(component, at)?;
+            positions.push(at);
+        }
+        Some(positions)
+    }
+}

@@ -1,0 +1,82 @@
+//! Joining configurations to cells of a grid.
+
+use super::Query;
+use super::grid_path::place;
+use crate::cspace::Grid;
+use crate::space::Configuration;
+
+/// How many rings of cells around a blocked one are searched for a free one. An outer grid blocks some cells whose
+/// configurations are free; farther than this a straight piece to the grid is a guess not worth a try.
+const RINGS: i64 = 3;
+
+/// Where a configuration is joined to the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Attachment {
+    /// The cell that contains the configuration if it is free, else the free cells of the nearest ring that has any,
+    /// nearest first. At least one.
+    pub cells: Vec<usize>,
+    /// Whether it is the first case.
+    pub contained: bool,
+}
+
+/// A query joined to the grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Joined {
+    pub start: Attachment,
+    /// One a goal, in their order; none where a goal cannot be joined.
+    pub goals: Vec<Option<Attachment>>,
+}
+
+impl Joined {
+    /// Joins start and goals; the reason if the start or every goal cannot be.
+    pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
+        let start = attach(grid, query.start, "start")?;
+        let goals: Vec<_> = query.goals.iter().map(|&goal| attach(grid, goal, "goal")).collect();
+        if goals.iter().all(Result::is_err) {
+            let reasons: Vec<_> = goals.into_iter().filter_map(Result::err).collect();
+            return Err(if reasons.is_empty() { "there is no goal".into() } else { reasons.join("; ") });
+        }
+        Ok(Self { start, goals: goals.into_iter().map(Result::ok).collect() })
+    }
+
+    /// The cells joined to any goal.
+    pub fn sources(&self) -> Vec<usize> {
+        self.goals.iter().flatten().flat_map(|attachment| attachment.cells.iter().copied()).collect()
+    }
+}
+
+/// Joins `q` to the grid; the reason if it cannot be.
+fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, String> {
+    if !grid.topology.contains(q) {
+        return Err(format!("the {name} ({:.4}, {:.4}) lies outside the configuration space", q[0], q[1]));
+    }
+    let home = grid.locate(q);
+    if !grid.blocked[home] {
+        return Ok(Attachment { cells: vec![home], contained: true });
+    }
+    let columns = grid.cells[1];
+    for ring in 1..=RINGS {
+        let mut found: Vec<(f64, usize)> = Vec::new();
+        for di in -ring..=ring {
+            for dj in -ring..=ring {
+                if di.abs().max(dj.abs()) != ring {
+                    continue;
+                }
+                let i = place(grid, 0, (home / columns) as i64 + di);
+                let j = place(grid, 1, (home % columns) as i64 + dj);
+                if let (Some(i), Some(j)) = (i, j) {
+                    let cell = i * columns + j;
+                    if !grid.blocked[cell] {
+                        found.push((grid.topology.distance(q, grid.center(cell)), cell));
+                    }
+                }
+            }
+        }
+        if !found.is_empty() {
+            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            found.dedup();
+            return Ok(Attachment { cells: found.into_iter().map(|(_, cell)| cell).collect(), contained: false });
+        }
+    }
+    Err(format!("the {name} ({:.4}, {:.4}) has no free cell within {RINGS} cells around it", q[0], q[1]))
+}

@@ -1,0 +1,111 @@
+//! From cells to a path.
+
+use super::attach::{Attachment, Joined};
+use super::{Query, shortcut};
+use crate::cspace::Grid;
+use crate::space::{Axis, Configuration, Path};
+use std::f64::consts::TAU;
+
+/// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
+pub(super) fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
+    let n = grid.cells[axis] as i64;
+    let at = if grid.topology.axes[axis].is_circle() { at.rem_euclid(n) } else { at };
+    (0..n).contains(&at).then_some(at as usize)
+}
+
+/// A polyline in lattice units: unwrapped, cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
+pub(super) type Line = Vec<[f64; 2]>;
+
+/// Lattice units of an unwrapped configuration.
+pub(super) fn to_lattice(grid: &Grid, q: Configuration) -> [f64; 2] {
+    let step = grid.step();
+    [0, 1].map(|k| (q[k] - grid.topology.axes[k].domain().0) / step[k])
+}
+
+/// The unwrapped configuration at a point in lattice units.
+fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
+    let step = grid.step();
+    let [a, b] = [0, 1].map(|k| grid.topology.axes[k].domain().0 + at[k] * step[k]);
+    Configuration::new(a, b)
+}
+
+/// The centres of neighbouring `cells`, unwrapped: the first is the copy nearest to `near`, and each next one lies one
+/// cell away, across a seam too.
+pub(super) fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
+    let columns = grid.cells[1];
+    let near = to_lattice(grid, near);
+    let split = |cell: usize| [cell / columns, cell % columns];
+    let mut line = Line::with_capacity(cells.len() + 2);
+    let Some(&first) = cells.first() else { return line };
+    let mut last = split(first);
+    let mut at = [0, 1].map(|k| {
+        let (center, n) = (last[k] as f64 + 0.5, grid.cells[k] as f64);
+        if grid.topology.axes[k].is_circle() { center + n * ((near[k] - center) / n).round() } else { center }
+    });
+    line.push(at);
+    for &cell in &cells[1..] {
+        let next = split(cell);
+        for k in [0, 1] {
+            // One step, or all the way round to the other side of a seam: which is one step too.
+            at[k] += match next[k] as i64 - last[k] as i64 {
+                step @ -1..=1 => step as f64,
+                step => -step.signum() as f64,
+            };
+        }
+        last = next;
+        line.push(at);
+    }
+    line
+}
+
+/// The copy of `q` nearest to `near`: exactly `q` where no turn is added.
+pub(super) fn copy_near(grid: &Grid, q: Configuration, near: Configuration) -> Configuration {
+    let copy = |k: usize| match grid.topology.axes[k] {
+        Axis::Interval { .. } => q[k],
+        Axis::Circle => q[k] + TAU * ((near[k] - q[k]) / TAU).round(),
+    };
+    Configuration::new(copy(0), copy(1))
+}
+
+/// The goal that a path ending at `cell` goes to: of those joined there the nearest to `near` (the unwrapped centre of
+/// the cell), as its nearest copy.
+fn goal_at<'a>(
+    grid: &Grid,
+    query: &Query,
+    joined: &'a Joined,
+    cell: usize,
+    near: Configuration,
+) -> Option<(Configuration, &'a Attachment)> {
+    let here = query.goals.iter().zip(&joined.goals).filter_map(|(&goal, attachment)| {
+        let attachment = attachment.as_ref().filter(|attachment| attachment.cells.contains(&cell))?;
+        Some((copy_near(grid, goal, near), attachment))
+    });
+    here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
+}
+
+/// The path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the last to
+/// a goal) to the exact goal; shortened if wanted. The pieces between a configuration and a cell that does not contain
+/// it are not proven by the grid. Nothing if the cells are not such a chain.
+pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], shorten: bool) -> Option<Path> {
+    let mut line = unwrap(grid, cells, query.start);
+    let (goal, attachment) = goal_at(grid, query, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
+    if cells.len() == 1 && joined.start.contained && attachment.contained {
+        return Some(Path::new(vec![query.start, goal]));
+    }
+    // A configuration that is the centre of its cell, up to rounding, takes the centre's place.
+    let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
+    let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
+    let ends = cells.len() - 1;
+    let mut at = 0..;
+    line.retain(|center| {
+        let k = at.next();
+        (k != Some(0) || apart(center, from)) && (k != Some(ends) || apart(center, to))
+    });
+    line.insert(0, from);
+    line.push(to);
+    if shorten {
+        line = shortcut::shortcut(grid, &line);
+    }
+    let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
+    Some(Path::new(std::iter::once(query.start).chain(inner).chain([goal]).collect()))
+}

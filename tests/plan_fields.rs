@@ -1,0 +1,389 @@
+//! The field planners against independent methods: direct solves, Floyd-Warshall, dense sampling, published tables.
+
+use cplan::cspace::{Grid, Proves};
+use cplan::field::{Component, Lattice, UNREACHED, harmonic};
+use cplan::plan::{Harmonic, Outcome, Planner, Query, Run, Size, Trace, Wavefront};
+use cplan::space::{Axis, Configuration, Path, Topology};
+use proptest::prelude::*;
+
+/// A grid with steps of 1 along intervals; circles are as long as they are.
+fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+    let axis = |k: usize| match circles[k] {
+        true => Axis::Circle,
+        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+    };
+    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+}
+
+/// A grid without circles drawn in text: `#` blocked; rows of text are rows of the grid.
+fn drawn(text: &str) -> Grid {
+    let rows: Vec<&str> = text.split_whitespace().collect();
+    let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
+    grid([rows.len(), rows[0].len()], [false; 2], blocked)
+}
+
+/// A corridor one cell wide that winds inwards on `n x n` cells; its two ends.
+fn spiral(n: i64) -> (Grid, usize, usize) {
+    let mut free = vec![false; (n * n) as usize];
+    let (mut i, mut j) = (0, 0);
+    free[0] = true;
+    let mut turns = 0;
+    for (di, dj) in [(0, 1), (1, 0), (0, -1), (-1, 0)].into_iter().cycle() {
+        let is_free =
+            |i: i64, j: i64, free: &[bool]| (0..n).contains(&i) && (0..n).contains(&j) && free[(i * n + j) as usize];
+        let before = (i, j);
+        // On while the corridor does not come next to itself.
+        while (0..n).contains(&(i + di)) && (0..n).contains(&(j + dj)) && !is_free(i + 2 * di, j + 2 * dj, &free) {
+            (i, j) = (i + di, j + dj);
+            free[(i * n + j) as usize] = true;
+        }
+        turns = if before == (i, j) { turns + 1 } else { 0 };
+        if turns == 2 {
+            break;
+        }
+    }
+    let blocked = free.into_iter().map(|free| !free).collect();
+    (grid([n as usize; 2], [false; 2], blocked), 0, (i * n + j) as usize)
+}
+
+fn random_grid() -> impl Strategy<Value = Grid> {
+    (1..11_usize, 1..11_usize, any::<[bool; 2]>(), 0.0..0.6_f64).prop_flat_map(|(rows, columns, circles, density)| {
+        proptest::collection::vec(proptest::bool::weighted(density), rows * columns)
+            .prop_map(move |blocked| grid([rows, columns], circles, blocked))
+    })
+}
+
+/// A grid and two of its cells, whether free or not.
+fn random_problem() -> impl Strategy<Value = (Grid, usize, usize)> {
+    random_grid().prop_flat_map(|grid| {
+        let n = grid.blocked.len();
+        (Just(grid), 0..n, 0..n)
+    })
+}
+
+/// Steps between all pairs of free cells, by Floyd-Warshall over adjacency told by coordinates.
+fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
+    let n = grid.blocked.len();
+    let apart = |a: usize, b: usize, k: usize| {
+        let at = |c: usize| if k == 0 { c / grid.cells[1] } else { c % grid.cells[1] };
+        let d = at(a).abs_diff(at(b));
+        if grid.topology.axes[k].is_circle() { d.min(grid.cells[k] - d) } else { d }
+    };
+    let mut steps = vec![vec![u32::MAX; n]; n];
+    for a in (0..n).filter(|&a| !grid.blocked[a]) {
+        for b in (0..n).filter(|&b| !grid.blocked[b]) {
+            let d = apart(a, b, 0) + apart(a, b, 1);
+            if d <= 1 {
+                steps[a][b] = d as u32;
+            }
+        }
+    }
+    for via in 0..n {
+        for a in 0..n {
+            for b in 0..n {
+                steps[a][b] = steps[a][b].min(steps[a][via].saturating_add(steps[via][b]));
+            }
+        }
+    }
+    steps
+}
+
+/// The harmonic potential by Gaussian elimination: 1 at the goal, 0 where it does not reach.
+fn direct(grid: &Grid, goal: usize) -> Vec<f64> {
+    let steps = &all_steps(grid)[goal];
+    let n = grid.blocked.len();
+    let mut a = nalgebra::DMatrix::<f64>::identity(n, n);
+    let mut b = nalgebra::DVector::<f64>::zeros(n);
+    b[goal] = 1.0;
+    for i in (0..n).filter(|&i| i != goal && steps[i] != u32::MAX) {
+        for neighbor in grid.neighbors(i).filter(|&j| !grid.blocked[j]) {
+            a[(i, neighbor)] -= 0.25;
+        }
+    }
+    a.lu().solve(&b).expect("Laplace's equation has one solution").iter().copied().collect()
+}
+
+fn query(grid: &Grid, start: usize, goal: usize) -> Query {
+    Query { start: grid.center(start), goals: vec![grid.center(goal)] }
+}
+
+fn found(run: &Run) -> Path {
+    match &run.outcome {
+        Outcome::Found(path) => path.clone(),
+        other => panic!("no path: {other:?}"),
+    }
+}
+
+/// The goal's component, the logarithm of its potential, and whether that converged.
+fn field(grid: &Grid, goal: usize, factor: Option<f64>, tolerance: f64, sweeps: usize) -> (Component, Vec<f64>, bool) {
+    let lattice = Lattice::new(grid);
+    let component = Component::new(&lattice, &lattice.wave(&[goal]));
+    let field = harmonic(&component, factor, tolerance, sweeps);
+    let ln = (0..component.len()).map(|i| field.potential.ln(i)).collect();
+    (component, ln, field.progress.converged)
+}
+
+/// Both planners, by whether it is the wavefront.
+const BOTH: [bool; 2] = [true, false];
+
+fn run(is_wavefront: bool, grid: &Grid, query: &Query, shortcut: bool) -> Run {
+    fn of<P: Planner<Space = Grid>>(planner: P, grid: &Grid, query: &Query) -> Run {
+        planner.query(grid, &planner.build(grid), query)
+    }
+    match is_wavefront {
+        true => of(Wavefront { shortcut }, grid, query),
+        false => of(Harmonic { shortcut, ..Harmonic::default() }, grid, query),
+    }
+}
+
+/// The table of Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3): the blanks are obstacles.
+#[test]
+fn the_published_8_by_8_wavefront() {
+    let table = "2 1 2 3 4 5 # #
+                 1 0 1 2 3 4 # #
+                 2 1 2 3 4 5 # #
+                 3 2 # # 5 6 # #
+                 4 3 # # 6 7 8 9
+                 5 4 # # 7 8 9 10
+                 6 5 6 7 8 9 10 11
+                 7 6 7 8 9 10 11 12";
+    let expected: Vec<u32> = table.split_whitespace().map(|label| label.parse().unwrap_or(UNREACHED)).collect();
+    let grid = grid([8, 8], [false; 2], expected.iter().map(|&label| label == UNREACHED).collect());
+    let (start, goal) = (4 * 8 + 7, 8 + 1);
+    let run = run(true, &grid, &query(&grid, start, goal), false);
+    assert_eq!(run.trace, Trace::Wavefront { cells: [8, 8], labels: expected });
+    assert_eq!(run.size, Size::Grid { cells: 50, sweeps: 13 });
+    assert_eq!(found(&run).length(), 9.0);
+}
+
+/// Labels of a published 20 x 12 example; the file comes from the folder that `CPLAN_REFERENCE` names.
+#[test]
+fn the_published_20_by_12_wavefront() {
+    let Some(folder) = std::env::var_os("CPLAN_REFERENCE") else {
+        eprintln!("skipped: CPLAN_REFERENCE does not name the folder with data/wavefront_20x12.csv");
+        return;
+    };
+    let file = std::path::Path::new(&folder).join("data/wavefront_20x12.csv");
+    let text = std::fs::read_to_string(file).expect("the reference file can be read");
+    let labels = text.split([',', '\n']).map(str::trim).filter(|label| !label.is_empty());
+    let expected: Vec<u32> = labels.map(|label| label.parse().unwrap_or(UNREACHED)).collect();
+    // There the goal has label 2.
+    let goal = expected.iter().position(|&label| label == 2).expect("a goal");
+    let grid = grid([20, 12], [false; 2], expected.iter().map(|&label| label == UNREACHED).collect());
+    let lattice = Lattice::new(&grid);
+    let labels = lattice.wave(&[goal]).labels(&lattice);
+    assert_eq!(labels.iter().map(|&label| label.saturating_add(2)).collect::<Vec<_>>(), expected);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn labels_are_the_shortest_numbers_of_steps((grid, start, goal) in random_problem()) {
+        let steps = all_steps(&grid);
+        let lattice = Lattice::new(&grid);
+        let wave = lattice.wave(&[goal]);
+        prop_assert_eq!(&wave.labels(&lattice), &steps[goal]);
+        match wave.descend(&lattice, start) {
+            None => prop_assert_eq!(steps[goal][start], UNREACHED),
+            Some(cells) => {
+                prop_assert_eq!(cells.len() as u32, steps[goal][start] + 1);
+                prop_assert!(cells[0] == start && cells[cells.len() - 1] == goal);
+                prop_assert!(cells.windows(2).all(|w| steps[w[0]][w[1]] == 1));
+            }
+        }
+    }
+
+    #[test]
+    fn harmonic_fields_navigate_however_early_they_are_stopped(
+        (grid, _, goal) in random_problem(),
+        sweeps in 0..60_usize,
+        factor in proptest::option::of(1.0..1.99_f64),
+    ) {
+        let (component, ln, _) = field(&grid, goal, factor, 1e-9, sweeps);
+        for (i, around) in component.neighbors.iter().enumerate().skip(component.goals) {
+            let free = around.iter().map(|&n| n as usize).filter(|&n| n < ln.len());
+            prop_assert!(free.map(|n| ln[n]).fold(f64::NEG_INFINITY, f64::max) > ln[i], "a maximum, not at the goal");
+            prop_assert!(ln[i].is_finite());
+        }
+    }
+
+    #[test]
+    fn converged_fields_are_the_direct_solution_within_its_bounds((grid, _, goal) in random_problem()) {
+        // On a torus without walls the solution is constant, and a relaxation never gets there.
+        let walls = grid.blocked.contains(&true) || !grid.topology.axes.iter().all(|axis| axis.is_circle());
+        prop_assume!(walls && !grid.blocked[goal]);
+        let (component, ln, converged) = field(&grid, goal, None, 1e-13, 100_000);
+        let expected = direct(&grid, goal);
+        prop_assert!(converged);
+        for (i, &cell) in component.cells.iter().enumerate() {
+            let expected = expected[cell as usize];
+            prop_assert!((ln[i].exp() - expected).abs() <= 1e-9 * expected, "{} is not {expected}", ln[i].exp());
+            // The maximum principle: no value above the goal's, and none that equals it where a wall can be reached.
+            prop_assert!(ln[i] <= 1e-9);
+        }
+    }
+
+    #[test]
+    fn plain_paths_visit_neighboring_free_cells((grid, start, goal) in random_problem()) {
+        prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
+        let reached = all_steps(&grid)[goal][start];
+        let step = grid.step();
+        for planner in BOTH {
+            let run = run(planner, &grid, &query(&grid, start, goal), false);
+            if reached == u32::MAX {
+                prop_assert_eq!(run.outcome, Outcome::NoPath);
+                continue;
+            }
+            let path = found(&run);
+            prop_assert_eq!(path.start(), grid.center(start));
+            prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-12);
+            prop_assert!(path.waypoints().iter().all(|&q| !grid.blocked[grid.locate(q)]));
+            for (a, b) in path.segments() {
+                let d = [(b - a)[0] / step[0], (b - a)[1] / step[1]].map(f64::abs);
+                prop_assert!((d[0] + d[1] - 1.0).abs() < 1e-9 && d[0].min(d[1]) < 1e-9, "not one cell: {d:?}");
+            }
+            if planner {
+                prop_assert_eq!(path.segments().count() as u32, reached);
+            }
+        }
+    }
+
+    #[test]
+    fn shortcuts_stay_in_free_cells_and_are_no_detours(
+        (grid, start, goal) in random_problem(),
+        offsets in any::<[(u8, u8); 2]>(),
+    ) {
+        prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
+        // Anywhere inside the two cells.
+        let [from, to] = [(start, offsets[0]), (goal, offsets[1])].map(|(cell, (a, b))| {
+            let part = [a, b].map(|x| f64::from(x) / 256.0 - 0.498);
+            grid.center(cell) + Configuration::new(part[0] * grid.step()[0], part[1] * grid.step()[1])
+        });
+        let query = Query { start: from, goals: vec![to] };
+        for planner in BOTH {
+            let plain = run(planner, &grid, &query, false);
+            let short = run(planner, &grid, &query, true);
+            if plain.outcome == Outcome::NoPath {
+                prop_assert_eq!(short.outcome, Outcome::NoPath);
+                continue;
+            }
+            let (plain, short) = (found(&plain), found(&short));
+            prop_assert!(short.length() <= plain.length() + 1e-9);
+            prop_assert!(short.start() == plain.start() && short.goal() == plain.goal());
+            prop_assert_eq!(short.start(), from);
+            for (a, b) in short.segments() {
+                for k in 0..=500 {
+                    let q = a + (b - a) * (f64::from(k) / 500.0);
+                    prop_assert!(grid.topology.contains(q) && !grid.blocked[grid.locate(q)], "{q:?} is blocked");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_long_spiral_is_no_flat_field() {
+    let (grid, outer, inner) = spiral(143);
+    let free = grid.blocked.iter().filter(|&&blocked| !blocked).count();
+    assert!(free > 10_000, "only {free} cells");
+    let run = run(false, &grid, &query(&grid, outer, inner), false);
+    assert_eq!(found(&run).waypoints().len(), free);
+    let Trace::Field { potential, .. } = run.trace else { panic!("not a field") };
+    // A corridor one cell wide: each cell has 2 - sqrt 3 of the one before, but for the few at its closed end.
+    let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
+    assert!((potential[outer] - expected).abs() < 0.1, "{} instead of {expected}", potential[outer]);
+}
+
+/// Found by the property tests: without walls the harmonic function is constant, so a relaxed field goes flat.
+#[test]
+fn a_torus_without_walls_navigates_and_says_that_it_did_not_converge() {
+    let grid = grid([2, 10], [true, true], vec![false; 20]);
+    let (component, ln, converged) = field(&grid, 0, None, 1e-13, 100_000);
+    assert!(!converged);
+    let rises = |i: usize| component.neighbors[i].iter().any(|&n| ln[n as usize] > ln[i]);
+    assert!((component.goals..component.len()).all(rises));
+}
+
+#[test]
+fn start_at_the_goal_is_a_path_of_one_point() {
+    let grid = grid([4, 5], [false, true], vec![false; 20]);
+    for planner in BOTH {
+        for shortcut in [true, false] {
+            let path = found(&run(planner, &grid, &query(&grid, 7, 7), shortcut));
+            assert_eq!(path.waypoints(), [grid.center(7)]);
+        }
+    }
+}
+
+#[test]
+fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
+    let grid = drawn("..#.. ..#.. ..#..");
+    for planner in BOTH {
+        let run = run(planner, &grid, &query(&grid, 0, 4), true);
+        assert_eq!(run.outcome, Outcome::NoPath);
+        assert!(matches!(run.size, Size::Grid { cells: 6, .. }));
+        let reached = match run.trace {
+            Trace::Field { potential, .. } => potential.iter().filter(|p| p.is_finite()).count(),
+            Trace::Wavefront { labels, .. } => labels.iter().filter(|&&label| label != UNREACHED).count(),
+            _ => 0,
+        };
+        assert_eq!(reached, 6);
+    }
+}
+
+#[test]
+fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
+    let open = grid([40, 40], [true, true], vec![false; 1600]);
+    let query = Query { start: Configuration::new(3.0, -2.9), goals: vec![Configuration::new(-3.0, 2.9)] };
+    let tau = std::f64::consts::TAU;
+    let end = Configuration::new(-3.0 + tau, 2.9 - tau);
+    for planner in BOTH {
+        let path = found(&run(planner, &open, &query, true));
+        assert_eq!((path.start(), path.goal()), (query.start, end));
+        assert!((path.length() - (end - query.start).norm()).abs() < 1e-12);
+        // A start beyond a turn stays there.
+        let turned = Query { start: query.start + Configuration::new(tau, 0.0), ..query.clone() };
+        let path = found(&run(planner, &open, &turned, true));
+        assert_eq!(path.start(), turned.start);
+        assert!((path.goal() - end - Configuration::new(tau, 0.0)).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn a_blocked_start_is_joined_to_a_free_cell_nearby() {
+    let grid = drawn("....... .###... .###... .###... .......");
+    for planner in BOTH {
+        let start = Configuration::new(2.5, 1.2);
+        let path = found(&run(planner, &grid, &Query { start, goals: vec![grid.center(6)] }, true));
+        assert_eq!((path.start(), path.goal()), (start, grid.center(6)));
+    }
+}
+
+#[test]
+fn hopeless_queries_are_given_up_with_the_reason() {
+    let full = grid([9, 9], [false, false], (0..81).map(|cell| cell != 80).collect());
+    let reason = |planner, query: &Query| match run(planner, &full, query, true).outcome {
+        Outcome::GaveUp(reason) => reason,
+        other => panic!("not given up: {other:?}"),
+    };
+    for planner in BOTH {
+        assert!(reason(planner, &query(&full, 0, 80)).contains("start"));
+        assert!(reason(planner, &query(&full, 80, 0)).contains("goal"));
+        assert!(reason(planner, &Query { start: full.center(80), goals: vec![] }).contains("no goal"));
+        let outside = Query { start: Configuration::new(-1.0, 3.0), goals: vec![full.center(80)] };
+        assert!(reason(planner, &outside).contains("outside"));
+    }
+    let query = query(&full, 80, 80);
+    let planner = Harmonic { factor: Some(2.0), ..Harmonic::default() };
+    assert!(matches!(planner.query(&full, &planner.build(&full), &query).outcome, Outcome::GaveUp(_)));
+}
+
+#[test]
+fn the_nearest_of_several_goals_is_taken() {
+    let grid = drawn(".......... .......... ..........");
+    let query = Query { start: grid.center(2), goals: vec![grid.center(29), grid.center(12), grid.center(20)] };
+    for planner in BOTH {
+        assert_eq!(found(&run(planner, &grid, &query, true)).goal(), grid.center(12));
+    }
+}
