@@ -1,6 +1,7 @@
 //! A path under a clock.
 
-use super::profile::{Profile, State};
+use super::profile::{Phase, Profile, State};
+use crate::certify::CertifiedPath;
 use crate::model::Joint;
 use crate::space::{Configuration, Path};
 use serde::Serialize;
@@ -109,12 +110,13 @@ impl Leg {
         let least = |limit: fn(&Joint) -> f64| {
             (0..2).map(|k| limit(&joints[k]) / direction[k].abs()).fold(f64::INFINITY, f64::min)
         };
-        let profile = Profile::rest_to_rest(length, least(|j| j.velocity), least(|j| j.acceleration), SHORTEST_INTERVAL);
+        let profile =
+            Profile::rest_to_rest(length, least(|j| j.velocity), least(|j| j.acceleration), SHORTEST_INTERVAL);
         Self { from, to, length, direction, profile, begin, end: begin + profile.duration() }
     }
 
-    fn at(&self, since_begin: f64) -> [Configuration; 3] {
-        let State { distance, speed, acceleration } = self.profile.at(since_begin);
+    fn at(&self, phase: Phase, time: f64) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = self.profile.at(phase, time);
         let part = distance / self.length;
         let between = |k: usize| {
             let (a, b) = (self.from[k], self.to[k]);
@@ -139,7 +141,12 @@ impl Leg {
 ///
 /// # Errors
 /// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
-pub(crate) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+pub fn time(path: &CertifiedPath, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+    time_path(path.path(), joints, period)
+}
+
+/// [`time`], whatever the path is good for.
+pub(super) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
     if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
         return Err(TimingError::Period(period));
     }
@@ -161,12 +168,13 @@ pub(crate) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result
     let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
     for leg in &legs {
         for phase in leg.profile.phases() {
-            let (begin, end) = (leg.begin + phase.begin, leg.begin + phase.end);
-            trajectory.push(begin, leg.at(phase.begin));
+            let begin = leg.begin + phase.begin;
+            let end = begin + phase.duration;
+            trajectory.push(begin, leg.at(phase, 0.0));
             let first = (begin / period) as u64;
             let multiples = (first..).map(|k| k as f64 * period).skip_while(|&t| t - begin < SHORTEST_INTERVAL);
             for time in multiples.take_while(|&t| end - t >= SHORTEST_INTERVAL) {
-                trajectory.push(time, leg.at(time - leg.begin));
+                trajectory.push(time, leg.at(phase, time - begin));
             }
         }
     }
