@@ -156,8 +156,7 @@ pub(super) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result
         legs.push(Leg::new(from, to, joints, begin));
     }
     let duration = legs.last().map_or(0.0, |leg| leg.end);
-    // Written so that a duration which is not a number fails too.
-    if !(duration <= LONGEST_MOTION) {
+    if duration.is_nan() || duration > LONGEST_MOTION {
         return Err(TimingError::TooLong(duration));
     }
     let samples = duration / period + 3.0 * legs.len() as f64 + 1.0;
