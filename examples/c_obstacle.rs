@@ -31,7 +31,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // All of it: the boundary curves as polygons, here within a millimetre of workspace distance.
     let contours = c_obstacles(scene, 1e-3, 1e-3);
-    println!("{} C-obstacle contours with {} corners", contours.len(), contours.iter().map(|c| c.contour.len()).sum::<usize>());
+    println!(
+        "{} C-obstacle contours with {} corners",
+        contours.len(),
+        contours.iter().map(|c| c.contour.len()).sum::<usize>()
+    );
 
     let picture = Picture {
         title: vec![format!("{}: {}", scene.workspace.name, scene.arm.name)],

@@ -18,5 +18,5 @@ pub use csv::csv;
 pub use format::{Format, UnknownFormat};
 pub use result::{INTERPOLATION, Report, Status};
 pub use ros::ros_yaml;
-pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory};
+pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory, time};
 pub use whole_file::{WriteError, write_whole};

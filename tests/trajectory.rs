@@ -1,0 +1,192 @@
+//! From a certified path to files, and back through independent readers.
+
+use cplan::certify::{CertifiedPath, certify};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::Heights;
+use cplan::model::{Arm, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::space::{Axis, Configuration, Path};
+use cplan::trajectory::{Format, Report, Status, Trajectory, time};
+use nalgebra::Vector3;
+use serde_json::Value;
+
+const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
+
+/// A turning joint that carries nothing, and a sliding one that carries a disc; a distant obstacle if asked for.
+fn scene(obstacle: bool) -> Scene {
+    let joint = |name: &str, motion| Joint {
+        name: name.into(),
+        motion,
+        axis: Axis::Interval { lower: -3.0, upper: 3.0 },
+        velocity: 1.5,
+        acceleration: 4.0,
+    };
+    let disc = Part { shape: Convex::disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
+    let arm = Arm {
+        name: "polar".into(),
+        joints: [
+            joint(NAMES[0], Motion::Revolute { sign: 1.0 }),
+            joint(NAMES[1], Motion::Prismatic { direction: Vector::x() }),
+        ],
+        links: [
+            Link { name: "turret".into(), parts: vec![], source: OutlineSource::None },
+            Link { name: "slider".into(), parts: vec![disc], source: OutlineSource::Collision },
+        ],
+        base: Point::origin(),
+        offset: Vector::zeros(),
+        tip: Point::origin(),
+        tip_name: "slider".into(),
+        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+    };
+    let (center, radius) = (Point::new(9.0, 0.0), 0.5);
+    let far = Obstacle {
+        name: "far".into(),
+        shape: Shape::Circle { center, radius },
+        pieces: vec![Convex::disc(center, radius)],
+        heights: Heights::ALL,
+    };
+    let obstacles = if obstacle { vec![far] } else { vec![] };
+    Scene::new(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0 })
+}
+
+fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
+    let path = Path::new(waypoints.iter().map(|&[a, b]| Configuration::new(a, b)).collect());
+    certify(scene, path, 0.0).expect("nothing is near")
+}
+
+fn found(obstacle: bool, waypoints: &[[f64; 2]]) -> Report {
+    let scene = scene(obstacle);
+    let path = certified(&scene, waypoints);
+    let trajectory = time(&path, &scene.arm.joints, 0.01).expect("an ordinary motion");
+    Report::found("visibility", &scene.arm.joints, &path, trajectory)
+}
+
+const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
+
+/// The reader, not the writer, may miss the nearest double by one: it trades that for speed.
+fn assert_close(json: &Value, rows: &[[f64; 2]]) {
+    let json = json.as_array().expect("a list");
+    assert_eq!(json.len(), rows.len());
+    for (read, row) in json.iter().zip(rows) {
+        for (i, value) in row.iter().enumerate() {
+            let read = read[i].as_f64().expect("a number");
+            assert!((read - value).abs() <= f64::EPSILON * value.abs(), "{read} {value}");
+        }
+    }
+}
+
+#[test]
+fn json_holds_the_contract() {
+    let mut report = found(true, &WAYPOINTS);
+    report.name = Some("room".into());
+    report.closest = Some("link \"slider\" and obstacle \"far\"".into());
+    report.size.extend([("nodes", 12), ("edges", 34)]);
+    report.timings = vec![("read".into(), 0.5), ("build".into(), 1.25)];
+    let text = report.json();
+    let json: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(json["status"], "found");
+    assert_eq!(json["planner"], "visibility");
+    assert_eq!(json["joints"], serde_json::json!(NAMES));
+    assert_eq!(json["units"], serde_json::json!(["rad", "m"]));
+    assert_close(&json["path"], &WAYPOINTS);
+    assert_eq!(json["certified"], true);
+    let clearance = json["clearance"].as_f64().expect("a number");
+    assert!((6.0..8.5).contains(&clearance), "{clearance}");
+    assert_eq!(json["size"]["nodes"], 12);
+    assert_eq!(json["timings"]["build"], 1.25);
+    let trajectory = report.trajectory.as_ref().expect("found");
+    assert_close(&json["trajectory"]["position"], &trajectory.position);
+    assert_close(&json["trajectory"]["velocity"], &trajectory.velocity);
+    assert_close(&json["trajectory"]["acceleration"], &trajectory.acceleration);
+    assert_eq!(json["trajectory"]["time"].as_array().expect("a list").len(), trajectory.time.len());
+    assert_eq!(json["duration"].as_f64(), Some(trajectory.duration()));
+    let length: f64 = WAYPOINTS.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+    assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
+    // The layout: a line a field, in the order of the type.
+    let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
+    let order = "status name planner joints units path length certified clearance closest size timings duration \
+                 interpolation trajectory";
+    assert_eq!(keys.join(" "), order);
+    assert!(text.starts_with("{\n  \"status\": \"found\",\n") && text.ends_with("]}\n}\n"));
+}
+
+#[test]
+fn infinite_clearance_is_left_out() {
+    let json: Value = serde_json::from_str(&found(false, &WAYPOINTS).json()).expect("JSON");
+    assert_eq!((&json["certified"], json.get("clearance")), (&Value::Bool(true), None));
+}
+
+#[test]
+fn without_a_path_there_is_a_reason() {
+    let joints = scene(false).arm.joints;
+    let reports = [
+        (Report::infeasible("trapezoid", &joints, "start is walled in".into()), Status::Infeasible, "infeasible"),
+        (Report::unknown("trapezoid", &joints, "time ran out".into()), Status::Unknown, "unknown"),
+    ];
+    for (report, status, word) in reports {
+        assert_eq!(report.status(), status);
+        let json: Value = serde_json::from_str(&report.json()).expect("JSON");
+        let keys: Vec<_> = json.as_object().expect("an object").keys().map(String::as_str).collect();
+        assert_eq!(keys, ["joints", "planner", "reason", "status", "units"]);
+        assert_eq!(json["status"], word);
+        assert_eq!((Format::Csv.text(&report), Format::Yaml.text(&report)), (None, None));
+        assert_eq!(Format::Json.text(&report), Some(report.json()));
+    }
+}
+
+#[test]
+fn csv_reads_back() {
+    let report = found(true, &WAYPOINTS);
+    let text = Format::Csv.text(&report).expect("there is a trajectory");
+    let (header, body) = text.split_once('\n').expect("a header");
+    let first = "\"shoulder, \"\"left\"\"";
+    assert_eq!(
+        header,
+        format!("time,{first}\",no: 1,{first}_velocity\",no: 1_velocity,{first}_acceleration\",no: 1_acceleration")
+    );
+    let mut read = Trajectory { time: vec![], position: vec![], velocity: vec![], acceleration: vec![] };
+    for line in body.lines() {
+        let n: Vec<f64> = line.split(',').map(|f| f.parse().expect("a number")).collect();
+        assert_eq!(n.len(), 7);
+        read.time.push(n[0]);
+        read.position.push([n[1], n[2]]);
+        read.velocity.push([n[3], n[4]]);
+        read.acceleration.push([n[5], n[6]]);
+    }
+    assert_eq!(Some(read), report.trajectory);
+}
+
+#[test]
+fn ros_message_reads_back() {
+    // A piece of a nanometre makes for samples a few microseconds apart.
+    for waypoints in [&WAYPOINTS[..], &[[0.0, 0.0], [1e-9, 0.0], [1e-9, 1e-9], [0.3, 0.1]], &[[0.2, 0.1]]] {
+        let report = found(true, waypoints);
+        let text = Format::Yaml.text(&report).expect("there is a trajectory");
+        let message: Value = serde_saphyr::from_str(&text).expect("YAML");
+        assert_eq!(message["header"], serde_json::json!({"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""}));
+        assert_eq!(message["joint_names"], serde_json::json!(NAMES));
+        let trajectory = report.trajectory.as_ref().expect("found");
+        let points = message["points"].as_array().expect("a list");
+        assert!(!points.is_empty());
+        let field = |name: &str| -> Vec<[f64; 2]> {
+            points
+                .iter()
+                .map(|p| p[name].as_array().map(|a| [a[0].as_f64(), a[1].as_f64()]).expect("a list"))
+                .map(|row| row.map(|v| v.expect("a number")))
+                .collect()
+        };
+        assert_eq!(field("positions"), trajectory.position);
+        assert_eq!(field("velocities"), trajectory.velocity);
+        assert_eq!(field("accelerations"), trajectory.acceleration);
+        let at: Vec<u64> = points
+            .iter()
+            .map(|p| {
+                let part = |name: &str| p["time_from_start"][name].as_u64().expect("a whole number");
+                assert!(part("nanosec") < 1_000_000_000);
+                part("sec") * 1_000_000_000 + part("nanosec")
+            })
+            .collect();
+        assert_eq!(at[0], 0);
+        assert!(at.windows(2).all(|w| w[0] < w[1]));
+        assert!(at.iter().zip(&trajectory.time).all(|(&ns, &t)| (ns as f64 * 1e-9 - t).abs() <= 0.6e-9));
+    }
+}
