@@ -108,17 +108,19 @@ impl EffortArgs {
 /// Arguments of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
-    pub files: Files,
+    // Not `Files`: whether the main job is meant at all shows in its own arguments, not in flattened ones.
+    /// The arm.
+    #[arg(value_name = "URDF")]
+    pub urdf: PathBuf,
+    /// The workspace, TOML.
+    #[arg(value_name = "WORLD")]
+    pub world: PathBuf,
     /// Planner: visibility, trapezoid, wavefront or harmonic.
     #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
     pub planner: Method,
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub query: QueryArgs,
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub effort: EffortArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
@@ -138,13 +140,10 @@ pub struct PlanArgs {
 #[derive(Debug, Args)]
 pub struct CompareArgs {
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub files: Files,
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub query: QueryArgs,
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub effort: EffortArgs,
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
@@ -167,7 +166,6 @@ pub struct CompareArgs {
 #[derive(Debug, Args)]
 pub struct CheckArgs {
     #[command(flatten)]
-    #[expect(missing_docs, reason = "the text would show up as help")]
     pub files: Files,
     /// The configuration, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]

@@ -19,7 +19,7 @@ pub fn run(args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
     let effort = args.effort.effort().map_err(Failure::Option)?;
     let mut clock = Clock::start();
-    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    let loaded = input::load(&args.urdf, &args.world, &args.query.overrides())?;
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {
