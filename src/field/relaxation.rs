@@ -46,7 +46,7 @@ impl Relaxation {
         }
         while !progress.converged && progress.sweeps < self.max_sweeps {
             progress.sweeps += 1;
-            if progress.sweeps % MEASURED == 0 || progress.sweeps == self.max_sweeps {
+            if progress.sweeps.is_multiple_of(MEASURED) || progress.sweeps == self.max_sweeps {
                 progress.change = sweep::<true>(component, potential, &mut uniform, &self.factors);
                 progress.converged = progress.change <= self.tolerance;
             } else {
