@@ -61,7 +61,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
 }
 
 fn row(problem: &Problem, answer: &Answer, period: f64) -> Result<Row, Failure> {
-    let seconds = |time: Duration| (!time.is_zero()).then(|| time.as_secs_f64());
+    let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
     let mut row = Row {
         planner: answer.method.name().into(),
         outcome: "unknown".into(),
