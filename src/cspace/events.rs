@@ -27,8 +27,9 @@ pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Ve
 
 /// Joint 2 slides: the piece passes the part sideways by exactly `radius`.
 fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
-    // The part keeps its extent across the direction; that of the piece turns with joint 1.
+    // Parallel slides keep the distance across them; others need no rows.
     let Motion::Revolute { sign } = arm.joints[0].motion else { return Vec::new() };
+    // The part keeps its extent across the direction; that of the piece turns with joint 1.
     let track = part.core().iter().map(|a| cross(direction, arm.offset + a.coords));
     let (low, high) = extent(track);
     let mut found = Vec::new();
@@ -222,4 +223,104 @@ fn radial_features(core: &[Point]) -> Vec<Radial> {
 fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
     let n = if core.len() > 1 { core.len() } else { 0 };
     (0..n).map(move |i| (core[i], core[(i + 1) % n]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::{Hits, sliding as slid, turning};
+    use crate::geometry::hull;
+    use crate::model::{Joint, Link, OutlineSource, Plane};
+    use crate::space::Axis;
+    use nalgebra::{Translation2, Vector3};
+    use proptest::prelude::*;
+
+    fn shape() -> impl Strategy<Value = Convex> {
+        (prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6), 0.0..0.2f64).prop_map(|(points, radius)| {
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            Convex::new(hull(&points), radius)
+        })
+    }
+
+    /// An arm without outlines.
+    fn arm(joints: [Joint; 2], offset: Vector) -> Arm {
+        let link = Link { name: "link".into(), parts: Vec::new(), source: OutlineSource::None };
+        let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
+        Arm {
+            name: "arm".into(),
+            joints,
+            links: [link.clone(), link],
+            base: Point::origin(),
+            offset,
+            tip: Point::origin(),
+            tip_name: "tip".into(),
+            plane,
+        }
+    }
+
+    fn motion() -> impl Strategy<Value = Motion> {
+        let slide = (0.0..TAU).prop_map(|t: f64| Motion::Prismatic { direction: Vector::new(t.cos(), t.sin()) });
+        prop_oneof![prop_oneof![Just(1.0), Just(-1.0)].prop_map(|sign| Motion::Revolute { sign }), slide]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        /// Between two near rows without an event, no interval appears away from all others.
+        #[test]
+        fn no_interval_appears_without_an_event(
+            motions in [motion(), motion()],
+            (part, piece) in (shape(), shape()),
+            at in (-1.0..1.0f64, -1.0..1.0f64),
+            level in 0.01..0.1f64,
+        ) {
+            prop_assume!(motions.iter().any(|m| m.is_revolute()));
+            const STEP: f64 = 0.004;
+            const NEAR: f64 = 0.05;
+            let joint = |motion: Motion| Joint {
+                name: "joint".into(),
+                motion,
+                axis: if motion.is_revolute() { Axis::Circle } else { Axis::Interval { lower: -3.0, upper: 3.0 } },
+                velocity: 1.0,
+                acceleration: 1.0,
+            };
+            let core = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
+            let piece = Convex::new(core, piece.radius());
+            let arm = arm(motions.map(joint), Vector::new(0.7, 0.1));
+            let turns = motions[1].is_revolute();
+            let row = |q1: f64| {
+                let pose = arm.pose(0, Configuration::new(q1, 0.0));
+                let pivot = pose * Point::from(arm.offset);
+                let mut out = Vec::new();
+                match motions[1] {
+                    Motion::Revolute { .. } => {
+                        // Angles of the link rather than values of the joint: structure is the same.
+                        if turning(&part, pivot, &piece, level, &mut out) == Hits::Always {
+                            out.push([-4.0, 4.0]);
+                        }
+                    }
+                    Motion::Prismatic { direction } => {
+                        let moved = part.at(&(pose * Translation2::from(arm.offset)));
+                        out.extend(slid(&moved, pose.rotation * direction, &piece, level));
+                    }
+                }
+                out
+            };
+            let found = events(&arm, &part, &piece, level);
+            let (start, steps) = (-3.0, 1500);
+            for k in 0..steps {
+                let (u, v) = (start + f64::from(k) * STEP, start + f64::from(k + 1) * STEP);
+                let before = row(u);
+                let appears = row(v).iter().any(|new| !before.iter().any(|old| {
+                    let shifts: &[f64] = if turns { &[-TAU, 0.0, TAU] } else { &[0.0] };
+                    shifts.iter().any(|s| old[0] + s <= new[1] + NEAR && new[0] <= old[1] + s + NEAR)
+                }));
+                let event = found.iter().any(|&q1| {
+                    let q1 = if motions[0].is_revolute() { u + (q1 - u + 1e-6).rem_euclid(TAU) - 1e-6 } else { q1 };
+                    u - 1e-6 <= q1 && q1 <= v + 1e-6
+                });
+                prop_assert!(!appears || event, "{u} {:?} {:?}", before, row(v));
+            }
+        }
+    }
 }

@@ -3,6 +3,7 @@
 mod chord;
 mod contact;
 mod critical;
+mod curves;
 mod events;
 mod features;
 mod grid;

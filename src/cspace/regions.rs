@@ -1,8 +1,6 @@
 //! Configuration space as polygons.
 
-use super::chord::{Contact, PairMotion};
-use super::events::events;
-use super::outline::{Break, Flattening, Source, contours};
+use super::curves::Curves;
 use super::rows::Rows;
 use super::union::free_space;
 use super::{Hits, Proves, translation};
@@ -15,15 +13,8 @@ use std::f64::consts::{PI, TAU};
 /// is what chords may cut off; the more, the fewer corners.
 const KEPT: f64 = 0.25;
 
-/// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
-const SPARE: f64 = 1.0 / 16.0;
-
-/// Rows to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse rows could
-/// overlook is found by [`events`].
-const FIRST_ROWS: usize = 24;
-
-/// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
-/// and far below the tolerance.
+/// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
+/// union.
 const OVERLAP: f64 = 1e-3;
 
 /// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
@@ -177,108 +168,4 @@ fn bands(rows: &Rows, index: usize, level: f64) -> Vec<Vec<Point>> {
         [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)].map(|(x, y)| Point::new(x, y)).to_vec()
     };
     spans.into_iter().map(corners).collect()
-}
-
-/// The rows of one pair of link 2, and what chords between them must keep.
-struct Curves<'a> {
-    rows: &'a Rows<'a>,
-    index: usize,
-    motion: PairMotion<'a>,
-    /// Distance that chords must keep, at the least.
-    floor: f64,
-    /// Distance on the boundary of the rows.
-    level: f64,
-    /// Distance that the middle of a chord may have, at the most.
-    ceiling: f64,
-    min_width: f64,
-}
-
-impl<'a> Curves<'a> {
-    fn new(rows: &'a Rows<'a>, index: usize, level: f64, tolerance: f64) -> Self {
-        let scene = rows.scene();
-        let pair = scene.pairs()[index];
-        let motion = PairMotion::new(&scene.arm, scene.part(pair), scene.piece(pair));
-        // Over half of this no distance changes by more than the tolerance.
-        let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
-        let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
-        Self { rows, index, motion, floor, level: level + tolerance, ceiling, min_width }
-    }
-
-    fn contours(&self) -> Vec<Vec<Point>> {
-        if self.rows.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
-            return Vec::new();
-        }
-        let turning = self.rows.scene().arm.joints[1].motion.is_revolute();
-        let overlap = OVERLAP * self.min_width;
-        contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
-    }
-
-    /// Rows to begin with, in order.
-    fn breaks(&self) -> Vec<Break> {
-        let scene = self.rows.scene();
-        let pair = scene.pairs()[self.index];
-        let joint = &scene.arm.joints[0];
-        let (start, end) = if joint.motion.is_revolute() {
-            let start = self.seam();
-            (start, start + TAU)
-        } else {
-            joint.axis.domain()
-        };
-        let step = (end - start) / FIRST_ROWS as f64;
-        let mut breaks: Vec<Break> = (0..FIRST_ROWS)
-            .map(|i| Break { q1: start + step * i as f64, keep: false })
-            .chain([Break { q1: end, keep: false }])
-            .collect();
-        for (level, keep) in [(self.floor, true), (self.level, false)] {
-            for q1 in events(&scene.arm, scene.part(pair), scene.piece(pair), level) {
-                let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
-                if start <= q1 && q1 <= end {
-                    breaks.push(Break { q1, keep });
-                }
-            }
-        }
-        breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
-        breaks.dedup_by(|b, a| {
-            let same = b.q1 - a.q1 <= OVERLAP * self.min_width;
-            a.keep |= same && b.keep;
-            same
-        });
-        breaks
-    }
-
-    /// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
-    fn seam(&self) -> f64 {
-        let mut intervals = Vec::new();
-        (0..FIRST_ROWS)
-            .map(|i| -PI + TAU / FIRST_ROWS as f64 * i as f64)
-            .find(|&q1| self.rows.second_link(self.index, q1, self.level, &mut intervals) == Hits::Never)
-            .unwrap_or(-PI)
-    }
-}
-
-impl Source for &Curves<'_> {
-    type End = Contact;
-
-    fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>) {
-        if self.rows.second_link(self.index, q1, self.level, out) == Hits::Always {
-            out.push([-PI, PI]);
-        }
-    }
-
-    fn end(&self, q1: f64, q2: f64) -> Contact {
-        self.motion.contact(Configuration::new(q1, q2))
-    }
-
-    fn point(&self, end: &Contact) -> Point {
-        Point::from(end.q)
-    }
-
-    fn shifted(&self, end: &Contact, turns: f64) -> Contact {
-        end.turned(turns)
-    }
-
-    fn accepts(&self, from: &Contact, to: &Contact) -> bool {
-        self.motion.least_distance(from, to) >= self.floor
-            && self.motion.separation((from.q + to.q) / 2.0).distance <= self.ceiling
-    }
 }

@@ -1,6 +1,6 @@
 //! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
 
-use crate::geometry::{Convex, Point, Vector, minkowski_difference, perpendicular};
+use crate::geometry::{Convex, Point, Vector, cross, minkowski_difference, perpendicular};
 use crate::model::{Arm, Motion};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
@@ -67,7 +67,8 @@ fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
 /// The outward normal before a corner, and the angle in `[0, pi]` by which it turns there.
 fn corner(before: Point, at: Point, after: Point) -> (Vector, f64) {
     let (into, out) = (at - before, after - at);
-    (-perpendicular(into), into.angle(&out))
+    // The sign can only be lost to rounding: a convex outline never turns clockwise.
+    (-perpendicular(into), cross(into, out).abs().atan2(into.dot(&out)))
 }
 
 #[cfg(test)]
