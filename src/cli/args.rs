@@ -22,9 +22,11 @@ pub struct Cli {
     /// Other jobs than planning.
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// The main job.
+    /// Files of the main job; there unless another job is.
     #[command(flatten)]
-    pub plan: Option<PlanArgs>,
+    pub files: Option<Files>,
+    #[command(flatten)]
+    pub plan: PlanArgs,
 }
 
 /// Jobs with a word of their own.
@@ -105,16 +107,9 @@ impl EffortArgs {
     }
 }
 
-/// Arguments of the main job.
+/// Options of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    // Not `Files`: whether the main job is meant at all shows in its own arguments, not in flattened ones.
-    /// The arm.
-    #[arg(value_name = "URDF")]
-    pub urdf: PathBuf,
-    /// The workspace, TOML.
-    #[arg(value_name = "WORLD")]
-    pub world: PathBuf,
     /// Planner: visibility, trapezoid, wavefront or harmonic.
     #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
     pub planner: Method,

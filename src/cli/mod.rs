@@ -26,10 +26,10 @@ const UNKNOWN: u8 = 4;
 #[must_use]
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
-    let done = match (&cli.command, &cli.plan) {
+    let done = match (&cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
-        (None, Some(args)) => plan::run(args),
+        (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };
     ExitCode::from(done.unwrap_or_else(|failure: Failure| {

@@ -1,6 +1,6 @@
 //! The main job: from two files to a certified trajectory, a proof, or neither.
 
-use super::args::PlanArgs;
+use super::args::{Files, PlanArgs};
 use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
@@ -15,11 +15,11 @@ use crate::trajectory::{Report, time};
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn run(args: &PlanArgs) -> Result<u8, Failure> {
+pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
     let effort = args.effort.effort().map_err(Failure::Option)?;
     let mut clock = Clock::start();
-    let loaded = input::load(&args.urdf, &args.world, &args.query.overrides())?;
+    let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {
