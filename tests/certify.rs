@@ -3,7 +3,9 @@
 mod common;
 
 use common::{Benchmark, all_kinds, benchmark, q, rectangle, rr, scene};
-use cplan::certify::{CertifiedPath, Connectivity, Deviation, Posture, Rejection, certify, connectivity};
+use cplan::certify::{
+    CertifiedPath, Connectivity, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify, connectivity, recheck,
+};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Scene;
 use cplan::space::{Axis, Configuration, Path};
@@ -173,4 +175,53 @@ fn limits_and_clearance_can_close_the_way() {
     assert!(matches!(decide([half, folding], 0.0), Connectivity::Connected(_)));
     // Folded, the forearm still comes within 0.4 m of the pole as the elbow passes under it.
     assert!(matches!(decide([half, folding], 0.4), Connectivity::Disconnected(_)));
+}
+
+/// The stuck boxes of a problem without a path.
+fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<StuckBox> {
+    match connectivity(scene, start, &[goal], clearance, 200_000) {
+        Connectivity::Disconnected(proof) => proof.stuck().to_vec(),
+        other => panic!("not proven: {other:?}"),
+    }
+}
+
+#[test]
+fn proofs_are_accepted_by_the_independent_check() {
+    for which in [Benchmark::Inf, Benchmark::T] {
+        let (scene, start, goal) = benchmark(which);
+        assert_eq!(recheck(&proof(&scene, start, goal, 0.0), &scene, start, &[goal], 0.0), Ok(()), "{which:?}");
+    }
+    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
+    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
+    let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
+    let boxes = proof(&pole, start, goal, 0.4);
+    assert_eq!(recheck(&boxes, &pole, start, &[goal], 0.4), Ok(()));
+    // The same boxes prove nothing about a smaller clearance.
+    assert!(recheck(&boxes, &pole, start, &[goal], 0.0).is_err());
+}
+
+#[test]
+fn false_proofs_are_refused() {
+    let (scene, start, goal) = benchmark(Benchmark::Inf);
+    let boxes = proof(&scene, start, goal, 0.0);
+    let judge = |boxes: &[StuckBox]| recheck(boxes, &scene, start, &[goal], 0.0);
+    assert_eq!(judge(&[]), Err(ProofDefect::NotSeparated(0)));
+    assert_eq!(recheck(&boxes, &scene, start, &[start], 0.0), Err(ProofDefect::NotSeparated(0)));
+
+    // Taking boxes away one after another must open a way, and once open it stays open.
+    let fewer: Vec<bool> = (0..=20).map(|k| judge(&boxes[boxes.len() * k / 20..]).is_ok()).collect();
+    assert!(fewer[0] && !fewer[20]);
+    assert!(fewer.windows(2).all(|w| w[0] || !w[1]));
+
+    let wrong = |change: fn(&mut StuckBox)| {
+        let mut boxes = boxes.clone();
+        change(&mut boxes[7]);
+        judge(&boxes)
+    };
+    let grown = wrong(|b| (b.cell.lower, b.cell.upper) = ([-3.0, -3.0], [3.0, 3.0]));
+    assert!(matches!(grown, Err(ProofDefect::NotStuck { index: 7, .. })), "{grown:?}");
+    assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofDefect::NotInDomain(7)));
+    assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofDefect::NotInDomain(7)));
+    assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofDefect::UnknownPair(7)));
 }

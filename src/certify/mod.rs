@@ -7,8 +7,10 @@ mod boxes;
 mod connectivity;
 mod deviation;
 mod motion;
+mod recheck;
 
 pub use boxes::Cell;
 pub use connectivity::{Connectivity, Disconnection, StuckBox, connectivity};
 pub use deviation::{Bounded, Deviation, Posture};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use recheck::{ProofDefect, recheck};
