@@ -86,7 +86,7 @@ fn check_says_why() {
     let corner = [1.15 - elbow[0], 0.3 - elbow[1]];
     let beyond = corner[1] * angle.cos() - corner[0] * angle.sin();
     let depth = json["contacts"][0]["depth"].as_f64().unwrap();
-    assert!((depth - (0.04 + beyond)).abs() < 1e-9, "{depth} {beyond}");
+    assert!((depth - (0.05 + beyond)).abs() < 1e-9, "{depth} {beyond}");
     let outside = place.run(&files, "--at 9,0");
     assert_eq!(outside.code, 0);
     assert!(outside.stdout.contains("OUTSIDE") && outside.stdout.contains("not free"), "{}", outside.stdout);

@@ -66,7 +66,7 @@ fn files_that_are_no_urdf() {
     for (file, part) in [("missing.urdf", "cannot be read"), ("folder.urdf", "cannot be read"), ("text.urdf", "XML")] {
         place.run(&[file, "world.toml"], "").refused(1, &[file, part, "cure"]);
     }
-    place.run(&["cut.urdf", "world.toml"], "").refused(1, &["line 2", "cure"]);
+    place.run(&["cut.urdf", "world.toml"], "").refused(1, &["cut.urdf: line 1", "never closed", "cure"]);
     place.run(&["world.toml", &shipped("robots/planar_2r.urdf")], "").refused(1, &["URDF first"]);
 }
 
