@@ -96,6 +96,7 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
         lines.push(("goal", configuration(arm, goal)));
     }
     lines.push(("planner", format!("{}: {}", answer.method, size(answer.run.size))));
+    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();

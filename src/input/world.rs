@@ -96,7 +96,7 @@ struct CircleTable {
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
-const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 
 /// Reads a world file.
 ///
