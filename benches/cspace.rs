@@ -1,7 +1,7 @@
 //! Configuration space from rows beside the same by parry2d's collision tests.
 
-#[path = "../tests/scenes/mod.rs"]
-mod scenes;
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 use cplan::cspace::{Row, Rows, grid_from_rows, outer_grid, sampled_grid};
 use criterion::{Criterion, criterion_group, criterion_main};
@@ -10,7 +10,7 @@ use std::hint::black_box;
 const CELLS: [usize; 2] = [1024, 1024];
 
 fn rows(c: &mut Criterion) {
-    let scene = scenes::w20();
+    let scene = common::w20();
     let rows = Rows::new(&scene);
     let mut row = Row::default();
     let mut step = 0_u32;
@@ -24,7 +24,7 @@ fn rows(c: &mut Criterion) {
 }
 
 fn grids(c: &mut Criterion) {
-    let scene = scenes::w20();
+    let scene = common::w20();
     let mut group = c.benchmark_group("W20, 1024 x 1024 cells");
     group.bench_function("from rows", |b| b.iter(|| grid_from_rows(black_box(&scene), CELLS, 0.0)));
     group.bench_function("from rows, outer", |b| b.iter(|| outer_grid(black_box(&scene), CELLS, 0.0)));

@@ -1,8 +1,8 @@
 //! Every planner on the benchmark problem A (a narrow passage on the torus) and on a shipped workspace: the
 //! configuration space it works on, what it prepares, and one query.
 
-#[path = "../tests/scenes/mod.rs"]
-mod scenes;
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::input::{self, Overrides};
@@ -50,7 +50,7 @@ fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &Problem, planner
 }
 
 fn planners(c: &mut Criterion) {
-    for (name, problem) in [("problem A", scenes::problem_a()), ("shelf", shelf())] {
+    for (name, problem) in [("problem A", common::problem(common::Benchmark::A)), ("shelf", shelf())] {
         let n = sufficient(&problem);
         let mut group = c.benchmark_group(format!("{name}/space"));
         group.bench_function("polygons", |b| b.iter(|| polygons(black_box(&problem))));

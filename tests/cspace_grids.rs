@@ -1,10 +1,10 @@
 //! Rows and grids from rows against clearances and parry2d's verdicts, for all four kinds of arm.
 
-mod scenes;
+mod common;
 
 use cplan::cspace::{Hits, Proves, Row, Rows, grid_from_rows, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Motion, Scene};
+use cplan::model::{Arm, Motion, Scene};
 use cplan::space::{Axis, Configuration};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -43,7 +43,8 @@ fn piece() -> impl Strategy<Value = Convex> {
 }
 
 fn part() -> impl Strategy<Value = Convex> {
-    let bar = (0.3..1.2f64, 0.02..0.1f64).prop_map(|(length, half_width)| scenes::bar(length, half_width));
+    let bar = (0.3..1.2f64, 0.02..0.1f64)
+        .prop_map(|(length, half_width)| common::rectangle(0.0, length, -half_width, half_width));
     let capsule = (0.3..1.2f64, 0.02..0.1f64)
         .prop_map(|(length, radius)| Convex::new(vec![Point::origin(), Point::new(length, 0.0)], radius));
     prop_oneof![bar, capsule, piece()]
@@ -60,9 +61,11 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         prop::collection::vec(piece(), 1..5),
     )
         .prop_map(|(base, offset, [first, second], parts, pieces)| {
-            let joints = [scenes::joint("j1", first.0, first.1), scenes::joint("j2", second.0, second.1)];
-            let arm = scenes::arm(Point::new(base.0, base.1), Vector::new(offset.0, offset.1), joints, parts);
-            scenes::scene(arm, pieces)
+            let joints = [common::joint("j1", first.0, first.1), common::joint("j2", second.0, second.1)];
+            let links = parts.map(|shapes| common::link("link", shapes));
+            let (offset, tip) = (Vector::new(offset.0, offset.1), Point::new(1.0, 0.0));
+            let arm = Arm { base: Point::new(base.0, base.1), ..common::arm(joints, links, offset, tip) };
+            common::scene(arm, pieces)
         })
 }
 
@@ -155,7 +158,7 @@ proptest! {
 
 #[test]
 fn w20_from_rows_is_that_of_collision_tests() {
-    let scene = scenes::w20();
+    let scene = common::w20();
     let cells = [360, 360];
     let (rows, sampled) = (grid_from_rows(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
     let differing: Vec<usize> = (0..rows.blocked.len()).filter(|&i| rows.blocked[i] != sampled.blocked[i]).collect();

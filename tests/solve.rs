@@ -2,15 +2,10 @@
 
 mod common;
 
-use common::{Benchmark, benchmark, q, rectangle, rr, scene};
+use common::{Benchmark, benchmark, problem, q, rectangle, rr, scene};
 use cplan::model::{Goal, Problem, Scene};
 use cplan::solve::{Answer, Effort, Method, Verdict, solve};
 use cplan::space::Axis;
-
-fn problem(which: Benchmark) -> Problem {
-    let (scene, start, goal) = benchmark(which);
-    Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }
-}
 
 fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), method, &Effort::default(), &mut |_| {})

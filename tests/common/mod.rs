@@ -1,8 +1,10 @@
-//! Arms and scenes made in code, for the integration tests.
-#![allow(dead_code, reason = "every test binary uses some of it")]
+//! Arms and scenes made in code, for tests and benchmarks.
+#![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::model::{
+    Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+};
 use cplan::space::{Axis, Configuration};
 use nalgebra::Vector3;
 
@@ -124,19 +126,29 @@ pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
     (scene(rr([Axis::Circle, Axis::Circle]), pieces), q(-0.7, 0.0), goal)
 }
 
-/// The 20 obstacles of the benchmark for building configuration spaces.
+/// Small regular polygons with 4 to 7 corners on a spiral.
+pub fn spiral(count: u8) -> Vec<Convex> {
+    let polygon = |i: u8| {
+        let (index, corners) = (f64::from(i), 4 + i % 4);
+        let angle = 2.399_963 * index;
+        let radius = 0.55 + 1.15 * ((index + 0.5) / f64::from(count)).sqrt();
+        let center = Vector::new(radius * angle.cos(), radius * angle.sin());
+        let corner = |k: u8| {
+            let turn = 0.7 * index + std::f64::consts::TAU * f64::from(k) / f64::from(corners);
+            Point::from(center + 0.08 * Vector::new(turn.cos(), turn.sin()))
+        };
+        Convex::new((0..corners).map(corner).collect(), 0.0)
+    };
+    (0..count).map(polygon).collect()
+}
+
+/// The benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
 pub fn w20() -> Scene {
-    let pieces = (0..20)
-        .map(|i| {
-            let angle = 2.399963 * f64::from(i);
-            let radius = 0.55 + 1.15 * ((f64::from(i) + 0.5) / 20.0).sqrt();
-            let n = 4 + i % 4;
-            let corner = |k: i32| {
-                let turn = 0.7 * f64::from(i) + std::f64::consts::TAU * f64::from(k) / f64::from(n);
-                Point::new(radius * angle.cos() + 0.08 * turn.cos(), radius * angle.sin() + 0.08 * turn.sin())
-            };
-            Convex::new((0..n).map(corner).collect(), 0.0)
-        })
-        .collect();
-    scene(rr([Axis::Circle, Axis::Circle]), pieces)
+    scene(rr([Axis::Circle, Axis::Circle]), spiral(20))
+}
+
+/// A benchmark problem as the solver takes it.
+pub fn problem(which: Benchmark) -> Problem {
+    let (scene, start, goal) = benchmark(which);
+    Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }
 }
