@@ -184,14 +184,18 @@ fn outline(lines: &mut Lines, outline: &OutlineEntry) {
     let OutlineEntry { link, source, parts, area, heights, bodies } = outline;
     let from = match *source {
         "none" => "none: it has no geometry and cannot collide".to_owned(),
-        "bar" => format!("a bar, as the world file asks; {parts} parts of {area:.6} m2 in all"),
-        source => format!("from {source} geometry; {parts} parts of {area:.6} m2 in all"),
+        "bar" => format!("a bar, as the world file asks; {} of {area:.6} m2 in all", pieces(*parts)),
+        source => format!("from {source} geometry; {} of {area:.6} m2 in all", pieces(*parts)),
     };
     let heights = heights.map_or(String::new(), |[lower, upper]| format!("; heights {lower:.4} to {upper:.4} m"));
     lines.add("outline", &format!("\"{link}\": {from}{heights}"));
     for body in bodies.iter().filter(|b| bodies.len() > 1 || b.link != *link) {
-        lines.add("outline", &format!("  of it \"{}\": {} parts, {:.6} m2", body.link, body.parts, body.area));
+        lines.add("outline", &format!("  of it \"{}\": {}, {:.6} m2", body.link, pieces(body.parts), body.area));
     }
+}
+
+fn pieces(count: usize) -> String {
+    if count == 1 { "1 part".into() } else { format!("{count} parts") }
 }
 
 fn vector(d: [f64; 3]) -> String {

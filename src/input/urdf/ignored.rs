@@ -59,7 +59,8 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
         let shapes: usize =
             (0..document.robot.links.len()).filter(mine).map(|l| document.robot.links[l].visual.len()).sum();
         if shapes > 0 {
-            ignored.push(format!("{shapes} visual shapes of link \"{}\": it has collision geometry", link.name));
+            let noun = if shapes == 1 { "shape" } else { "shapes" };
+            ignored.push(format!("{shapes} visual {noun} of link \"{}\": it has collision geometry", link.name));
         }
     }
     ignored
