@@ -119,3 +119,23 @@ fn an_arm_that_is_buried_has_no_way_out() {
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0 };
     assert_eq!(nearest_free(&Scene::new(rr([Axis::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }
+
+#[test]
+fn the_command_names_it_for_configurations_that_are_not_free() {
+    let check = |at: &str| {
+        let mut command = assert_cmd::Command::cargo_bin("cplan").unwrap();
+        let output = command.args(["check", "robots/planar_2r.urdf", "workspaces/shelf.toml", "--json", "--at", at]);
+        let output = output.output().unwrap();
+        assert!(output.status.success());
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    let blocked = check("10deg,0deg");
+    let nearest = &blocked["nearest_free"];
+    let [q1, q2] = [0, 1].map(|i| nearest["configuration"][i].as_f64().unwrap());
+    let distance = nearest["distance"].as_f64().unwrap();
+    assert!((distance - (q1 - 10f64.to_radians()).hypot(q2)).abs() < 1e-12);
+    assert!(nearest["resolution"].as_f64().unwrap() > 0.0);
+    let free = check(&format!("{q1},{q2}"));
+    assert_eq!(free["free"], true);
+    assert!(free.get("nearest_free").is_none());
+}

@@ -107,6 +107,9 @@ fn single_defects_leave_the_rest_of_the_report() {
             assert!(messages(&found).contains(part), "no {part} in {}", messages(&found));
         }
         assert_eq!(found.links.len(), 4, "{to}");
+        // One slip, one defect: what follows from it is none.
+        assert_eq!(found.errors.iter().map(|e| e.defects().len()).sum::<usize>(), 1, "{}", messages(&found));
+        assert_eq!(found.pairs.is_empty(), !to.starts_with("size"), "{to}");
         assert!(found.joints.iter().any(|j| j.name == "j2" && j.kind == "continuous" && j.line == 13), "{to}");
     }
 }
@@ -266,7 +269,8 @@ fn the_picture_shows_the_frames() {
     let (code, ..) = command(&["robots/rrbot_vertical.urdf", "--picture", file.to_str().unwrap()]);
     let text = fs::read_to_string(&file).unwrap();
     let tree = roxmltree::Document::parse(&text).unwrap();
-    let words: Vec<&str> = tree.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).collect();
+    let words: Vec<&str> =
+        tree.descendants().filter(|n| n.has_tag_name("text")).filter_map(|n| n.text()).map(str::trim).collect();
     let found = inspect(Path::new("robots/rrbot_vertical.urdf"), None);
     assert_eq!(code, i32::from(!found.is_plannable()));
     for name in found.frames.iter().map(|f| f.name.as_str()) {

@@ -39,7 +39,7 @@ pub fn text(report: &Inspection) -> String {
     for joint in report.joints.iter().filter(|j| j.axis.is_some()) {
         lines.add("movable", &movable(report, joint));
     }
-    pairs(&mut lines, &report.pairs);
+    pairs(&mut lines, report);
     if let Some([first, second]) = &report.chosen {
         let how = if report.assumed { "; nobody chose them: they are the first that form a planar arm" } else { "" };
         lines.add("chosen", &format!("\"{first}\" and \"{second}\"{how}"));
@@ -163,7 +163,8 @@ fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> S
     format!("{what} {value} {}{per} ({source})", unit(joint))
 }
 
-fn pairs(lines: &mut Lines, pairs: &[PairEntry]) {
+fn pairs(lines: &mut Lines, report: &Inspection) {
+    let pairs = &report.pairs;
     let line = |p: &PairEntry| {
         let verdict = if p.planar { "a planar arm" } else { "no" };
         let reason = p.reason.trim_start_matches("plane: ");
@@ -176,7 +177,10 @@ fn pairs(lines: &mut Lines, pairs: &[PairEntry]) {
         lines.add("pairs", &format!("and {} more that form no planar arm", refused.len() - REFUSED_SHOWN));
     }
     if pairs.is_empty() {
-        lines.add("pairs", "no two joints that move on their own follow one another");
+        // Directions in the root frame are known only where the tree is.
+        let tried = report.joints.iter().all(|j| j.axis.is_none() || j.direction.is_some());
+        let none = "no two joints that move on their own follow one another";
+        lines.add("pairs", if tried { none } else { "not tried: the joints and their tree have defects" });
     }
 }
 

@@ -33,9 +33,8 @@ const FAN: i32 = 8;
 ///
 /// Joint 1 runs through rows, [`NearestFree::spacing`] apart and out from `q`, with the ends of what link 1 forbids among
 /// them; in each the nearest free value of joint 2 is exact. The rows about the best local minima are then refined to
-/// 1e-10. The result is free by the scene's own measure. No configuration on any row is free and nearer; one that is
-/// nearer must lie between two rows, in a part of free space that reaches neither of them, or is a minimum between them
-/// less than a row's spacing below.
+/// 1e-10. The result is free by the scene's own measure, and no free configuration on any row is nearer: one that is
+/// lies between two rows, less than a spacing from either.
 ///
 /// None if no row has a free configuration. `O(rows * pairs)`.
 #[must_use]

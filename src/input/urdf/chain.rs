@@ -50,6 +50,11 @@ pub(super) fn with_joints(
     Ok(Chain { joints, tip, values, notes })
 }
 
+/// Whether all else that the world's `[robot]` table says goes with these two joints.
+pub(super) fn admits(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> bool {
+    Chooser { document, tree, world }.names_exist().is_ok() && with_joints(document, tree, world, joints).is_ok()
+}
+
 /// The two joints that the world names, or that are the only ones.
 pub(super) fn joints(document: &Document, tree: &Tree, world: &World) -> Option<[usize; 2]> {
     Chooser { document, tree, world }.joints().ok()
@@ -203,7 +208,8 @@ impl Chooser<'_> {
         );
         let example = [candidates[0], candidates[1]].map(|j| self.all()[j].name.as_str());
         let cure = format!(
-            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values)",
+            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values); \
+             `cplan inspect` tells which form a planar arm",
             quoted(example)
         );
         Err(self.document.source.defect(message).cure(cure))

@@ -28,6 +28,8 @@ pub(super) struct Document {
     pub others: BTreeMap<String, usize>,
     /// What is wrong with single elements. A robot with any is good for a report only.
     pub defects: Vec<Defect>,
+    /// Whether none of them is in a joint or a name, so that the kinematics are as the file has them.
+    pub tree_is_sound: bool,
 }
 
 /// Where a link and its shapes are in the file.
@@ -66,12 +68,17 @@ impl Document {
         let root = xml.root_element();
         foreign::recognise(&source, root)?;
 
-        let mut reader =
-            Reader { source: &source, defects: Vec::new(), copy: String::new(), others: BTreeMap::default() };
+        let mut reader = Reader {
+            source: &source,
+            defects: Vec::new(),
+            copy: String::new(),
+            others: BTreeMap::default(),
+            tree_is_sound: true,
+        };
         let (links, joints) = reader.robot(root);
-        let Reader { defects, copy, others, .. } = reader;
+        let Reader { defects, copy, others, tree_is_sound, .. } = reader;
         match urdf_rs::read_from_string(&copy) {
-            Ok(robot) => Ok(Self { robot, links, joints, others, defects, source }),
+            Ok(robot) => Ok(Self { robot, links, joints, others, defects, tree_is_sound, source }),
             Err(error) => {
                 InputError::check(defects)?;
                 Err(source.defect(format!("is not a URDF that can be read: {error}")).into())
@@ -100,6 +107,7 @@ struct Reader<'a> {
     defects: Vec<Defect>,
     copy: String,
     others: BTreeMap<String, usize>,
+    tree_is_sound: bool,
 }
 
 impl Reader<'_> {
@@ -119,19 +127,23 @@ impl Reader<'_> {
             }
             let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
                 self.defect(node, format!("a <{kind}> has no name"), "give it a name of its own");
+                self.tree_is_sound = false;
                 continue;
             };
             let line = self.source.position(node.range().start).line;
             if let Some((.., first)) = names.iter().find(|(k, n, _)| *k == kind && n == name) {
                 let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
                 self.defect(node, message, "rename one of them");
+                self.tree_is_sound = false;
                 continue;
             }
             names.push((kind, name.to_owned(), line));
             if kind == "link" {
                 links.push(self.link(node, name));
-            } else if let Some(place) = self.joint(node, name, unlimited) {
-                joints.push(place);
+            } else {
+                let before = self.defects.len();
+                joints.extend(self.joint(node, name, unlimited));
+                self.tree_is_sound &= self.defects.len() == before;
             }
         }
         self.copy.push_str("</robot>");

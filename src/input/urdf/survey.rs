@@ -39,7 +39,9 @@ pub(in crate::input) fn survey(path: &Path, world: &World) -> Inspection {
     report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
         Ok(tree) => in_tree(&mut report, &document, &tree, world),
-        Err(error) => report.errors.push(error),
+        // What an element left out for its defects does to the tree is no defect of its own.
+        Err(error) if document.tree_is_sound => report.errors.push(error),
+        Err(_) => {}
     }
     report
 }
@@ -50,6 +52,9 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, world: &Wo
     let names = |j: usize| document.robot.joints[j].name.clone();
     for (entry, above) in report.links.iter_mut().zip(&tree.above) {
         entry.above = above.map(names);
+    }
+    if !document.tree_is_sound {
+        return;
     }
     let pairs = chain::pairs(document, tree);
     report.pairs = pairs.iter().map(|p| pair(document, tree, world, *p)).collect();
@@ -83,7 +88,8 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, world: &Wo
     }
     if !report.is_plannable()
         && document.defects.is_empty()
-        && let Some(chain) = likely.and_then(trial)
+        && let Some(pair) = likely.filter(|p| chain::admits(document, tree, world, *p))
+        && let Some(chain) = trial(pair)
     {
         let reduction = Reduction::new(document, tree, world, &chain);
         report.remedy = reduction.plane().ok().and_then(|plane| remedy::entries(&reduction, &plane));
@@ -102,7 +108,9 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(ignored::beside_the_arm(reduction));
     let plane = reduction.plane();
     let bounds = reduction.bounds();
-    let outlines = plane.as_ref().ok().map(|plane| reduction.outlines(plane));
+    // With a shape left out for its defects an outline would be wrong.
+    let sound = document.defects.is_empty();
+    let outlines = plane.as_ref().ok().filter(|_| sound).map(|plane| reduction.outlines(plane));
     report.errors.extend(plane.as_ref().err().cloned());
     report.errors.extend(bounds.as_ref().err().cloned());
     let Ok(plane) = plane else { return };
