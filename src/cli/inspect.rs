@@ -41,7 +41,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
         let Sink::Picture(format, path) = sink else { continue };
         match posture(&inspection) {
             Some(posture) => output::save_posture(*format, path, &posture)?,
-            None => eprintln!("warning: {} is not written: there is no planar arm to draw", path.display()),
+            None => output::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
         }
     }
     if args.json {

@@ -25,7 +25,8 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
         .iter()
         .enumerate()
         .filter(|(l, link)| {
-            !tree.carries(chain.joints[0], *l) && !(link.collision.is_empty() && link.visual.is_empty())
+            let shapes = link.collision.len() + link.visual.len();
+            shapes > 0 && !tree.carries(chain.joints[0], *l)
         })
         .map(|(_, link)| link.name.as_str())
         .collect();
