@@ -16,6 +16,7 @@ Examples:
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan inspect robots/scara.urdf --picture scara.svg
 
 Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
@@ -37,6 +38,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
+    /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
+    Inspect(InspectArgs),
 }
 
 /// The two files.
@@ -187,6 +190,23 @@ pub struct CheckArgs {
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print the findings as JSON.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `inspect`.
+#[derive(Debug, Args)]
+pub struct InspectArgs {
+    /// The robot, which may be broken or no planar arm at all.
+    #[arg(value_name = "URDF")]
+    pub urdf: PathBuf,
+    /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
+    #[arg(value_name = "WORLD")]
+    pub world: Option<PathBuf>,
+    /// Draw the arm at zero with the frames of its joints: .svg or .png. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
+    /// Print the report as JSON.
     #[arg(long)]
     pub json: bool,
 }

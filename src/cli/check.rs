@@ -5,7 +5,7 @@ use super::args::CheckArgs;
 use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::{configuration, range, value};
-use crate::cspace::CObstacle;
+use crate::cspace::{CObstacle, NearestFree, nearest_free};
 use crate::draw::Picture;
 use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use crate::input::{self, LoadedScene};
@@ -32,6 +32,22 @@ struct Findings {
     plane: Basis,
     /// Every pair in contact, or nearer than the distance to keep.
     contacts: Vec<PairFinding>,
+    /// Where to go instead, if the configuration is not free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    nearest_free: Option<NearestFinding>,
+}
+
+/// The nearest free configuration, within the limits and with the clearance asked for.
+#[derive(Debug, Serialize)]
+struct NearestFinding {
+    configuration: [f64; 2],
+    /// In joint space, radians and metres as they come.
+    distance: f64,
+    /// Metres; none if nothing can be hit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    clearance: Option<f64>,
+    /// Spacing of the values of joint 1 that were looked at, before refinement; joint 2 is exact for each.
+    resolution: f64,
 }
 
 /// The plane's basis in the root frame.
@@ -97,10 +113,12 @@ fn findings(scene: &Scene, q: Configuration) -> Findings {
     let within_limits = [0, 1].map(|k| topology.axes[k].contains(q[k]));
     let required = scene.workspace.clearance;
     let contacts: Vec<PairFinding> = scene.separations(q).filter_map(|contact| finding(scene, q, contact)).collect();
+    let free = within_limits == [true, true] && contacts.is_empty();
+    let nearest = if free { None } else { nearest_free(scene, q) };
     let plane = scene.arm.plane;
     let array = |v: Vector3<f64>| [v.x, v.y, v.z];
     Findings {
-        free: within_limits == [true, true] && contacts.is_empty(),
+        free,
         configuration: [q[0], q[1]],
         within_limits,
         tip: pair(scene.arm.tip_at(q)),
@@ -108,6 +126,12 @@ fn findings(scene: &Scene, q: Configuration) -> Findings {
         required,
         plane: Basis { u: array(plane.u), v: array(plane.v), normal: array(plane.normal) },
         contacts,
+        nearest_free: nearest.map(|found: NearestFree| NearestFinding {
+            configuration: [found.configuration[0], found.configuration[1]],
+            distance: found.distance,
+            clearance: Some(found.clearance).filter(|c| c.is_finite()),
+            resolution: found.spacing,
+        }),
     }
 }
 
@@ -201,6 +225,17 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
     if let Some(clearance) = findings.clearance.filter(|c| *c > 0.0) {
         let nearest = scene.closest(q).map(|c| scene.describe(c.pair)).unwrap_or_default();
         line("distance", format!("{clearance:.6} m to the nearest obstacle: {nearest}"));
+    }
+    match &findings.nearest_free {
+        Some(NearestFinding { configuration: at, distance, resolution, .. }) => {
+            let at = configuration(arm, Configuration::from(*at));
+            line("nearest", format!("free: {at}; {distance:.4} away in joint space"));
+            let [first, second] = &arm.joints;
+            let step = format!("{resolution:.2e} {}", first.unit());
+            line("", format!("(looked at values of {} every {step}; {} exact for each)", first.name, second.name));
+        }
+        None if !findings.free => line("nearest", "no free configuration was found anywhere".into()),
+        None => {}
     }
     line("result", if findings.free { "free".into() } else { "not free".into() });
     text

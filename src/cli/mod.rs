@@ -4,6 +4,8 @@ mod args;
 mod check;
 mod compare;
 mod failure;
+mod inspect;
+mod inspect_text;
 mod output;
 mod plan;
 mod summary;
@@ -31,6 +33,7 @@ pub fn run() -> ExitCode {
     let done = match (&cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
+        (Some(Command::Inspect(args)), _) => inspect::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, Picture};
+use crate::draw::{self, Picture, Posture};
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Verdict};
 use crate::trajectory::{Format, Report, check_writable, write_whole};
@@ -152,11 +152,29 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
-        PictureFormat::Png => {
-            return Err(Failure::Option(format!("{}: this program was built without PNG; use .svg", path.display())));
-        }
+        PictureFormat::Png => return Err(without_png(path)),
     }
     Ok(())
+}
+
+/// Writes a picture of an arm in one configuration.
+///
+/// # Errors
+/// I/O, or a program built without PNG.
+pub fn save_posture(format: PictureFormat, path: &Path, posture: &Posture) -> Result<(), Failure> {
+    match format {
+        PictureFormat::Svg => write_whole(path, draw::posture_svg(posture).as_bytes())?,
+        #[cfg(feature = "png")]
+        PictureFormat::Png => write_whole(path, &draw::posture_png(posture, PNG_SCALE)?)?,
+        #[cfg(not(feature = "png"))]
+        PictureFormat::Png => return Err(without_png(path)),
+    }
+    Ok(())
+}
+
+#[cfg(not(feature = "png"))]
+fn without_png(path: &Path) -> Failure {
+    Failure::Option(format!("{}: this program was built without PNG; use .svg", path.display()))
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

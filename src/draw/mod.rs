@@ -13,6 +13,7 @@ mod color;
 mod copies;
 mod cspace;
 mod figure;
+mod frames;
 mod isolines;
 mod legend;
 mod page;
@@ -23,9 +24,11 @@ mod trace;
 mod workspace;
 
 use crate::cspace::CObstacle;
+use crate::geometry::Point;
 use crate::model::Scene;
 use crate::plan::Trace;
 use crate::space::{Configuration, Path};
+use nalgebra::Vector3;
 
 /// What a picture shows. With one path, the path of a plan with the arm's poses along it; with several, a comparison
 /// that tells the paths apart by colour and dashes; with none, the problem alone.
@@ -47,6 +50,32 @@ pub struct Picture<'a> {
     pub trace: Option<&'a Trace>,
     /// Contours in joint space.
     pub c_obstacles: &'a [CObstacle],
+}
+
+/// A frame, drawn by its axes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxesFrame {
+    /// Written beside it.
+    pub name: String,
+    /// Origin, plane coordinates.
+    pub at: Point,
+    /// Directions of x, y and z: their parts along the plane's two coordinates and along its normal.
+    pub axes: [Vector3<f64>; 3],
+}
+
+/// An arm in one configuration among its obstacles, with frames.
+#[derive(Debug, Clone)]
+pub struct Posture<'a> {
+    /// The first line is the title; the others follow in smaller type.
+    pub title: Vec<String>,
+    /// A word or two in the corner.
+    pub status: String,
+    /// Arm and obstacles.
+    pub scene: &'a Scene,
+    /// Where the arm is.
+    pub at: Configuration,
+    /// Drawn above everything.
+    pub frames: Vec<AxesFrame>,
 }
 
 /// Why there is no picture.
@@ -76,4 +105,19 @@ pub fn svg(picture: &Picture) -> String {
 #[cfg(feature = "png")]
 pub fn png(picture: &Picture, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(&svg(picture), scale)
+}
+
+/// The posture as an SVG document of 1400 x 720 pixels: the workspace alone.
+#[must_use]
+pub fn posture_svg(posture: &Posture) -> String {
+    svg_writer::write(&page::compose_posture(posture))
+}
+
+/// The posture as a PNG file of 1400 x 720 pixels times `scale`.
+///
+/// # Errors
+/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
+#[cfg(feature = "png")]
+pub fn posture_png(posture: &Posture, scale: f64) -> Result<Vec<u8>, DrawError> {
+    png_writer::write(&posture_svg(posture), scale)
 }

@@ -1,9 +1,8 @@
 //! The page: titles, two panels, legend.
 
-use super::Picture;
 use super::color::{GREY, INK, Rgb};
 use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
-use super::{color, cspace, legend, workspace};
+use super::{Picture, Posture, color, cspace, frames, legend, workspace};
 
 const WIDTH: f64 = 1400.0;
 const HEIGHT: f64 = 720.0;
@@ -45,6 +44,27 @@ pub fn compose(picture: &Picture) -> Figure {
     items.extend(heading("Workspace", left));
     items.extend(heading("Configuration space", right));
     items.extend(legend::items(&keys, WIDTH / 2.0, legend_top));
+    Figure { width: WIDTH, height: HEIGHT, items }
+}
+
+/// Draws an arm in one configuration: the workspace takes the whole page.
+#[must_use]
+pub fn compose_posture(posture: &Posture) -> Figure {
+    let picture = Picture {
+        title: posture.title.clone(),
+        status: posture.status.clone(),
+        scene: posture.scene,
+        start: posture.at,
+        goals: &[],
+        paths: Vec::new(),
+        trace: None,
+        c_obstacles: &[],
+    };
+    let mut items = titles(&picture);
+    let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;
+    let area = Rect { x: 84.0, y: top, width: WIDTH - 84.0 - MARGIN, height: HEIGHT - 58.0 - top };
+    items.extend(workspace::panel(&picture, area));
+    items.extend(frames::items(&workspace::frame(&picture, area), &posture.frames));
     Figure { width: WIDTH, height: HEIGHT, items }
 }
 

@@ -52,7 +52,8 @@ fn titles(plane: &Plane) -> [String; 2] {
 }
 
 /// Shows all that the arm can sweep, and of the obstacles what is not much farther away.
-fn frame(picture: &Picture, area: Rect) -> Frame {
+#[must_use]
+pub fn frame(picture: &Picture, area: Rect) -> Frame {
     /// Part of the swept extent up to which the panel grows for the sake of obstacles.
     const NEARBY: f64 = 0.25;
     const MARGIN: f64 = 0.04;

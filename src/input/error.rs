@@ -64,6 +64,12 @@ impl InputError {
         &self.defects
     }
 
+    /// All of these; at least one.
+    pub(super) fn of(defects: Vec<Defect>) -> Self {
+        debug_assert!(!defects.is_empty(), "an error without a defect");
+        Self { defects }
+    }
+
     /// `Ok` when there are no defects.
     pub(super) fn check(defects: Vec<Defect>) -> Result<(), Self> {
         if defects.is_empty() { Ok(()) } else { Err(Self { defects }) }

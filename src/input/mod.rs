@@ -8,6 +8,7 @@
 //! ```
 
 mod error;
+mod inspection;
 mod inverse;
 mod problem;
 mod source;
@@ -16,6 +17,10 @@ mod values;
 mod world;
 
 pub use error::{Defect, InputError};
+pub use inspection::{
+    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
+    RateEntry, RateSource, ReachEntry, Role,
+};
 pub use inverse::{Inverse, inverse};
 pub use source::Position;
 pub use values::{JointValues, Overrides, TipPoint};
@@ -64,6 +69,33 @@ pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> 
     let (arm, robot) = urdf::load(urdf, &world)?;
     let scene = Scene::new(arm, world.workspace.clone());
     Ok(LoadedScene { scene, world, robot })
+}
+
+/// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
+/// overridden; what a world would have to decide is then among the defects and in [`Inspection::remedy`].
+#[must_use]
+pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
+    let mut unread = None;
+    let file = match world.map(world::read) {
+        None => World::silent(),
+        Some(Ok(file)) => file,
+        Some(Err(error)) => {
+            unread = Some(error);
+            World::silent()
+        }
+    };
+    let mut inspection = Inspection { world: world.map(|p| p.display().to_string()), ..urdf::survey(urdf, &file) };
+    if let Some(error) = unread {
+        inspection.errors.insert(0, error);
+    }
+    if world.is_some() && inspection.is_plannable() {
+        let loaded =
+            inspection.scene.clone().map(|scene| LoadedScene { scene, world: file, robot: RobotReport::default() });
+        let query = loaded.and_then(|l| l.problem(&Overrides::default()).err());
+        let defects = query.iter().flat_map(|e| e.defects());
+        inspection.warnings.extend(defects.map(|d| format!("start and goal: {}", d.message)));
+    }
+    inspection
 }
 
 /// Reads a planning problem: [`load_scene`], then [`LoadedScene::problem`].

@@ -26,6 +26,19 @@ pub struct World {
     pub(super) goal: Option<(WorldGoal, Range<usize>)>,
 }
 
+impl World {
+    /// A world that says nothing.
+    pub(super) fn silent() -> Self {
+        Self {
+            workspace: Workspace { name: String::new(), obstacles: Vec::new(), clearance: 0.0 },
+            source: Source { path: "".into(), text: String::new() },
+            robot: RobotTable::default(),
+            start: None,
+            goal: None,
+        }
+    }
+}
+
 /// The goal as the file has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WorldGoal {

@@ -102,12 +102,12 @@ impl Attributes<'_> {
         value
     }
 
-    /// `count` numbers; `None` if the attribute is absent or wrong. Whether they are finite is checked elsewhere.
+    /// `count` finite numbers; `None` if the attribute is absent or wrong. That all are finite is reported elsewhere.
     fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         let text = node.attribute(name)?;
         let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
         match values {
-            Ok(values) if values.len() == count => Some(values),
+            Ok(values) if values.len() == count => values.iter().all(|x| x.is_finite()).then_some(values),
             Ok(values) => {
                 let message = format!("{name}=\"{text}\" has {} numbers, not {count}", values.len());
                 self.defect(node, Some(name), message, "");
@@ -141,20 +141,22 @@ impl Attributes<'_> {
         copy + "/>"
     }
 
-    /// An axis: three numbers that are not all zero.
-    pub fn direction(&mut self, axis: Node) {
+    /// Whether an axis is one: three numbers that are not all zero.
+    pub fn direction(&mut self, axis: Node) -> bool {
         let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
                 self.defect(axis, None, "the <axis> has no xyz".into(), "write <axis xyz=\"0 0 1\"/> or the like");
             }
-            return;
+            return false;
         };
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
         // A shorter axis has no direction that its digits support.
         if length < 1e-9 {
             let cure = "give the axis a direction, such as xyz=\"0 0 1\", or make the joint fixed";
             self.defect(axis, Some("xyz"), format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or("")), cure);
+            return false;
         }
+        true
     }
 
     /// The type of a joint.

@@ -30,10 +30,44 @@ pub(super) fn choose(document: &Document, tree: &Tree, world: &World) -> Result<
     let chooser = Chooser { document, tree, world };
     chooser.names_exist()?;
     let joints = chooser.joints()?;
+    with_joints(document, tree, world, joints)
+}
+
+/// The chain of two joints, the first of which carries the second.
+///
+/// # Errors
+/// When they cannot be planned for on their own, or the world's tip or fixed values do not go with them.
+pub(super) fn with_joints(
+    document: &Document,
+    tree: &Tree,
+    world: &World,
+    joints: [usize; 2],
+) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, world };
     chooser.independent(joints)?;
     let tip = chooser.tip(joints)?;
     let (values, notes) = chooser.values(joints)?;
     Ok(Chain { joints, tip, values, notes })
+}
+
+/// Whether all else that the world's `[robot]` table says goes with these two joints.
+pub(super) fn admits(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> bool {
+    Chooser { document, tree, world }.names_exist().is_ok() && with_joints(document, tree, world, joints).is_ok()
+}
+
+/// The two joints that the world names, or that are the only ones.
+pub(super) fn joints(document: &Document, tree: &Tree, world: &World) -> Option<[usize; 2]> {
+    Chooser { document, tree, world }.joints().ok()
+}
+
+/// Every two joints that move on their own, the first of which carries the second; base first.
+pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
+    let joints = &document.robot.joints;
+    let mut movable: Vec<usize> =
+        (0..joints.len()).filter(|j| is_movable(&joints[*j]) && joints[*j].mimic.is_none()).collect();
+    movable.sort_by_key(|j| tree.path_to(tree.child[*j]).len());
+    let carried = |a: usize| movable.iter().filter(move |b| tree.carries(a, tree.parent[**b])).map(move |b| [a, *b]);
+    movable.iter().flat_map(|a| carried(*a)).collect()
 }
 
 struct Chooser<'a> {
@@ -43,11 +77,12 @@ struct Chooser<'a> {
 }
 
 /// Whether a joint has one value that it can move by.
-fn is_movable(joint: &urdf_rs::Joint) -> bool {
+pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
     matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
 }
 
-fn type_name(joint: &urdf_rs::Joint) -> String {
+/// The type as the file has it.
+pub(super) fn type_name(joint: &urdf_rs::Joint) -> String {
     format!("{:?}", joint.joint_type).to_lowercase()
 }
 
@@ -178,7 +213,8 @@ impl Chooser<'_> {
         let example = likely.or_else(|| pairs().find(serial)).unwrap_or([candidates[0], candidates[1]]);
         let example = example.map(|j| self.all()[j].name.as_str());
         let cure = format!(
-            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values)",
+            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values); \
+             `cplan inspect` tells which form a planar arm",
             quoted(example)
         );
         Err(self.document.source.defect(message).cure(cure))
@@ -347,7 +383,8 @@ impl Chooser<'_> {
     }
 }
 
-fn unit(joint: &urdf_rs::Joint) -> &'static str {
+/// Unit of a joint's value.
+pub(super) fn unit(joint: &urdf_rs::Joint) -> &'static str {
     if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
 }
 

@@ -9,11 +9,13 @@ use super::foreign;
 use crate::input::error::{Defect, InputError};
 use crate::input::source::Source;
 use roxmltree::Node;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
 use std::path::Path;
 
-/// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique.
+/// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique. Elements that
+/// are not so are left out, with a defect.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
@@ -22,6 +24,12 @@ pub(super) struct Document {
     pub links: Vec<LinkPlace>,
     /// Where the joints are, in the order of `robot.joints`.
     pub joints: Vec<JointPlace>,
+    /// Elements beside links and joints, with their number, by name.
+    pub others: BTreeMap<String, usize>,
+    /// What is wrong with single elements. A robot with any is good for a report only.
+    pub defects: Vec<Defect>,
+    /// Whether none of them is in a joint or a name, so that the kinematics are as the file has them.
+    pub tree_is_sound: bool,
 }
 
 /// Where a link and its shapes are in the file.
@@ -51,8 +59,8 @@ impl Document {
     /// Reads a URDF file.
     ///
     /// # Errors
-    /// When it cannot be read, is no XML, is xacro or SDF, or holds a defect that can be seen without the tree of links;
-    /// all such defects are reported together.
+    /// When it cannot be read, is no XML, is xacro or SDF, or so defective that nothing is left to work with. Defects that
+    /// can be seen without the tree of links are all collected in [`Document::defects`].
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let source = Source::read(path)?;
         foreign::recognise_by_name(&source)?;
@@ -60,13 +68,22 @@ impl Document {
         let root = xml.root_element();
         foreign::recognise(&source, root)?;
 
-        let mut reader = Reader { source: &source, defects: Vec::new(), copy: String::new() };
+        let mut reader = Reader {
+            source: &source,
+            defects: Vec::new(),
+            copy: String::new(),
+            others: BTreeMap::default(),
+            tree_is_sound: true,
+        };
         let (links, joints) = reader.robot(root);
-        let Reader { defects, copy, .. } = reader;
-        InputError::check(defects)?;
-        let robot = urdf_rs::read_from_string(&copy)
-            .map_err(|error| source.defect(format!("is not a URDF that can be read: {error}")))?;
-        Ok(Self { robot, links, joints, source })
+        let Reader { defects, copy, others, tree_is_sound, .. } = reader;
+        match urdf_rs::read_from_string(&copy) {
+            Ok(robot) => Ok(Self { robot, links, joints, others, defects, tree_is_sound, source }),
+            Err(error) => {
+                InputError::check(defects)?;
+                Err(source.defect(format!("is not a URDF that can be read: {error}")).into())
+            }
+        }
     }
 
     /// A defect at a place of the file.
@@ -89,6 +106,8 @@ struct Reader<'a> {
     source: &'a Source,
     defects: Vec<Defect>,
     copy: String,
+    others: BTreeMap<String, usize>,
+    tree_is_sound: bool,
 }
 
 impl Reader<'_> {
@@ -103,23 +122,28 @@ impl Reader<'_> {
         for node in root.children().filter(|n| is_ours(*n, root)) {
             let kind = node.tag_name().name();
             if kind != "link" && kind != "joint" {
+                *self.others.entry(kind.to_owned()).or_default() += 1;
                 continue;
             }
             let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
                 self.defect(node, format!("a <{kind}> has no name"), "give it a name of its own");
+                self.tree_is_sound = false;
                 continue;
             };
             let line = self.source.position(node.range().start).line;
             if let Some((.., first)) = names.iter().find(|(k, n, _)| *k == kind && n == name) {
                 let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
                 self.defect(node, message, "rename one of them");
+                self.tree_is_sound = false;
                 continue;
             }
             names.push((kind, name.to_owned(), line));
             if kind == "link" {
                 links.push(self.link(node, name));
-            } else if let Some(place) = self.joint(node, name, unlimited) {
-                joints.push(place);
+            } else {
+                let before = self.defects.len();
+                joints.extend(self.joint(node, name, unlimited));
+                self.tree_is_sound &= self.defects.len() == before;
             }
         }
         self.copy.push_str("</robot>");
@@ -167,10 +191,7 @@ impl Reader<'_> {
         let parent_link = parent.and_then(|n| attributes.text(n, "link"));
         let child_link = child.and_then(|n| attributes.text(n, "link"));
         let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
-        let axis = attributes.only(joint, "axis", false).filter(|_| moves);
-        if let Some(axis) = axis {
-            attributes.direction(axis);
-        }
+        let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
         let limit = attributes.only(joint, "limit", false);
         let [lower, upper, velocity, acceleration] = match limit {
             Some(limit) => attributes.limit(limit, matches!(kind, Some("revolute" | "prismatic"))),
@@ -185,10 +206,10 @@ impl Reader<'_> {
         let safety = attributes.only(joint, "safety_controller", false);
         let soft = safety.and_then(|s| attributes.soft_limits(s));
 
-        let (kind, parent, child) = (kind?, parent?, child?);
+        let (kind, parent, child, parent_link, child_link) = (kind?, parent?, child?, parent_link?, child_link?);
         let _ = write!(self.copy, "<joint name=\"{}\" type=\"{kind}\">{origin}", escaped(name));
-        let _ = write!(self.copy, "<parent link=\"{}\"/>", escaped(parent_link?));
-        let _ = write!(self.copy, "<child link=\"{}\"/>", escaped(child_link?));
+        let _ = write!(self.copy, "<parent link=\"{}\"/>", escaped(parent_link));
+        let _ = write!(self.copy, "<child link=\"{}\"/>", escaped(child_link));
         if let Some(axis) = axis {
             self.copy_element(axis, &["xyz"]);
         }

@@ -1,0 +1,208 @@
+//! The report on a robot for people.
+
+use crate::input::{
+    Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, RateEntry, RateSource, Role,
+};
+use std::fmt::Write;
+
+/// Pairs of joints that form no arm are named up to this number: the others are of a kind.
+const REFUSED_SHOWN: usize = 12;
+
+/// Lines with a key in front; a key is written once.
+#[derive(Default)]
+struct Lines {
+    text: String,
+    before: &'static str,
+}
+
+impl Lines {
+    fn add(&mut self, key: &'static str, line: &str) {
+        for (i, line) in line.lines().enumerate() {
+            let shown = if i == 0 && key != self.before { key } else { "" };
+            // Writing to a string cannot fail.
+            let _ = writeln!(self.text, "{shown:<10} {line}");
+            self.before = key;
+        }
+    }
+}
+
+/// The whole report.
+pub fn text(report: &Inspection) -> String {
+    let mut lines = Lines::default();
+    let name = report.robot.as_deref().unwrap_or("(no name)");
+    lines.add("robot", &format!("{name}, {}", report.urdf));
+    lines.add("world", report.world.as_deref().unwrap_or("none given: nothing is chosen, held or overridden"));
+    match &report.root {
+        Some(root) => tree(&mut lines, report, root, 0),
+        None => report.joints.iter().for_each(|j| lines.add("joints", &branch(report, j))),
+    }
+    for joint in report.joints.iter().filter(|j| j.axis.is_some()) {
+        lines.add("movable", &movable(report, joint));
+    }
+    pairs(&mut lines, report);
+    if let Some([first, second]) = &report.chosen {
+        let how = if report.assumed { "; nobody chose them: they are the first that form a planar arm" } else { "" };
+        lines.add("chosen", &format!("\"{first}\" and \"{second}\"{how}"));
+    }
+    if let Some(plane) = &report.plane {
+        lines.add("plane", plane.words.trim_start_matches("plane: "));
+    }
+    report.outlines.iter().for_each(|o| outline(&mut lines, o));
+    if let (Some(reach), Some(tip)) = (&report.reach, &report.tip) {
+        let [x, y] = reach.tip;
+        lines.add("tip", &format!("origin of link \"{tip}\", at ({x:.4}, {y:.4}) m with both joints at zero"));
+        if let Some([least, most]) = reach.distances {
+            lines.add("reach", &format!("the tip {least:.4} to {most:.4} m from joint 1, whatever the limits"));
+        }
+        lines.add("reach", &format!("no part farther than {:.4} m from joint 1, slides at zero", reach.outline));
+    }
+    report.ignored.iter().for_each(|i| lines.add("ignored", i));
+    report.warnings.iter().for_each(|w| lines.add("warning", w));
+    for defect in report.errors.iter().flat_map(|e| e.defects()) {
+        lines.add("defect", &defect.to_string());
+    }
+    if let Some(remedy) = &report.remedy {
+        lines.add("remedy", "with these entries in the world file the robot loads; the numbers are placeholders:");
+        lines.add("remedy", &format!("[robot]\n{remedy}"));
+    }
+    let count: usize = report.errors.iter().map(|e| e.defects().len()).sum();
+    lines.add(
+        "result",
+        &match count {
+            0 => "the robot can be planned with".to_owned(),
+            1 => "the robot cannot be planned with as it is: see the defect".to_owned(),
+            n => format!("the robot cannot be planned with as it is: see the {n} defects"),
+        },
+    );
+    lines.text
+}
+
+/// A link and everything below it, indented by depth.
+fn tree(lines: &mut Lines, report: &Inspection, link: &str, depth: usize) {
+    if depth == 0 {
+        lines.add("tree", &described(report, link));
+    }
+    for joint in report.joints.iter().filter(|j| j.parent == link) {
+        lines.add("tree", &format!("{}{}", "  ".repeat(depth + 1), branch(report, joint)));
+        tree(lines, report, &joint.child, depth + 1);
+    }
+}
+
+fn branch(report: &Inspection, joint: &JointEntry) -> String {
+    let above = if report.root.is_some() { String::new() } else { format!("\"{}\" - ", joint.parent) };
+    let JointEntry { name, kind, line, child, .. } = joint;
+    format!("{above}{name} ({kind}, line {line}) - {}", described(report, child))
+}
+
+/// A link with its shapes.
+fn described(report: &Inspection, name: &str) -> String {
+    let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
+        return format!("\"{name}\" (not declared)");
+    };
+    match (collision, visual) {
+        (0, 0) => format!("\"{name}\""),
+        _ => format!("\"{name}\" ({collision} collision, {visual} visual)"),
+    }
+}
+
+fn unit(joint: &JointEntry) -> &'static str {
+    if joint.kind == "prismatic" { "m" } else { "rad" }
+}
+
+fn movable(report: &Inspection, joint: &JointEntry) -> String {
+    let mut words = vec![match (joint.role, joint.value) {
+        (Role::Moves, _) => {
+            let second = report.chosen.as_ref().is_some_and(|c| c[1] == joint.name);
+            format!("moves, joint {}", if second { 2 } else { 1 })
+        }
+        (Role::Held, Some(value)) => format!("held at {value} {}", unit(joint)),
+        (Role::Follows, Some(value)) => format!("follows, held at {value} {}", unit(joint)),
+        (Role::Ignored, _) => "ignored: the arm does not depend on it".into(),
+        _ => "not decided".into(),
+    }];
+    if let Some(leader) = &joint.mimics {
+        words.push(format!("mimics \"{leader}\""));
+    }
+    match (joint.direction, joint.axis) {
+        (Some(d), _) => words.push(format!("axis {} in the root frame", vector(d))),
+        (None, Some(a)) => words.push(format!("axis {} in its own frame", vector(a))),
+        (None, None) => {}
+    }
+    words.extend(joint.limits.map(|l| range(joint, l)));
+    words.push(rate(joint, "top speed", "/s", joint.velocity));
+    if joint.velocity.is_some() {
+        words.push(rate(joint, "acceleration", "/s2", joint.acceleration));
+    }
+    format!("{} ({}): {}", joint.name, joint.kind, words.join("; "))
+}
+
+fn range(joint: &JointEntry, limits: LimitEntry) -> String {
+    let source = match limits.source {
+        LimitSource::Urdf => "URDF",
+        LimitSource::Soft => "URDF, narrowed by its soft limits",
+        LimitSource::World => "world file",
+        LimitSource::Continuous => return "no limits: continuous".into(),
+        LimitSource::Unset => return "range unset".into(),
+    };
+    let [lower, upper] = limits.range.unwrap_or_default();
+    let degrees = if unit(joint) == "rad" {
+        format!(" = {:.1} to {:.1} deg", lower.to_degrees(), upper.to_degrees())
+    } else {
+        String::new()
+    };
+    format!("{lower} to {upper} {}{degrees} ({source})", unit(joint))
+}
+
+fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> String {
+    let Some(RateEntry { value, source }) = rate else { return format!("{what} unset") };
+    let source = match source {
+        RateSource::Urdf => "URDF",
+        RateSource::World => "world file",
+        RateSource::Default => "default: nobody gives one",
+    };
+    format!("{what} {value} {}{per} ({source})", unit(joint))
+}
+
+fn pairs(lines: &mut Lines, report: &Inspection) {
+    let pairs = &report.pairs;
+    let line = |p: &PairEntry| {
+        let verdict = if p.planar { "a planar arm" } else { "no" };
+        let reason = p.reason.trim_start_matches("plane: ");
+        format!("[\"{}\", \"{}\"] {}: {verdict}: {reason}", p.joints[0], p.joints[1], p.kind)
+    };
+    pairs.iter().filter(|p| p.planar).for_each(|p| lines.add("pairs", &line(p)));
+    let refused: Vec<&PairEntry> = pairs.iter().filter(|p| !p.planar).collect();
+    refused.iter().take(REFUSED_SHOWN).for_each(|p| lines.add("pairs", &line(p)));
+    if refused.len() > REFUSED_SHOWN {
+        lines.add("pairs", &format!("and {} more that form no planar arm", refused.len() - REFUSED_SHOWN));
+    }
+    if pairs.is_empty() {
+        // Directions in the root frame are known only where the tree is.
+        let tried = report.joints.iter().all(|j| j.axis.is_none() || j.direction.is_some());
+        let none = "no two joints that move on their own follow one another";
+        lines.add("pairs", if tried { none } else { "not tried: the joints and their tree have defects" });
+    }
+}
+
+fn outline(lines: &mut Lines, outline: &OutlineEntry) {
+    let OutlineEntry { link, source, parts, area, heights, bodies } = outline;
+    let from = match *source {
+        "none" => "none: it has no geometry and cannot collide".to_owned(),
+        "bar" => format!("a bar, as the world file asks; {} of {area:.6} m2 in all", pieces(*parts)),
+        source => format!("from {source} geometry; {} of {area:.6} m2 in all", pieces(*parts)),
+    };
+    let heights = heights.map_or(String::new(), |[lower, upper]| format!("; heights {lower:.4} to {upper:.4} m"));
+    lines.add("outline", &format!("\"{link}\": {from}{heights}"));
+    for body in bodies.iter().filter(|b| bodies.len() > 1 || b.link != *link) {
+        lines.add("outline", &format!("  of it \"{}\": {}, {:.6} m2", body.link, pieces(body.parts), body.area));
+    }
+}
+
+fn pieces(count: usize) -> String {
+    if count == 1 { "1 part".into() } else { format!("{count} parts") }
+}
+
+fn vector(d: [f64; 3]) -> String {
+    let [x, y, z] = d.map(|c| (c * 1e4).round() / 1e4 + 0.0);
+    format!("({x}, {y}, {z})")
+}

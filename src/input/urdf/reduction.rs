@@ -1,0 +1,125 @@
+//! The planar reduction: from a chain of joints in space to an arm in the plane, in stages that can fail one by one.
+
+use super::bodies::{Bodies, Outlines};
+use super::chain::Chain;
+use super::document::Document;
+use super::limits::{Limits, Rates};
+use super::plane::{self, SpatialAxis, project};
+use super::tree::{self, Tree};
+use crate::geometry::Point;
+use crate::input::RobotReport;
+use crate::input::error::InputError;
+use crate::input::world::World;
+use crate::model::{Arm, Joint, Plane};
+use crate::space::Axis;
+use nalgebra::Isometry3;
+
+/// A chain and where its links are.
+pub(super) struct Reduction<'a> {
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub world: &'a World,
+    pub chain: &'a Chain,
+    /// Poses of all links in the root frame, the two joints at 0, the others where they are held.
+    pub poses: Vec<Isometry3<f64>>,
+}
+
+/// Range and rates of one of the two joints.
+pub(super) struct Bounds {
+    pub range: Axis,
+    pub rates: Rates,
+}
+
+impl<'a> Reduction<'a> {
+    pub fn new(document: &'a Document, tree: &'a Tree, world: &'a World, chain: &'a Chain) -> Self {
+        Self { document, tree, world, chain, poses: tree.poses(&document.robot, &chain.values) }
+    }
+
+    /// The two joints' axes in the root frame.
+    pub fn axes(&self) -> [SpatialAxis<'a>; 2] {
+        self.chain.joints.map(|j| {
+            let joint = &self.document.robot.joints[j];
+            let direction = (self.poses[self.tree.child[j]] * tree::axis(joint)).into_inner();
+            SpatialAxis { name: &joint.name, revolute: joint.joint_type != urdf_rs::JointType::Prismatic, direction }
+        })
+    }
+
+    /// The plane of motion.
+    pub fn plane(&self) -> Result<Plane, InputError> {
+        plane::common_plane(self.axes()).map_err(|message| {
+            let place = &self.document.joints[self.chain.joints[1]];
+            let at = place.axis.as_ref().unwrap_or(&place.at);
+            let defect = self.document.defect_at(at, message).cure(
+                "cplan plans for two joints that turn about parallel axes or slide in one plane: choose such a pair with \
+                 [robot] joints in the world file",
+            );
+            defect.into()
+        })
+    }
+
+    /// What the two joints can do; all that is missing is reported together.
+    pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
+        let limits = Limits { document: self.document, world: self.world };
+        let mut defects = Vec::new();
+        let bounds = self.chain.joints.map(|j| match (limits.planned_range(j), limits.rates(j)) {
+            (Ok(range), Ok(rates)) => Some(Bounds { range, rates }),
+            (range, rates) => {
+                defects.extend(range.err().into_iter().chain(rates.err()));
+                None
+            }
+        });
+        match bounds {
+            [Some(first), Some(second)] => Ok([first, second]),
+            _ => Err(InputError::of(defects)),
+        }
+    }
+
+    /// Both links' outlines.
+    pub fn outlines(&self, plane: &Plane) -> Result<Outlines, InputError> {
+        let Self { document, tree, world, chain, poses } = self;
+        Bodies { document, tree, chain, world, plane, poses }.outlines()
+    }
+
+    /// Puts the arm together.
+    pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport) {
+        let mut report = RobotReport {
+            notes: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
+            ..Default::default()
+        };
+        if self.tree.implicit_world {
+            report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
+        }
+        report.notes.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
+        report.notes.extend(self.chain.notes.iter().cloned());
+        report.notes.extend(bounds.iter().filter_map(|b| b.rates.note.clone()));
+        report.notes.extend(outlines.notes);
+        report.warnings.extend(outlines.warnings);
+
+        let [base, elbow] = self.chain.joints.map(|j| self.at(&plane, self.tree.child[j]));
+        let [first, second] = self.axes();
+        let [a, b] = bounds;
+        let joint = |axis: SpatialAxis, bounds: Bounds| Joint {
+            name: axis.name.to_owned(),
+            motion: plane::motion_in(&plane, axis),
+            axis: bounds.range,
+            velocity: bounds.rates.velocity,
+            acceleration: bounds.rates.acceleration,
+        };
+        let arm = Arm {
+            name: self.document.robot.name.clone(),
+            joints: [joint(first, a), joint(second, b)],
+            links: outlines.links,
+            base,
+            offset: elbow - base,
+            tip: Point::from(self.at(&plane, self.chain.tip) - elbow),
+            tip_name: self.tree.links[self.chain.tip].clone(),
+            plane,
+        };
+        (arm, report)
+    }
+
+    /// Origin of a link's frame in plane coordinates.
+    pub fn at(&self, plane: &Plane, link: usize) -> Point {
+        project(plane, &self.poses[link].translation.vector)
+    }
+}
