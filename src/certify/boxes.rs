@@ -154,7 +154,8 @@ impl<'a> Subdivision<'a> {
             let begin = this.nodes.len();
             let mut add = |cell, state| {
                 let now = this.nodes.len();
-                let candidates: Vec<u32> = (0..end_of_first).chain(previous.max(end_of_first)..now).map(index).collect();
+                let candidates: Vec<u32> =
+                    (0..end_of_first).chain(previous.max(end_of_first)..now).map(index).collect();
                 this.add(cell, state, &candidates);
             };
             if let State::Stuck(pair) = state {

@@ -60,12 +60,7 @@ impl Ord for Length {
 
 /// The chain of free boxes from the start, in box `from`, to a goal along which the polyline through the middles of the
 /// doors is the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
-pub(super) fn shortest(
-    boxes: &Subdivision,
-    start: Configuration,
-    from: u32,
-    goals: &[Configuration],
-) -> Vec<u32> {
+pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut ends: Vec<(u32, Configuration)> = Vec::new();
     for &goal in goals {

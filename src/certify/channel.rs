@@ -14,12 +14,7 @@ pub struct Channel {
 
 impl Channel {
     /// The doors of a chain of boxes, the last of which holds one of the goals.
-    pub(super) fn new(
-        boxes: &Subdivision,
-        chain: &[u32],
-        start: Configuration,
-        goals: &[Configuration],
-    ) -> Self {
+    pub(super) fn new(boxes: &Subdivision, chain: &[u32], start: Configuration, goals: &[Configuration]) -> Self {
         let topology = boxes.topology();
         // What to add to values in the fundamental domain to continue the way from `start`.
         let mut lift = start - topology.wrap(start);

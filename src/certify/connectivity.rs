@@ -89,12 +89,7 @@ pub fn explore(
     }
 }
 
-fn decide(
-    boxes: &mut Subdivision,
-    start: Configuration,
-    goals: &[Configuration],
-    max_boxes: usize,
-) -> Connectivity {
+fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration], max_boxes: usize) -> Connectivity {
     loop {
         let ends: Vec<u32> = goals.iter().filter_map(|&g| boxes.locate(g)).collect();
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };

@@ -16,6 +16,8 @@ Examples:
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
 
 Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
@@ -37,6 +39,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
+    /// Check a proof that there is no path, with code that shares nothing with the search that made it.
+    Recheck(RecheckArgs),
 }
 
 /// The two files.
@@ -122,7 +126,7 @@ fn clearance(text: &str) -> Result<f64, String> {
 /// Options of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// Planner: visibility, trapezoid, wavefront or harmonic.
+    /// Planner: visibility, trapezoid, wavefront, harmonic or subdivision.
     #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
     pub planner: Method,
     #[command(flatten)]
@@ -189,4 +193,16 @@ pub struct CheckArgs {
     /// Print the findings as JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `recheck`.
+#[derive(Debug, Args)]
+pub struct RecheckArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// A result of the main job with a proof: .json.
+    #[arg(long, value_name = "FILE")]
+    pub proof: PathBuf,
+    #[command(flatten)]
+    pub query: QueryArgs,
 }

@@ -6,6 +6,7 @@ mod compare;
 mod failure;
 mod output;
 mod plan;
+mod recheck;
 mod summary;
 
 use args::{Cli, Command};
@@ -31,6 +32,7 @@ pub fn run() -> ExitCode {
     let done = match (&cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
+        (Some(Command::Recheck(args)), _) => recheck::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -6,6 +6,7 @@
 
 mod ladder;
 mod method;
+mod subdivision;
 
 pub use ladder::{Effort, solve};
 pub use method::Method;
@@ -33,6 +34,8 @@ pub enum Space {
     Regions(Box<Regions>),
     /// Cells.
     Grid(Box<Grid>),
+    /// None: subdivision judges the scene itself.
+    Scene,
 }
 
 /// Time spent in each stage, over all attempts.
