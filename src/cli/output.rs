@@ -106,7 +106,6 @@ pub fn write_picture(
     let scene = &problem.scene;
     let contours = contours(scene);
     let found = if let Verdict::Found(certified) = &answer.verdict { Some(certified.path()) } else { None };
-    let proof = if let Verdict::Infeasible(proof) = &answer.verdict { proof.stuck() } else { &[] };
     let (status, detail) = match (&answer.verdict, report.length) {
         (Verdict::Found(_), Some(length)) => {
             let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
@@ -123,7 +122,7 @@ pub fn write_picture(
         goals: &problem.goals,
         paths: found.map(|path| (answer.method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.run.trace),
-        proof,
+        proof: answer.verdict.proof(),
         c_obstacles: &contours,
     };
     save_picture(format, path, &picture)

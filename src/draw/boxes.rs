@@ -2,7 +2,7 @@
 
 use super::axes::Frame;
 use super::color::{INK, Rgb};
-use super::figure::{Item, Rect, Step, Style, rectangle};
+use super::figure::{Item, Rect, Style, rectangle};
 use super::legend::{Key, Sign};
 use crate::certify::StuckBox;
 use crate::space::Configuration;
@@ -12,19 +12,20 @@ const MIXED: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 const SIDE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
 const PROOF: Rgb = Rgb(0xc2, 0x2e, 0x2e);
 
-fn steps(corners: impl Iterator<Item = [Configuration; 2]>, frame: &Frame) -> Vec<Step> {
-    let outline = |[lower, upper]: [Configuration; 2]| {
-        let ([x0, y0], [x1, y1]) = (frame.at(lower[0], lower[1]), frame.at(upper[0], upper[1]));
-        rectangle(Rect { x: x0.min(x1), y: y0.min(y1), width: (x1 - x0).abs(), height: (y1 - y0).abs() })
-    };
-    corners.flat_map(outline).collect()
+/// Boxes narrower than this have no sides drawn, pixels: the lines would hide all else.
+const NARROW: f64 = 2.0;
+
+fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
+    let ([x0, y0], [x1, y1]) = (frame.at(lower[0], lower[1]), frame.at(upper[0], upper[1]));
+    Rect { x: x0.min(x1), y: y0.min(y1), width: (x1 - x0).abs(), height: (y1 - y0).abs() }
 }
 
 /// Free and undecided boxes, as surfaces.
 #[must_use]
 pub fn surfaces(free: &[[Configuration; 2]], mixed: &[[Configuration; 2]], frame: &Frame) -> Vec<Item> {
     let surface = |boxes: &[[Configuration; 2]], color| {
-        Item::Outline(steps(boxes.iter().copied(), frame), Style::fill(color).faded(0.8))
+        let steps = boxes.iter().flat_map(|&b| rectangle(rect(b, frame))).collect();
+        Item::Outline(steps, Style::fill(color).faded(0.8))
     };
     vec![surface(free, FREE), surface(mixed, MIXED)]
 }
@@ -32,7 +33,8 @@ pub fn surfaces(free: &[[Configuration; 2]], mixed: &[[Configuration; 2]], frame
 /// The sides of boxes.
 #[must_use]
 pub fn sides(boxes: &[[Configuration; 2]], frame: &Frame) -> Item {
-    Item::Outline(steps(boxes.iter().copied(), frame), Style::line(SIDE, 0.4).faded(0.6))
+    let rects = boxes.iter().map(|&b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
+    Item::Outline(rects.flat_map(rectangle).collect(), Style::line(SIDE, 0.4).faded(0.6))
 }
 
 /// Legend of a subdivision.
@@ -44,8 +46,9 @@ pub fn keys() -> Vec<Key> {
 /// The boxes of a proof, over the C-obstacles.
 #[must_use]
 pub fn proof(stuck: &[StuckBox], frame: &Frame) -> Item {
-    let corners = stuck.iter().map(|s| [Configuration::from(s.cell.lower), Configuration::from(s.cell.upper)]);
-    Item::Outline(steps(corners, frame), Style::line(PROOF.mixed(INK, 0.2), 0.9).filled(PROOF).faded(0.45))
+    let corners = |s: &StuckBox| [Configuration::from(s.cell.lower), Configuration::from(s.cell.upper)];
+    let steps = stuck.iter().flat_map(|s| rectangle(rect(corners(s), frame))).collect();
+    Item::Outline(steps, Style::line(PROOF.mixed(INK, 0.2), 0.9).filled(PROOF).faded(0.45))
 }
 
 /// Legend of a proof.

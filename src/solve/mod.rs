@@ -11,7 +11,7 @@ mod subdivision;
 pub use ladder::{Effort, solve};
 pub use method::Method;
 
-use crate::certify::{CertifiedPath, Disconnection};
+use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
 use crate::plan::Run;
 use std::time::Duration;
@@ -25,6 +25,14 @@ pub enum Verdict {
     Infeasible(Disconnection),
     /// Neither within the effort: why, in words.
     Unknown(String),
+}
+
+impl Verdict {
+    /// The boxes that prove that there is no path; none where that is not proven.
+    #[must_use]
+    pub fn proof(&self) -> &[StuckBox] {
+        if let Verdict::Infeasible(proof) = self { proof.stuck() } else { &[] }
+    }
 }
 
 /// The representation that the last attempt worked on.
