@@ -72,6 +72,7 @@ fn row(problem: &Problem, answer: &Answer, period: f64) -> Result<Row, Failure> 
         build: seconds(answer.stages.build),
         query: seconds(answer.stages.query),
         certify: seconds(answer.stages.certify),
+        note: answer.run.note,
     };
     match &answer.verdict {
         Verdict::Found(certified) => {
