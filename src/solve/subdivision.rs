@@ -52,7 +52,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
     if let Verdict::Unknown(reason) = &verdict {
         progress(&format!("{}: {reason}", Method::Subdivision));
     }
-    let run = Run { outcome, trace, size };
+    let run = Run { outcome, trace, size, note: None };
     Answer { method: Method::Subdivision, verdict, history: Vec::new(), run, space: Space::Scene, stages }
 }
 
