@@ -282,7 +282,7 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
         let whole = topology.axes[0].extent() * topology.axes[1].extent();
         assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
         for i in 0..4_000_u32 {
-            let at = inside(&scene, f64::from(i % 89) / 88.0, f64::from(i % 97) / 96.0);
+            let at = inside(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
             let holds = |c: &cplan::certify::Cell| (0..2).all(|k| c.lower[k] <= at[k] && at[k] <= c.upper[k]);
             let clearance = scene.clearance(at);
             let mut held = false;

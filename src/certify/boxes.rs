@@ -104,7 +104,7 @@ pub(super) enum State {
     Stuck(Pair),
     /// These pairs are undecided; no other pair comes too near.
     Mixed(Vec<Pair>),
-    /// Undecided, and too small for halves to tell more: link 1 alone is open in it, or its halves are no boxes.
+    /// Undecided, and too small for halves to tell more: link 1 alone is open in it, or it is of the finest size.
     Finest,
     /// Replaced by two halves: the node of this index and the next.
     Split(u32),
@@ -140,6 +140,10 @@ const FIRST: usize = 8;
 /// Link 1 alone is decided on intervals of `q1`, down to this share of the domain: they are as tall as the domain, so
 /// fine ones cost nothing, and a thin wall of link 1 (a corner that just reaches an obstacle) needs fine ones.
 const FINEST_COLUMN: f64 = 1e-8;
+
+/// Boxes of link 2 are decided down to this share of the domain along each axis. Finer ones are no wider than what
+/// rounding leaves uncertain in a clearance, and a start or goal without any room would never be done with.
+const FINEST_BOX: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
@@ -226,9 +230,8 @@ impl<'a> Subdivision<'a> {
         let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0);
         let cell = self.nodes[index as usize].cell;
         let axis = self.longer(&cell, &open);
-        let halves = axis.map(|axis| (axis, cell.halves(axis)));
-        let Some((_, halves)) = halves.filter(|(axis, halves)| halves.iter().all(|h| h.lower[*axis] < h.upper[*axis]))
-        else {
+        let wide = |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.axes[axis].extent();
+        let Some(halves) = axis.filter(wide).map(|axis| cell.halves(axis)) else {
             self.nodes[index as usize].state = State::Finest;
             return false;
         };

@@ -1,7 +1,7 @@
 //! What a run found, as JSON.
 
 use super::Trajectory;
-use crate::certify::{CertifiedPath, Disconnection, ProofBox};
+use crate::certify::{CertifiedPath, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
