@@ -45,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         goals: &loaded.problem.goals,
         paths: Vec::new(),
         trace: None,
+        proof: &[],
         c_obstacles: &contours,
     };
     write_whole(&file, svg(&picture).as_bytes())?;

@@ -43,6 +43,7 @@ fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box
         goals: &problem.goals,
         paths: path.map(|path| (method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.run.trace),
+        proof: answer.verdict.proof(),
         c_obstacles: &c_obstacles(scene, tolerance, tolerance),
     };
     write_whole(file, svg(&picture).as_bytes())?;

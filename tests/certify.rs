@@ -4,7 +4,8 @@ mod common;
 
 use common::{Benchmark, all_kinds, benchmark, q, rectangle, rr, scene};
 use cplan::certify::{
-    CertifiedPath, Connectivity, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify, connectivity, recheck,
+    CertifiedPath, Connectivity, Deviation, Occupancy, Posture, ProofDefect, Rejection, StuckBox, certify,
+    connectivity, explore, recheck,
 };
 use cplan::geometry::{Convex, Point};
 use cplan::model::Scene;
@@ -147,9 +148,10 @@ fn a_path_outside_the_limits_is_refused() {
 fn benchmark_problems_are_decided() {
     for which in [Benchmark::A, Benchmark::B] {
         let (scene, start, goal) = benchmark(which);
-        let Connectivity::Connected(path) = connectivity(&scene, start, &[goal], 0.0, 200_000) else {
+        let Connectivity::Connected(channel) = connectivity(&scene, start, &[goal], 0.0, 200_000) else {
             panic!("{which:?} has a path");
         };
+        let path = channel.path();
         assert_eq!(path.start(), start);
         assert!(scene.arm.topology().distance(path.goal(), goal) < 1e-12);
         certify(&scene, path, 0.0).expect("a chain of free boxes is free");
@@ -224,4 +226,72 @@ fn false_proofs_are_refused() {
     assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofDefect::NotInDomain(7)));
     assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofDefect::NotInDomain(7)));
     assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofDefect::UnknownPair(7)));
+}
+
+/// The arm of [`rr`] as two segments without thickness.
+fn skeleton(axes: [Axis; 2]) -> cplan::model::Arm {
+    let mut arm = rr(axes);
+    arm.links[0].parts[0].shape = Convex::segment(Point::origin(), Point::new(1.0, 0.0));
+    arm.links[1].parts[0].shape = Convex::segment(Point::origin(), Point::new(0.8, 0.0));
+    arm
+}
+
+#[test]
+fn thin_links_are_stopped_by_thin_walls() {
+    let circles = [Axis::Circle, Axis::Circle];
+    let front = Convex::segment(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
+    let back = Convex::segment(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
+    let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
+    // Slanted walls across the upper arm's way; one leaves the other way round.
+    let one_wall = scene(skeleton(circles), vec![front.clone()]);
+    assert!(matches!(connectivity(&one_wall, start, &[goal], 0.0, 100_000), Connectivity::Connected(_)));
+    let closed = scene(skeleton(circles), vec![front, back]);
+    assert_eq!(recheck(&proof(&closed, start, goal, 0.0), &closed, start, &[goal], 0.0), Ok(()));
+
+    // A wall beyond the elbow's circle, for which the limits keep the forearm stretched enough.
+    let narrow = [Axis::Interval { lower: -1.5, upper: 1.5 }, Axis::Interval { lower: -0.4, upper: 0.4 }];
+    let beyond = scene(skeleton(narrow), vec![Convex::segment(Point::new(1.05, 0.1), Point::new(1.7, -0.2))]);
+    let (start, goal) = (q(-1.2, 0.1), q(1.3, -0.1));
+    assert_eq!(recheck(&proof(&beyond, start, goal, 0.0), &beyond, start, &[goal], 0.0), Ok(()));
+}
+
+#[test]
+fn proofs_leave_out_boxes_that_do_not_matter() {
+    for which in [Benchmark::Inf, Benchmark::T] {
+        let (scene, start, goal) = benchmark(which);
+        let boxes = proof(&scene, start, goal, 0.0);
+        let mut known = explore(&scene, start, &[goal], 0.0, 200_000).boxes;
+        known.retain(|(_, occupancy)| *occupancy == Occupancy::Stuck);
+        assert!(boxes.iter().all(|b| known.iter().any(|(cell, _)| *cell == b.cell)));
+        assert!(boxes.len() < known.len(), "{} of {}", boxes.len(), known.len());
+    }
+}
+
+#[test]
+fn the_boxes_cover_the_domain_and_are_what_they_say() {
+    for (kind, arm) in all_kinds().into_iter().enumerate() {
+        let scene = scene(arm, clutter());
+        let topology = scene.arm.topology();
+        let free = |i: u32| {
+            let at = inside(&scene, f64::from(i % 29) / 28.5, f64::from(i % 31) / 30.5);
+            (scene.clearance(at) > 0.01).then_some(at)
+        };
+        let [start, goal] = [0, 500].map(|from| (from..).find_map(free).unwrap());
+        let boxes = explore(&scene, start, &[goal], 0.0, 5_000).boxes;
+        let area: f64 = boxes.iter().map(|(c, _)| (c.upper[0] - c.lower[0]) * (c.upper[1] - c.lower[1])).sum();
+        let whole = topology.axes[0].extent() * topology.axes[1].extent();
+        assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
+        for i in 0..4_000_u32 {
+            let at = inside(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
+            let holds = |c: &cplan::certify::Cell| (0..2).all(|k| c.lower[k] <= at[k] && at[k] <= c.upper[k]);
+            let clearance = scene.clearance(at);
+            let mut held = false;
+            for (_, occupancy) in boxes.iter().filter(|(cell, _)| holds(cell)) {
+                held = true;
+                assert!(*occupancy != Occupancy::Free || clearance > 0.0, "kind {kind} at {at:?}: {clearance}");
+                assert!(*occupancy != Occupancy::Stuck || clearance < 0.0, "kind {kind} at {at:?}: {clearance}");
+            }
+            assert!(held, "kind {kind}: no box holds {at:?}");
+        }
+    }
 }

@@ -52,6 +52,13 @@ fn narrow_passages_are_found_by_the_harmonic_field() {
 }
 
 #[test]
+fn narrow_passages_are_found_by_subdivision() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Subdivision) >= optimum - 1e-3);
+    }
+}
+
+#[test]
 fn closed_ways_are_proven_closed() {
     for which in [Benchmark::Inf, Benchmark::T] {
         for method in Method::ALL {

@@ -39,39 +39,59 @@ impl Cell {
         [below, above]
     }
 
-    /// Whether the two share a piece of side of positive length; if so, by how much the other is to be shifted along
-    /// which axis to lie beside this one, and the middle of the shared piece. Corners do not count: where only a corner
-    /// is shared, it belongs to the two other boxes as well.
-    pub(super) fn shared_side(&self, other: &Cell, topology: &Topology) -> Option<(Configuration, Configuration)> {
-        for axis in 0..2 {
-            let across = 1 - axis;
-            let (from, to) = (self.lower[across].max(other.lower[across]), self.upper[across].min(other.upper[across]));
-            if from >= to {
-                continue;
-            }
-            let side = |value: f64, shift: f64| {
-                let (mut middle, mut by) = (Configuration::zeros(), Configuration::zeros());
-                middle[axis] = value;
-                middle[across] = (from + to) / 2.0;
-                by[axis] = shift;
-                Some((by, middle))
-            };
-            let (lower, upper) = topology.axes[axis].domain();
-            let turn = if topology.axes[axis].is_circle() { upper - lower } else { 0.0 };
-            if self.upper[axis] == other.lower[axis] {
-                return side(self.upper[axis], 0.0);
-            }
-            if self.lower[axis] == other.upper[axis] {
-                return side(self.lower[axis], 0.0);
-            }
-            if turn > 0.0 && self.upper[axis] == upper && other.lower[axis] == lower {
-                return side(upper, turn);
-            }
-            if turn > 0.0 && self.lower[axis] == lower && other.upper[axis] == upper {
-                return side(lower, -turn);
-            }
+    /// The door from this cell to the other, if the two share a piece of side of positive length. Corners do not count:
+    /// where only a corner is shared, it belongs to the two other boxes as well.
+    pub(super) fn door(&self, other: &Cell, topology: &Topology) -> Option<Door> {
+        (0..2).find_map(|axis| self.door_along(other, axis, topology))
+    }
+
+    fn door_along(&self, other: &Cell, axis: usize, topology: &Topology) -> Option<Door> {
+        let across = 1 - axis;
+        let (from, to) = (self.lower[across].max(other.lower[across]), self.upper[across].min(other.upper[across]));
+        if from >= to {
+            return None;
         }
-        None
+        let (lower, upper) = topology.axes[axis].domain();
+        let circle = topology.axes[axis].is_circle();
+        let (value, shift, ahead) = if self.upper[axis] == other.lower[axis] {
+            (self.upper[axis], 0.0, true)
+        } else if self.lower[axis] == other.upper[axis] {
+            (self.lower[axis], 0.0, false)
+        } else if circle && self.upper[axis] == upper && other.lower[axis] == lower {
+            (upper, upper - lower, true)
+        } else if circle && self.lower[axis] == lower && other.upper[axis] == upper {
+            (lower, lower - upper, false)
+        } else {
+            return None;
+        };
+        let end = |along: f64| {
+            let mut end = Configuration::zeros();
+            (end[axis], end[across]) = (value, along);
+            end
+        };
+        let mut by = Configuration::zeros();
+        by[axis] = shift;
+        // Who goes towards greater `q1` has greater `q2` to the left; who goes towards greater `q2`, lesser `q1`.
+        let (left, right) = if ahead == (axis == 0) { (to, from) } else { (from, to) };
+        Some(Door { left: end(left), right: end(right), shift: by })
+    }
+}
+
+/// The piece of side that two cells share, as seen by who passes from one to the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Door {
+    /// End to the left hand.
+    pub left: Configuration,
+    /// End to the right hand.
+    pub right: Configuration,
+    /// By how much the other cell is to be shifted to lie beside the first one: a turn, or nothing.
+    pub shift: Configuration,
+}
+
+impl Door {
+    /// Halfway between the ends.
+    pub fn middle(&self) -> Configuration {
+        (self.left + self.right) / 2.0
     }
 }
 
@@ -84,14 +104,24 @@ pub(super) enum State {
     Stuck(Pair),
     /// These pairs are undecided; no other pair comes too near.
     Mixed(Vec<Pair>),
-    /// Replaced by its halves.
-    Split,
+    /// Undecided, and too small for halves to tell more: link 1 alone is open in it, or it is of the finest size.
+    Finest,
+    /// Replaced by two halves: the node of this index and the next.
+    Split(u32),
 }
 
 pub(super) struct Node {
     pub cell: Cell,
     pub state: State,
+    /// Boxes that share a side with this one; empty if this one is stuck or split.
     pub neighbors: Vec<u32>,
+}
+
+impl Node {
+    /// Whether it may hold a free configuration: neither stuck nor replaced.
+    pub fn is_open(&self) -> bool {
+        matches!(self.state, State::Free | State::Mixed(_) | State::Finest)
+    }
 }
 
 /// A subdivision that covers the whole domain, with its adjacencies.
@@ -100,6 +130,8 @@ pub(super) struct Subdivision<'a> {
     topology: Topology,
     clearance: f64,
     pub nodes: Vec<Node>,
+    /// So many nodes are halves of no other.
+    roots: usize,
 }
 
 /// Columns and rows to begin with; at least three, so that across a seam no box is its own neighbour.
@@ -109,30 +141,43 @@ const FIRST: usize = 8;
 /// fine ones cost nothing, and a thin wall of link 1 (a corner that just reaches an obstacle) needs fine ones.
 const FINEST_COLUMN: f64 = 1e-8;
 
+/// Boxes of link 2 are decided down to this share of the domain along each axis. Finer ones are no wider than what
+/// rounding leaves uncertain in a clearance, and a start or goal without any room would never be done with.
+const FINEST_BOX: f64 = 1e-10;
+
 impl<'a> Subdivision<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let topology = scene.arm.topology();
-        let mut this = Self { scene, topology, clearance, nodes: Vec::new() };
+        let mut this = Self { scene, topology, clearance, nodes: Vec::new(), roots: 0 };
         let (bottom, top) = topology.axes[1].domain();
         let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };
         let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link == 1).collect();
-        let mut cells = Vec::new();
+        // Only boxes of one column, of neighbouring columns, and of the first and the last one can be adjacent.
+        let (mut end_of_first, mut previous) = (0, 0);
         for (lower, upper, state) in this.columns() {
+            let begin = this.nodes.len();
+            let mut add = |cell, state| {
+                let now = this.nodes.len();
+                let candidates: Vec<u32> =
+                    (0..end_of_first).chain(previous.max(end_of_first)..now).map(index).collect();
+                this.add(cell, state, &candidates);
+            };
             if let State::Stuck(pair) = state {
-                cells.push((Cell { lower: [lower, bottom], upper: [upper, top] }, State::Stuck(pair)));
-                continue;
+                add(Cell { lower: [lower, bottom], upper: [upper, top] }, State::Stuck(pair));
+            } else {
+                let left = if let State::Mixed(left) = state { left } else { Vec::new() };
+                for j in 0..FIRST {
+                    let cell = Cell { lower: [lower, row(j)], upper: [upper, row(j + 1)] };
+                    let state = judge(scene, clearance, &cell, &second, &left);
+                    add(cell, state);
+                }
             }
-            let left = if let State::Mixed(left) = state { left } else { Vec::new() };
-            for j in 0..FIRST {
-                let cell = Cell { lower: [lower, row(j)], upper: [upper, row(j + 1)] };
-                let state = this.judge(&cell, &second, &left);
-                cells.push((cell, state));
+            if begin == 0 {
+                end_of_first = this.nodes.len();
             }
+            previous = begin;
         }
-        for (cell, state) in cells {
-            let candidates: Vec<u32> = (0..this.nodes.len() as u32).collect();
-            this.add(cell, state, &candidates);
-        }
+        this.roots = this.nodes.len();
         this
     }
 
@@ -147,7 +192,7 @@ impl<'a> Subdivision<'a> {
         let middle = self.topology.axes[1].domain().0;
         while let Some((from, to, pairs)) = open.pop() {
             let cell = Cell { lower: [from, middle], upper: [to, middle] };
-            match self.judge(&cell, &pairs, &[]) {
+            match judge(self.scene, self.clearance, &cell, &pairs, &[]) {
                 State::Mixed(pairs) if to - from > FINEST_COLUMN * (upper - lower) => {
                     let half = (from + to) / 2.0;
                     open.push((half, to, pairs.clone()));
@@ -159,61 +204,47 @@ impl<'a> Subdivision<'a> {
         columns
     }
 
-    /// Decides a box by the pairs that are open in a box around it; `fixed` ones stay open unheard.
-    fn judge(&self, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
-        let posture = Posture::new(self.scene, cell.center());
-        let deviation = Deviation::Box(cell.half());
-        let mut open = fixed.to_vec();
-        for &pair in pairs {
-            let bounded = posture.bound(pair, deviation);
-            if bounded.least > 0.0 && bounded.least >= self.clearance {
+    fn add(&mut self, cell: Cell, state: State, candidates: &[u32]) {
+        let new = index(self.nodes.len());
+        let mut node = Node { cell, state, neighbors: Vec::new() };
+        for &other in candidates {
+            let beside = &mut self.nodes[other as usize];
+            // Two walls side by side do not matter; split boxes are there no more.
+            let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Stuck(_));
+            if !matters || cell.door(&beside.cell, &self.topology).is_none() {
                 continue;
             }
-            if bounded.here.distance < self.clearance && posture.greatest(pair, deviation) < self.clearance {
-                return State::Stuck(pair);
+            if beside.is_open() {
+                beside.neighbors.push(new);
             }
-            open.push(pair);
-        }
-        if open.is_empty() { State::Free } else { State::Mixed(open) }
-    }
-
-    fn add(&mut self, cell: Cell, state: State, candidates: &[u32]) {
-        let index = self.nodes.len() as u32;
-        let mut neighbors = Vec::new();
-        // Stuck boxes are walls: who lies beside them does not matter.
-        if !matches!(state, State::Stuck(_)) {
-            for &other in candidates {
-                let node = &mut self.nodes[other as usize];
-                if matches!(node.state, State::Free | State::Mixed(_))
-                    && cell.shared_side(&node.cell, &self.topology).is_some()
-                {
-                    node.neighbors.push(index);
-                    neighbors.push(other);
-                }
+            if node.is_open() {
+                node.neighbors.push(other);
             }
         }
-        self.nodes.push(Node { cell, state, neighbors });
+        self.nodes.push(node);
     }
 
-    /// Replaces a mixed box by two. Whether that can help: not if only link 1 is open in it, or it is too small.
+    /// Replaces a mixed box by two halves, or takes note that they would tell no more. Whether it did.
     pub fn split(&mut self, index: u32) -> bool {
         let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
         let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0);
         let cell = self.nodes[index as usize].cell;
-        let Some(axis) = self.longer(&cell, &open) else { return false };
-        let halves = cell.halves(axis);
-        if halves.iter().any(|h| h.lower[axis] >= h.upper[axis]) {
+        let axis = self.longer(&cell, &open);
+        let wide = |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.axes[axis].extent();
+        let Some(halves) = axis.filter(wide).map(|axis| cell.halves(axis)) else {
+            self.nodes[index as usize].state = State::Finest;
             return false;
-        }
-        let states = halves.map(|half| self.judge(&half, &open, &fixed));
+        };
+        let states = halves.map(|half| judge(self.scene, self.clearance, &half, &open, &fixed));
+        let first = self::index(self.nodes.len());
         let node = &mut self.nodes[index as usize];
-        node.state = State::Split;
+        node.state = State::Split(first);
         let mut candidates = std::mem::take(&mut node.neighbors);
         for &other in &candidates {
             self.nodes[other as usize].neighbors.retain(|&n| n != index);
         }
         for (half, state) in halves.into_iter().zip(states) {
-            let next = self.nodes.len() as u32;
+            let next = self::index(self.nodes.len());
             self.add(half, state, &candidates);
             candidates.push(next);
         }
@@ -232,10 +263,51 @@ impl<'a> Subdivision<'a> {
         (!open.is_empty()).then(|| usize::from(along(1) > along(0)))
     }
 
-    /// A box that holds `q`, not a stuck one if there is a choice.
-    pub fn locate(&self, q: Configuration) -> Option<u32> {
+    /// All boxes that hold `q`, but for those that were replaced.
+    pub fn holding(&self, q: Configuration) -> Vec<u32> {
         let q = self.topology.wrap(q);
-        let holds = |n: &Node| n.cell.contains(q) && matches!(n.state, State::Free | State::Mixed(_));
-        self.nodes.iter().position(holds).map(|i| i as u32)
+        let mut found = Vec::new();
+        let mut waiting: Vec<u32> = (0..index(self.roots)).rev().collect();
+        while let Some(index) = waiting.pop() {
+            let node = &self.nodes[index as usize];
+            match node.state {
+                _ if !node.cell.contains(q) => {}
+                State::Split(first) => waiting.extend([first + 1, first]),
+                _ => found.push(index),
+            }
+        }
+        found
     }
+
+    /// A box that holds `q` and is not stuck.
+    pub fn locate(&self, q: Configuration) -> Option<u32> {
+        self.holding(q).into_iter().find(|&i| self.nodes[i as usize].is_open())
+    }
+
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+}
+
+/// Indices of nodes have 32 bits: four thousand million boxes would not fit into memory.
+fn index(at: usize) -> u32 {
+    u32::try_from(at).unwrap_or(u32::MAX)
+}
+
+/// Decides a box by the pairs that are open in a box around it; `fixed` ones stay open unheard.
+fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
+    let posture = Posture::new(scene, cell.center());
+    let deviation = Deviation::Box(cell.half());
+    let mut open = fixed.to_vec();
+    for &pair in pairs {
+        let bounded = posture.bound(pair, deviation);
+        if bounded.least > 0.0 && bounded.least >= clearance {
+            continue;
+        }
+        if bounded.here.distance < clearance && posture.greatest(pair, deviation) < clearance {
+            return State::Stuck(pair);
+        }
+        open.push(pair);
+    }
+    if open.is_empty() { State::Free } else { State::Mixed(open) }
 }

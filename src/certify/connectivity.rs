@@ -1,41 +1,19 @@
 //! Is there a path at all? Proof that there is none, or a path, by subdivision.
 
 use super::boxes::{Cell, State, Subdivision};
-use crate::model::{Pair, Scene};
-use crate::space::{Configuration, Path};
-use std::collections::VecDeque;
-
-/// A box of configurations in which one and the same pair is too near everywhere.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StuckBox {
-    /// Which configurations.
-    pub cell: Cell,
-    /// Which shapes.
-    pub pair: Pair,
-}
-
-/// Proof that no motion leads from the start to any goal: what the stuck boxes leave of the domain does not connect
-/// them. Only [`connectivity`] makes one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Disconnection {
-    stuck: Vec<StuckBox>,
-}
-
-impl Disconnection {
-    /// The stuck boxes.
-    #[must_use]
-    pub fn stuck(&self) -> &[StuckBox] {
-        &self.stuck
-    }
-}
+use super::chain::{fewest_mixed, shortest};
+use super::channel::Channel;
+use super::disconnection::Disconnection;
+use crate::model::Scene;
+use crate::space::Configuration;
 
 /// The answer of [`connectivity`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Connectivity {
     /// There is no path: proven.
     Disconnected(Disconnection),
-    /// A path through free boxes.
-    Connected(Path),
+    /// A chain of free boxes from the start to a goal.
+    Connected(Channel),
     /// Neither, when this many boxes were reached or could not be told apart any more.
     Undecided {
         /// Number of boxes looked at.
@@ -43,12 +21,35 @@ pub enum Connectivity {
     },
 }
 
+/// What is known about a box of configurations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Occupancy {
+    /// Nothing comes too near anywhere in it.
+    Free,
+    /// One pair of shapes is too near everywhere in it.
+    Stuck,
+    /// Undecided.
+    Mixed,
+}
+
+/// An answer, and the subdivision that led to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exploration {
+    /// The answer.
+    pub answer: Connectivity,
+    /// Boxes that cover the domain, side by side.
+    pub boxes: Vec<(Cell, Occupancy)>,
+    /// Number of pairs of boxes that share a side and are not both stuck.
+    pub adjacencies: usize,
+}
+
 /// Decides whether a motion that keeps more than zero and at least `clearance` from every obstacle leads from `start`
 /// to one of `goals`, with at most `max_boxes` boxes.
 ///
 /// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, stuck or mixed. While free and mixed boxes together
 /// connect start and goal, the mixed ones on the connection with the fewest of them are halved. If they do not connect,
-/// there is no path; if free ones alone do, there is one.
+/// there is no path; if free ones alone do, there is one. Complete up to the resolution that `max_boxes` allows: a path
+/// with room around it is found, and a way that is closed by overlaps of some depth is proven closed.
 #[must_use]
 pub fn connectivity(
     scene: &Scene,
@@ -57,93 +58,61 @@ pub fn connectivity(
     clearance: f64,
     max_boxes: usize,
 ) -> Connectivity {
-    let mut boxes = Subdivision::new(scene, clearance);
-    loop {
-        let ends: Vec<u32> = goals.iter().filter_map(|&g| boxes.locate(g)).collect();
-        let connection = boxes.locate(start).and_then(|from| fewest_mixed(&boxes, from, &ends));
-        let Some(connection) = connection else {
-            return Connectivity::Disconnected(Disconnection { stuck: stuck(&boxes) });
-        };
-        let mixed: Vec<u32> = connection.iter().copied().filter(|&b| is_mixed(&boxes, b)).collect();
-        if mixed.is_empty() {
-            return Connectivity::Connected(path_through(&boxes, scene, &connection, start, goals));
-        }
-        let mut progress = false;
-        for index in mixed {
-            progress |= boxes.split(index);
-        }
-        if !progress || boxes.nodes.len() > max_boxes {
-            return Connectivity::Undecided { boxes: boxes.nodes.len() };
-        }
-    }
+    decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes)
 }
 
-fn is_mixed(boxes: &Subdivision, index: u32) -> bool {
-    matches!(boxes.nodes[index as usize].state, State::Mixed(_))
-}
-
-fn stuck(boxes: &Subdivision) -> Vec<StuckBox> {
-    let of = |node: &super::boxes::Node| match node.state {
-        State::Stuck(pair) => Some(StuckBox { cell: node.cell, pair }),
-        _ => None,
-    };
-    boxes.nodes.iter().filter_map(of).collect()
-}
-
-/// The chain of adjacent free and mixed boxes from `from` to one of `ends` with the fewest mixed ones: breadth-first
-/// search in which free boxes cost nothing.
-fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32]) -> Option<Vec<u32>> {
-    const NONE: u32 = u32::MAX;
-    let mut cost = vec![u32::MAX; boxes.nodes.len()];
-    let mut parent = vec![NONE; boxes.nodes.len()];
-    let mut queue = VecDeque::from([(0, from)]);
-    cost[from as usize] = 0;
-    while let Some((so_far, index)) = queue.pop_front() {
-        if so_far > cost[index as usize] {
-            continue;
-        }
-        if ends.contains(&index) {
-            let mut chain = vec![index];
-            let mut at = index;
-            while parent[at as usize] != NONE {
-                at = parent[at as usize];
-                chain.push(at);
-            }
-            chain.reverse();
-            return Some(chain);
-        }
-        for &next in &boxes.nodes[index as usize].neighbors {
-            let step = u32::from(is_mixed(boxes, next));
-            if so_far + step < cost[next as usize] {
-                cost[next as usize] = so_far + step;
-                parent[next as usize] = index;
-                if step == 0 { queue.push_front((so_far, next)) } else { queue.push_back((so_far + 1, next)) }
-            }
-        }
-    }
-    None
-}
-
-/// The path through the middles of the shared sides of a chain of free boxes: straight within each box, which is convex.
-fn path_through(
-    boxes: &Subdivision,
+/// As [`connectivity`], with the boxes.
+#[must_use]
+pub fn explore(
     scene: &Scene,
-    chain: &[u32],
     start: Configuration,
     goals: &[Configuration],
-) -> Path {
-    let topology = scene.arm.topology();
-    // What to add to values in the fundamental domain to continue the path from `start`.
-    let mut lift = start - topology.wrap(start);
-    let mut waypoints = vec![start];
-    for pair in chain.windows(2) {
-        let [a, b] = [pair[0], pair[1]].map(|i| boxes.nodes[i as usize].cell);
-        let Some((shift, middle)) = a.shared_side(&b, &topology) else { continue };
-        waypoints.push(middle + lift);
-        lift += shift;
+    clearance: f64,
+    max_boxes: usize,
+) -> Exploration {
+    let mut boxes = Subdivision::new(scene, clearance);
+    let answer = decide(&mut boxes, start, goals, max_boxes);
+    let known = |state: &State| match state {
+        State::Free => Some(Occupancy::Free),
+        State::Stuck(_) => Some(Occupancy::Stuck),
+        State::Mixed(_) | State::Finest => Some(Occupancy::Mixed),
+        State::Split(_) => None,
+    };
+    // Open boxes list each other, and stuck ones are listed once.
+    let adjacencies = |node: &super::boxes::Node| -> usize {
+        node.neighbors.iter().map(|&n| if boxes.nodes[n as usize].is_open() { 1 } else { 2 }).sum()
+    };
+    Exploration {
+        answer,
+        adjacencies: boxes.nodes.iter().map(adjacencies).sum::<usize>() / 2,
+        boxes: boxes.nodes.iter().filter_map(|n| known(&n.state).map(|state| (n.cell, state))).collect(),
     }
-    let last = boxes.nodes[chain[chain.len() - 1] as usize].cell;
-    let goal = goals.iter().map(|&g| topology.wrap(g)).find(|&g| last.contains(g));
-    waypoints.extend(goal.map(|g| g + lift));
-    Path::new(waypoints)
+}
+
+fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration], max_boxes: usize) -> Connectivity {
+    loop {
+        let ends: Vec<u32> = goals.iter().filter_map(|&g| boxes.locate(g)).collect();
+        let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
+        // Boxes at the finest size are hopeless: only where nothing else connects do they stand in the way of a proof.
+        let Some(chain) = fewest_mixed(boxes, from, &ends, false).or_else(|| fewest_mixed(boxes, from, &ends, true))
+        else {
+            return disconnected(boxes, start, goals);
+        };
+        let state = |b: u32| &boxes.nodes[b as usize].state;
+        if chain.iter().all(|&b| *state(b) == State::Free) {
+            let chain = shortest(boxes, start, from, goals);
+            return Connectivity::Connected(Channel::new(boxes, &chain, start, goals));
+        }
+        let mixed: Vec<u32> = chain.into_iter().filter(|&b| matches!(state(b), State::Mixed(_))).collect();
+        if mixed.is_empty() || boxes.nodes.len() > max_boxes {
+            return Connectivity::Undecided { boxes: boxes.nodes.len() };
+        }
+        for index in mixed {
+            boxes.split(index);
+        }
+    }
+}
+
+fn disconnected(boxes: &Subdivision, start: Configuration, goals: &[Configuration]) -> Connectivity {
+    Connectivity::Disconnected(Disconnection::between(boxes, start, goals))
 }

@@ -4,13 +4,20 @@
 //! error there cannot hide here.
 
 mod boxes;
+mod chain;
+mod channel;
 mod connectivity;
 mod deviation;
+mod disconnection;
 mod motion;
+mod proof_json;
 mod recheck;
 
 pub use boxes::Cell;
-pub use connectivity::{Connectivity, Disconnection, StuckBox, connectivity};
+pub use channel::Channel;
+pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use deviation::{Bounded, Deviation, Posture};
+pub use disconnection::{Disconnection, StuckBox};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};

@@ -3,7 +3,7 @@
 //! Shares no code with the search that made the proof: depths come from the Minkowski difference, motions from chords,
 //! and that the boxes separate start and goals is decided by a sweep over what they leave of the domain.
 
-use super::connectivity::{Disconnection, StuckBox};
+use super::disconnection::{Disconnection, StuckBox};
 use crate::geometry::penetration_depth;
 use crate::model::{Motion, Scene};
 use crate::space::{Configuration, Topology};

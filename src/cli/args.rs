@@ -17,6 +17,8 @@ Examples:
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
+  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
 
 Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
@@ -40,6 +42,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
     Inspect(InspectArgs),
+    /// Check a proof that there is no path, with code that shares nothing with the search that made it.
+    Recheck(RecheckArgs),
 }
 
 /// The two files.
@@ -125,7 +129,7 @@ fn clearance(text: &str) -> Result<f64, String> {
 /// Options of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// Planner: visibility, trapezoid, wavefront or harmonic.
+    /// Planner: visibility, trapezoid, wavefront, harmonic or subdivision.
     #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
     pub planner: Method,
     #[command(flatten)]
@@ -209,4 +213,16 @@ pub struct InspectArgs {
     /// Print the report as JSON.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Arguments of `recheck`.
+#[derive(Debug, Args)]
+pub struct RecheckArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// A result of the main job with a proof: .json.
+    #[arg(long, value_name = "FILE")]
+    pub proof: PathBuf,
+    #[command(flatten)]
+    pub query: QueryArgs,
 }

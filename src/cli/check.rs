@@ -179,6 +179,7 @@ fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours
         goals: &[],
         paths: Vec::new(),
         trace: None,
+        proof: &[],
         c_obstacles: contours,
     }
 }

@@ -116,6 +116,7 @@ fn draw(
         goals: &problem.goals,
         paths,
         trace: None,
+        proof: &[],
         c_obstacles: &contours,
     };
     output::save_picture(format, file, &picture)

@@ -8,6 +8,7 @@ mod inspect;
 mod inspect_text;
 mod output;
 mod plan;
+mod recheck;
 mod summary;
 
 use args::{Cli, Command};
@@ -34,6 +35,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
+        (Some(Command::Recheck(args)), _) => recheck::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -122,6 +122,7 @@ pub fn write_picture(
         goals: &problem.goals,
         paths: found.map(|path| (answer.method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.run.trace),
+        proof: answer.verdict.proof(),
         c_obstacles: &contours,
     };
     save_picture(format, path, &picture)

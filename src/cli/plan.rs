@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::certify::ProofBox;
 use crate::input;
 use crate::model::Problem;
 use crate::plan::Size;
@@ -68,7 +69,9 @@ fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Fai
         Verdict::Infeasible(proof) => {
             let boxes = proof.stuck().len();
             let reason = format!("proven: {boxes} boxes of colliding configurations separate start and goal");
-            Report::infeasible(planner, joints, reason)
+            let mut report = Report::infeasible(planner, joints, reason);
+            report.proof = Some(proof.stuck().iter().map(ProofBox::from).collect());
+            report
         }
         Verdict::Unknown(reason) => Report::unknown(planner, joints, reason.clone()),
     };

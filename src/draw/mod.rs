@@ -9,6 +9,7 @@
 //! obstacles, the path and what the planner saw. The same picture is the same file, byte for byte.
 
 mod axes;
+mod boxes;
 mod color;
 mod copies;
 mod cspace;
@@ -23,6 +24,7 @@ mod svg_writer;
 mod trace;
 mod workspace;
 
+use crate::certify::StuckBox;
 use crate::cspace::CObstacle;
 use crate::geometry::Point;
 use crate::model::Scene;
@@ -48,6 +50,8 @@ pub struct Picture<'a> {
     pub paths: Vec<(String, &'a Path)>,
     /// What the planner saw.
     pub trace: Option<&'a Trace>,
+    /// Boxes that prove that there is no path; empty where that is not proven.
+    pub proof: &'a [StuckBox],
     /// Contours in joint space.
     pub c_obstacles: &'a [CObstacle],
 }

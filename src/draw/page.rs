@@ -59,6 +59,7 @@ pub fn compose_posture(posture: &Posture) -> Figure {
         paths: Vec::new(),
         trace: None,
         c_obstacles: &[],
+        proof: &[],
     };
     let mut items = titles(&picture);
     let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;

@@ -1,6 +1,7 @@
 //! What the planner saw on its way.
 
 use super::axes::Frame;
+use super::boxes;
 use super::color::{self, GREY, INK, PALE, Rgb};
 use super::copies::Window;
 use super::figure::{Anchor, Item, Label, Pen, Raster, Rect, Style, chain};
@@ -32,6 +33,7 @@ pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
             let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|c| polygon(c, frame, window)).collect();
             vec![Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))]
         }
+        Trace::Boxes { free, mixed, .. } => boxes::surfaces(free, mixed, frame),
         Trace::Wavefront { cells, labels } if !labels.is_empty() && labels.len() == cells[0] * cells[1] => {
             vec![Item::Raster(shades(*cells, labels, frame))]
         }
@@ -52,6 +54,7 @@ pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window)
             let steps = cells.iter().flat_map(|c| polygon(c, frame, window)).collect();
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7))]
         }
+        Trace::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, frame)).into(),
         Trace::Field { cells, potential } if potential.len() == cells[0] * cells[1] => {
             equipotentials(*cells, potential, frame, topology)
         }
@@ -69,6 +72,7 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
             [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()
         }
+        Trace::Boxes { .. } => boxes::keys(),
         Trace::Wavefront { .. } => Vec::new(),
         Trace::Field { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
     }

@@ -4,8 +4,10 @@ use crate::geometry::{Orientation, Point, orientation};
 
 /// A door as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Passage {
+pub struct Passage {
+    /// The end to the left.
     pub left: Point,
+    /// The end to the right.
     pub right: Point,
 }
 
@@ -15,7 +17,8 @@ pub(super) struct Passage {
 /// The *funnel* algorithm (Lee, Preparata 1984) in its scanning form: the funnel is kept as its apex and one point
 /// a side, and after a turn the scan resumes at the new apex. Linear when turns are found soon after they are passed,
 /// quadratic at worst. Turns are decided exactly, so every piece passes its doors in exact arithmetic.
-pub(super) fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
+#[must_use]
+pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
     let mut string = vec![start];
     let mut funnel = Funnel { apex: start, left: None, right: None };
     let mut at = 0;

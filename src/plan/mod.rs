@@ -14,6 +14,7 @@ mod trapezoid;
 mod visibility;
 mod wavefront;
 
+pub use funnel::{Passage, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
@@ -75,6 +76,15 @@ pub enum Trace {
         cells: Vec<Vec<Configuration>>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
+    },
+    /// Boxes of a subdivision: lower and upper corner of each.
+    Boxes {
+        /// No collision anywhere in them.
+        free: Vec<[Configuration; 2]>,
+        /// Collision everywhere in them.
+        stuck: Vec<[Configuration; 2]>,
+        /// Undecided.
+        mixed: Vec<[Configuration; 2]>,
     },
     /// Steps to the goal for every cell of the grid, `u32::MAX` where the wave did not come.
     Wavefront {

@@ -1,7 +1,7 @@
 //! The ladder of refinement.
 
 use super::admission::{Admit, Ends};
-use super::{Answer, Method, Space, Stages, Verdict};
+use super::{Answer, Method, Space, Stages, Verdict, subdivision};
 use crate::certify::{Connectivity, Rejection, certify, connectivity};
 use crate::cspace::{Grid, Regions, outer_grid, regions};
 use crate::model::{Problem, Scene};
@@ -17,7 +17,7 @@ pub struct Effort {
     pub margin: f64,
     /// First number of grid cells along each axis.
     pub cells: usize,
-    /// Boxes for a proof that there is no path.
+    /// Boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
 }
 
@@ -46,6 +46,7 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
         Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
 }
 
@@ -174,7 +175,7 @@ impl From<Grid> for Space {
     }
 }
 
-fn explain(scene: &Scene, rejection: Rejection) -> String {
+pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {
     match rejection {
         Rejection::OutOfLimits { waypoint, joint } => {
             format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm.joints[joint].name)

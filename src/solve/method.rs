@@ -15,11 +15,14 @@ pub enum Method {
     Wavefront,
     /// Harmonic potential on a grid.
     Harmonic,
+    /// Subdivision into free, stuck and mixed boxes: a path with proven room around it, or a proof that there is none.
+    Subdivision,
 }
 
 impl Method {
     /// All, roadmap planners first.
-    pub const ALL: [Method; 4] = [Method::Visibility, Method::Trapezoid, Method::Wavefront, Method::Harmonic];
+    pub const ALL: [Method; 5] =
+        [Method::Visibility, Method::Trapezoid, Method::Wavefront, Method::Harmonic, Method::Subdivision];
 
     /// Name on the command line.
     #[must_use]
@@ -29,6 +32,8 @@ impl Method {
             Method::Trapezoid => Trapezoid::NAME,
             Method::Wavefront => Wavefront::NAME,
             Method::Harmonic => Harmonic::NAME,
+            // No planner over a representation: it judges the scene itself.
+            Method::Subdivision => "subdivision",
         }
     }
 }

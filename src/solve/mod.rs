@@ -7,11 +7,12 @@
 mod admission;
 mod ladder;
 mod method;
+mod subdivision;
 
 pub use ladder::{Effort, solve};
 pub use method::Method;
 
-use crate::certify::{CertifiedPath, Disconnection};
+use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
 use crate::plan::Run;
 use std::time::Duration;
@@ -27,6 +28,14 @@ pub enum Verdict {
     Unknown(String),
 }
 
+impl Verdict {
+    /// The boxes that prove that there is no path; none where that is not proven.
+    #[must_use]
+    pub fn proof(&self) -> &[StuckBox] {
+        if let Verdict::Infeasible(proof) = self { proof.stuck() } else { &[] }
+    }
+}
+
 /// The representation that the last attempt worked on.
 #[derive(Debug, Clone)]
 pub enum Space {
@@ -34,6 +43,8 @@ pub enum Space {
     Regions(Box<Regions>),
     /// Cells.
     Grid(Box<Grid>),
+    /// None: subdivision judges the scene itself.
+    Scene,
 }
 
 /// Time spent in each stage, over all attempts.

@@ -1,7 +1,7 @@
 //! What a run found, as JSON.
 
 use super::Trajectory;
-use crate::certify::CertifiedPath;
+use crate::certify::{CertifiedPath, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -46,6 +46,9 @@ pub struct Report {
     /// Why there is no path, or why none is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// Of an infeasible problem: boxes of colliding configurations that separate the start from all goals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<Vec<ProofBox>>,
     /// Waypoints, straight segments between them.
     pub path: Option<Vec<[f64; 2]>>,
     /// Euclidean length of the path in joint space.
@@ -113,6 +116,7 @@ impl Report {
             joints: joints.each_ref().map(|j| j.name.clone()),
             units: joints.each_ref().map(Joint::unit),
             reason: None,
+            proof: None,
             path: None,
             length: None,
             certified: false,

@@ -8,7 +8,7 @@ fn wrong_command_lines_end_with_2() {
     let place = Place::new();
     let cases = [
         ("", "not provided"),
-        ("--planner magic", "visibility, trapezoid, wavefront, harmonic"),
+        ("--planner magic", "visibility, trapezoid, wavefront, harmonic, subdivision"),
         ("--start 1", "two values"),
         ("--start nan,0", "finite"),
         ("--start 1e300,0", "too large"),
@@ -47,7 +47,7 @@ fn help_names_files_that_exist_and_all_exit_codes() {
     for file in files {
         assert!(std::path::Path::new(&shipped(file)).is_file(), "{file}");
     }
-    for part in ["compare", "check", "0 found", "1 bad input", "2 wrong", "3 proven", "4 unknown"] {
+    for part in ["compare", "check", "recheck", "0 found", "1 bad input", "2 wrong", "3 proven", "4 unknown"] {
         assert!(help.stdout.replace('\n', " ").contains(part), "{part}");
     }
     assert_eq!(place.run(&["check", "--help"], "").code, 0);
@@ -113,4 +113,30 @@ fn compare_lists_every_planner() {
     let csv = place.run(&files, &format!("{options} --csv")).stdout;
     let columns: Vec<usize> = csv.lines().map(|line| line.split(',').count()).collect();
     assert_eq!(columns, [columns[0]; 4]);
+}
+
+#[test]
+fn recheck_accepts_true_proofs_and_no_others() {
+    let place = Place::new();
+    let [urdf, closed, open] =
+        ["robots/planar_2r.urdf", "workspaces/limits_closed.toml", "workspaces/limits_open.toml"].map(shipped);
+    let made =
+        place.run(&[&urdf, &closed], "--planner subdivision --json --quiet --output proof.json --picture proof.svg");
+    assert_eq!((made.code, made.stderr.as_str()), (3, ""));
+    let boxes = made.json()["proof"].as_array().unwrap().len();
+    assert!(place.read("proof.svg").contains("proof: boxes of collisions"));
+    let judge = |world: &str, options: &str| place.run(&["recheck", &urdf, world], &format!("--proof {options}"));
+    let holds = judge(&closed, "proof.json");
+    assert_eq!((holds.code, holds.stdout.contains(&format!("holds: {boxes} boxes"))), (0, true), "{}", holds.stderr);
+    // Another problem, another goal on the start's side, a proof with a hole, no proof.
+    judge(&open, "proof.json").refused(1, &["proof.json", "does not hold"]);
+    judge(&closed, "proof.json --goal 0.4,0").refused(1, &["do not separate"]);
+    let mut lesser = made.json();
+    lesser["proof"].as_array_mut().unwrap().truncate(boxes / 2);
+    place.write("lesser.json", lesser.to_string());
+    judge(&closed, "lesser.json").refused(1, &["do not separate"]);
+    place.write("none.json", r#"{"status": "found"}"#);
+    judge(&closed, "none.json").refused(1, &["holds no proof"]);
+    judge(&closed, "absent.json").refused(1, &["absent.json"]);
+    place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
 }

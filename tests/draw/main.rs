@@ -118,6 +118,7 @@ fn planned(
         goals: &[path.goal()],
         paths: vec![("wavefront".to_owned(), &path)],
         trace: Some(&trace),
+        proof: &[],
         c_obstacles: &c_obstacles,
     };
     checked(name, &picture)
@@ -192,6 +193,7 @@ fn a_comparison_tells_paths_apart() {
         goals: &[walk.goal()],
         paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
         trace: None,
+        proof: &[],
         c_obstacles: &c_obstacles,
     };
     let words = words(&checked("comparison", &picture));
@@ -216,6 +218,7 @@ fn a_crowd_without_a_path() {
         goals: &[at(1.0, -2.4), at(2.0, 2.4)],
         paths: Vec::new(),
         trace: None,
+        proof: &[],
         c_obstacles: &c_obstacles,
     };
     let words = words(&checked("crowd", &picture));
@@ -231,6 +234,7 @@ fn bare<'a>(scene: &'a Scene, goals: &'a [Configuration]) -> Picture<'a> {
         goals,
         paths: Vec::new(),
         trace: None,
+        proof: &[],
         c_obstacles: &[],
     }
 }

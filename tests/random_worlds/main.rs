@@ -58,12 +58,14 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
     }
 }
 
+const PLANNERS: usize = Method::ALL.len();
+
 /// Answers of all planners to one world; the lies among them.
-fn look(problem: &Problem, seed: u64, effort: &Effort, lattice: usize, counts: &mut [Count; 4]) -> Vec<String> {
+fn look(problem: &Problem, seed: u64, effort: &Effort, lattice: usize, counts: &mut [Count; PLANNERS]) -> Vec<String> {
     let oracle = Oracle::new(&problem.scene);
     let truth = oracle.connected(problem.start, &problem.goals, lattice);
     let mut lies = Vec::new();
-    let mut lengths = [None; 4];
+    let mut lengths = [None; PLANNERS];
     let mut infeasible = None;
     for (i, method) in Method::ALL.into_iter().enumerate() {
         let clock = Instant::now();
@@ -133,7 +135,7 @@ fn answers_agree_with_brute_force_and_each_other() {
     let mut decided = 0;
     let kinds = std::env::var("CPLAN_KIND");
     for kind in world::KINDS.into_iter().filter(|kind| kinds.as_ref().is_ok_and(|k| k == kind) || kinds.is_err()) {
-        let mut counts = [Count::default(); 4];
+        let mut counts = [Count::default(); PLANNERS];
         let mut worlds = 0;
         for seed in first..first + wanted.unwrap_or(6) {
             if let Some(problem) = world::world(kind, seed) {

@@ -1,0 +1,28 @@
+//! `cplan recheck`: whether a proof that there is no path holds.
+
+use super::DONE;
+use super::args::RecheckArgs;
+use super::failure::Failure;
+use super::output;
+use crate::certify::{read_proof, recheck};
+use crate::input;
+
+/// Checks the proof in a result file against the two input files. That it was made for them is not taken on trust.
+///
+/// # Errors
+/// Bad input, a file without a proof, and a proof that does not hold.
+pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
+    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
+    let text = std::fs::read_to_string(&args.proof).map_err(|e| failed(e.to_string()))?;
+    let boxes = read_proof(&text).map_err(|e| failed(e.to_string()))?;
+    let problem = &loaded.problem;
+    recheck(&boxes, &problem.scene, problem.start, &problem.goals, problem.scene.workspace.clearance)
+        .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;
+    output::print(&format!(
+        "the proof holds: {} boxes of collisions separate the start from every goal\n",
+        boxes.len()
+    ))?;
+    Ok(DONE)
+}

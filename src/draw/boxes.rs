@@ -1,0 +1,75 @@
+//! Boxes of configurations: what a subdivision is made of, and what a proof consists of.
+
+use super::axes::Frame;
+use super::color::{INK, Rgb};
+use super::figure::{Item, Rect, Style, rectangle};
+use super::legend::{Key, Sign};
+use crate::certify::StuckBox;
+use crate::space::Configuration;
+
+const FREE: Rgb = Rgb(0xcf, 0xe8, 0xd5);
+const MIXED: Rgb = Rgb(0xf6, 0xe3, 0xa1);
+const SIDE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
+const PROOF: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+
+/// Boxes narrower than this have no sides drawn, pixels: the lines would hide all else.
+const NARROW: f64 = 2.0;
+
+fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
+    let ([x0, y0], [x1, y1]) = (frame.at(lower[0], lower[1]), frame.at(upper[0], upper[1]));
+    Rect { x: x0.min(x1), y: y0.min(y1), width: (x1 - x0).abs(), height: (y1 - y0).abs() }
+}
+
+/// Free and undecided boxes, as surfaces.
+#[must_use]
+pub fn surfaces(free: &[[Configuration; 2]], mixed: &[[Configuration; 2]], frame: &Frame) -> Vec<Item> {
+    let surface = |boxes: &[[Configuration; 2]], color| {
+        let steps = boxes.iter().flat_map(|&b| rectangle(rect(b, frame))).collect();
+        Item::Outline(steps, Style::fill(color).faded(0.8))
+    };
+    vec![surface(free, FREE), surface(mixed, MIXED)]
+}
+
+/// The sides of boxes.
+#[must_use]
+pub fn sides(boxes: &[[Configuration; 2]], frame: &Frame) -> Item {
+    let rects = boxes.iter().map(|&b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
+    Item::Outline(rects.flat_map(rectangle).collect(), Style::line(SIDE, 0.4).faded(0.6))
+}
+
+/// Legend of a subdivision.
+#[must_use]
+pub fn keys() -> Vec<Key> {
+    vec![(Sign::Swatch(FREE), "free boxes".to_owned()), (Sign::Swatch(MIXED), "undecided boxes".to_owned())]
+}
+
+/// The boxes of a proof, over the C-obstacles.
+#[must_use]
+pub fn proof(stuck: &[StuckBox], frame: &Frame) -> Item {
+    let corners = |s: &StuckBox| [Configuration::from(s.cell.lower), Configuration::from(s.cell.upper)];
+    let steps = stuck.iter().flat_map(|s| rectangle(rect(corners(s), frame))).collect();
+    Item::Outline(steps, Style::line(PROOF.mixed(INK, 0.2), 0.9).filled(PROOF).faded(0.45))
+}
+
+/// Legend of a proof.
+#[must_use]
+pub fn proof_key() -> Key {
+    (Sign::Swatch(PROOF), "proof: boxes of collisions that separate start and goal".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::Cell;
+    use crate::model::Pair;
+
+    #[test]
+    fn a_box_of_a_proof_is_drawn_where_it_is() {
+        let frame = Frame::filling(Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 }, (0.0, 1.0), (0.0, 1.0));
+        let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
+        let stuck = StuckBox { cell: Cell { lower: [0.25, 0.5], upper: [0.5, 1.0] }, pair };
+        let Item::Outline(steps, style) = proof(&[stuck], &frame) else { panic!("not an outline") };
+        assert_eq!(steps, rectangle(Rect { x: 25.0, y: 0.0, width: 25.0, height: 50.0 }));
+        assert!(style.fill.is_some());
+    }
+}

@@ -1,0 +1,133 @@
+//! Workspaces without a path and their feasible twins: proofs pass the independent check as they stand in a file, and
+//! found paths a sweep by parry2d.
+
+use cplan::certify::{Connectivity, ProofBox, connectivity, read_proof, recheck};
+use cplan::geometry::Convex;
+use cplan::input::{self, Overrides};
+use cplan::model::{Problem, Scene};
+use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::space::{Configuration, Path};
+use parry2d_f64::math::{Pose, Rotation, Vector};
+use parry2d_f64::query::intersection_test;
+use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
+
+/// What closes the way, and the robot.
+const TWINS: [(&str, &str); 6] = [
+    ("limits", "planar_2r"),
+    ("annulus", "gantry"),
+    ("thin_wall", "polar"),
+    ("torus", "planar_2r_continuous"),
+    ("slot", "rail_arm"),
+    ("singular", "planar_2r"),
+];
+
+/// Boxes that decide each of them.
+const BOXES: usize = 200_000;
+
+/// Greatest change of a joint between two samples.
+const STEP: f64 = 1e-4;
+
+fn load(name: &str, robot: &str) -> Problem {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (urdf, world) = (format!("robots/{robot}.urdf"), format!("workspaces/{name}.toml"));
+    let loaded = input::load(&root.join(urdf), &root.join(world), &Overrides::default());
+    loaded.unwrap_or_else(|e| panic!("{e}")).problem
+}
+
+#[test]
+fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
+    for (what, robot) in TWINS {
+        let problem = load(&format!("{what}_closed"), robot);
+        let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+        let Connectivity::Disconnected(proof) = connectivity(scene, start, goals, 0.0, BOXES) else {
+            panic!("{what} is not proven");
+        };
+        let boxes: Vec<ProofBox> = proof.stuck().iter().map(ProofBox::from).collect();
+        let text = serde_json::json!({ "proof": boxes }).to_string();
+        let claim = read_proof(&text).unwrap();
+        assert_eq!(claim, proof.stuck(), "{what}");
+        assert_eq!(recheck(&claim, scene, start, goals, 0.0), Ok(()), "{what}");
+        // It says nothing about the twin, whose way is open: some box cannot be true there.
+        let twin = load(&format!("{what}_open"), robot);
+        assert!(recheck(&claim, &twin.scene, twin.start, &twin.goals, 0.0).is_err(), "{what}");
+    }
+}
+
+/// parry2d's shape of a rounded polygon's core; the radius is a disc's, all others here are sharp.
+fn shape(convex: &Convex) -> Box<dyn Shape> {
+    let corners: Vec<Vector> = convex.core().iter().map(|p| Vector::new(p.x, p.y)).collect();
+    assert!(corners.len() == 1 || convex.radius() == 0.0);
+    match corners[..] {
+        [_] => Box::new(Ball::new(convex.radius())),
+        [a, b] => Box::new(Segment::new(a, b)),
+        _ => Box::new(ConvexPolygon::from_convex_polyline_unmodified(corners).expect("with area")),
+    }
+}
+
+/// Where parry2d has a disc's centre.
+fn place(convex: &Convex) -> Pose {
+    match convex.core() {
+        [center] => Pose::from_translation(Vector::new(center.x, center.y)),
+        _ => Pose::identity(),
+    }
+}
+
+/// The first sample of the path, in steps of at most [`STEP`], at which parry2d finds a contact.
+fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
+    let pairs: Vec<_> = scene.pairs().iter().map(|&p| (p.link, scene.part(p), scene.piece(p))).collect();
+    let shapes: Vec<_> = pairs.iter().map(|(link, a, b)| (*link, shape(a), place(a), shape(b), place(b))).collect();
+    let meets = |q: Configuration| {
+        let poses = scene.arm.poses(q).map(|pose| {
+            let t = pose.translation.vector;
+            let rotation = Rotation { re: pose.rotation.re, im: pose.rotation.im };
+            Pose::from_parts(Vector::new(t.x, t.y), rotation)
+        });
+        let meet = |(link, a, at_a, b, at_b): &(usize, Box<dyn Shape>, Pose, Box<dyn Shape>, Pose)| {
+            let test = intersection_test(&(poses[*link] * *at_a), &**a, at_b, &**b);
+            test.expect("parry2d tests all pairs of convex shapes").intersecting
+        };
+        shapes.iter().any(meet)
+    };
+    let samples = path.segments().flat_map(|(a, b)| {
+        let n = ((b - a).amax() / STEP).ceil().max(1.0) as u32;
+        (0..=n).map(move |i| a + (b - a) * (f64::from(i) / f64::from(n)))
+    });
+    samples.into_iter().find(|&q| meets(q))
+}
+
+fn open_ways_are_found_by(method: Method) {
+    for (what, robot) in TWINS {
+        let problem = load(&format!("{what}_open"), robot);
+        let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+        let Verdict::Found(certified) = &answer.verdict else {
+            panic!("{what} by {method}: {:?}", answer.verdict);
+        };
+        assert_eq!(first_contact(&problem.scene, certified.path()), None, "{what} by {method}");
+    }
+}
+
+#[test]
+fn open_ways_are_found_by_visibility() {
+    open_ways_are_found_by(Method::Visibility);
+}
+
+#[test]
+fn open_ways_are_found_by_trapezoids() {
+    open_ways_are_found_by(Method::Trapezoid);
+}
+
+#[test]
+fn open_ways_are_found_by_subdivision() {
+    open_ways_are_found_by(Method::Subdivision);
+}
+
+#[test]
+fn the_sweep_sees_contacts() {
+    // The same path as the twin's, where the way is closed.
+    for (what, robot) in TWINS.into_iter().filter(|(what, _)| *what != "limits") {
+        let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
+        let answer = solve(&open, Method::Visibility, &Effort::default(), &mut |_| {});
+        let Verdict::Found(certified) = &answer.verdict else { panic!("{what}") };
+        assert!(first_contact(&closed.scene, certified.path()).is_some(), "{what}");
+    }
+}
