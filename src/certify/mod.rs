@@ -6,11 +6,15 @@
 mod boxes;
 mod connectivity;
 mod deviation;
+mod limits;
 mod motion;
+mod passage;
 mod recheck;
 
 pub use boxes::Cell;
 pub use connectivity::{Connectivity, Disconnection, StuckBox, connectivity};
 pub use deviation::{Bounded, Deviation, Posture};
+pub use limits::{Excess, Limit, limits_kept};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use passage::{Encounter, Moment, Passage, passage};
 pub use recheck::{ProofDefect, recheck};

@@ -7,6 +7,7 @@ mod failure;
 mod output;
 mod plan;
 mod summary;
+mod verify;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser, error::ErrorKind};
@@ -19,6 +20,8 @@ const DONE: u8 = 0;
 const BAD_INPUT: u8 = 1;
 /// Exit code: there is no path, proven.
 const INFEASIBLE: u8 = 3;
+/// Exit code of `verify`: a proven collision, or a limit that is broken.
+const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;
 
@@ -29,6 +32,7 @@ pub fn run() -> ExitCode {
     let done = match (&cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
+        (Some(Command::Verify(args)), _) => verify::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -1,6 +1,7 @@
 //! A text file and positions in it.
 
 use super::error::{Defect, InputError};
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -20,16 +21,27 @@ pub(super) struct Source {
     pub text: String,
 }
 
+/// Larger files are refused: a recording of some million samples is smaller. Also ends the reading of devices.
+const LARGEST_FILE: u64 = 256 << 20;
+
 /// Characters of a long source line that an excerpt shows on either side of the place.
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
     /// Reads a file as UTF-8, without a byte order mark.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let bytes = std::fs::read(path).map_err(|error| {
+        let mut bytes = Vec::new();
+        let read = std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+        read.map_err(|error| {
             Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
                 .cure("check the path and the file's permissions")
         })?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            let message = format!("is larger than {} MiB", LARGEST_FILE >> 20);
+            return Err(Defect::new(path.display().to_string(), message)
+                .cure("split it, or thin out its samples")
+                .into());
+        }
         let text = String::from_utf8(bytes).map_err(|error| {
             Defect::new(
                 path.display().to_string(),

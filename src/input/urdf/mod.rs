@@ -56,6 +56,7 @@ pub(super) fn load(path: &Path, world: &World) -> Result<(Arm, RobotReport), Inp
     }
     report.notes.push(format!("tip: origin of link \"{}\"", tree.links[chain.tip]));
     report.notes.extend(chain.notes.iter().cloned());
+    report.held = chain.held.iter().map(|&j| (document.robot.joints[j].name.clone(), chain.values[j])).collect();
 
     let limits = Limits { document: &document, world };
     let mut defects = Vec::new();
