@@ -49,7 +49,7 @@ pub enum RecordingDefect {
         value: f64,
     },
     /// The clock stands still or runs backwards.
-    #[error("the time {time} s comes after {before} s; times must increase")]
+    #[error("the time {time} s follows {before} s; times must increase")]
     Time {
         /// The later sample.
         sample: usize,

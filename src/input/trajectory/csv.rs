@@ -43,7 +43,10 @@ fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Defect> {
             .defect_at(field.range.clone(), format!("{} is {value}", quoted([&name.text])))
             .cure("drop the samples that were not measured")),
         Err(_) => Err(source
-            .defect_at(field.range.clone(), format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text))
+            .defect_at(
+                field.range.clone(),
+                format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text),
+            )
             .cure("write numbers with a decimal point and no unit: radians or metres, and seconds")),
     }
 }

@@ -65,7 +65,8 @@ impl Stamp {
 /// Reads JSON.
 pub(super) fn json(source: &Source, _: &Names) -> Result<Samples, InputError> {
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
-        let cure = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+        let cure =
+            "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
         located(source, error.line(), error.column(), &plain(&error.to_string())).cure(cure)
     })?;
     Ok(samples(source, document)?)
@@ -140,9 +141,9 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
         return Ok(Samples { joints, what: "path", ..Samples::default() });
     }
     Err(match status {
-        Some(status) => source
-            .defect(format!("holds no path: its status is \"{status}\""))
-            .cure("verify a result that found one"),
+        Some(status) => {
+            source.defect(format!("holds no path: its status is \"{status}\"")).cure("verify a result that found one")
+        }
         None => source
             .defect("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
             .cure("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
@@ -151,7 +152,8 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
 
 fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Defect> {
     let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
-        source.defect(format!("\"{member}\" is missing: it is not said which value is which joint's"))
+        source
+            .defect(format!("\"{member}\" is missing: it is not said which value is which joint's"))
             .cure(format!("add \"{member}\" with the joints' names in the order of the values"))
     })?;
     match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {

@@ -140,8 +140,10 @@ impl Names<'_> {
             Some(sample) => {
                 let value = other.position[sample];
                 let message = format!("joint \"{name}\" is at {value}, but the workspace holds it at {held}");
-                let cure = format!("a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the \
-                                    world file; one that moves cannot be checked with the arm's two");
+                let cure = format!(
+                    "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the \
+                                    world file; one that moves cannot be checked with the arm's two"
+                );
                 Err(samples.defect(source, sample, &message).cure(cure))
             }
         }
