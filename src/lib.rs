@@ -36,7 +36,7 @@
 //!
 //! Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip. Paths
 //! hold unwrapped values: a path that crosses the seam of a circle goes on counting. Touching is contact. The same
-//! input gives the same output, byte for byte, but for the timings in it.
+//! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
 pub mod geometry;

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Benchmark, benchmark};
-use cplan::model::{Goal, Problem};
+use cplan::model::{Goal, Problem, Scene};
 use cplan::solve::{Answer, Effort, Method, Verdict, solve};
 
 fn problem(which: Benchmark) -> Problem {
@@ -62,5 +62,20 @@ fn closed_ways_are_proven_closed() {
             let answer = answer(which, method);
             assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{which:?} by {method}: {:?}", answer.verdict);
         }
+    }
+}
+
+/// The start keeps the clearance exactly, which leaves no margin for polygons to be grown by.
+#[test]
+fn a_start_without_room_to_spare_is_answered() {
+    let (scene, start, goal) = benchmark(Benchmark::A);
+    let (arm, mut workspace) = (scene.arm, scene.workspace);
+    workspace.clearance = Scene::new(arm.clone(), workspace.clone()).clearance(start);
+    let scene = Scene::new(arm, workspace);
+    let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] };
+    let effort = Effort { levels: 1, boxes: 1000, ..Effort::default() };
+    for method in [Method::Visibility, Method::Trapezoid] {
+        let answer = solve(&problem, method, &effort, &mut |_| {});
+        assert!(!matches!(answer.verdict, Verdict::Found(_)), "{method}: the polygons leave out the start");
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
+use crate::trajectory::SHORTEST_INTERVAL;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -12,7 +13,7 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
-  cplan robots/scara.urdf workspaces/kitting.toml --planner wavefront --goal-tip 0.2,0.25
+  cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
@@ -65,7 +66,7 @@ pub struct QueryArgs {
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
 }
 
@@ -84,30 +85,41 @@ pub struct EffortArgs {
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(8..=2048))]
     pub cells: u32,
     /// First margin of the polygons, as a share of the arm's reach; quartered where needed.
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-3)]
+    #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
     pub margin: f64,
     /// Attempts, each finer than the one before.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=12))]
     pub levels: u8,
     /// Time between two samples of the trajectory, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.01)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
 }
 
 impl EffortArgs {
     /// The same for the solver.
-    ///
-    /// # Errors
-    /// A margin that is not a positive number.
-    pub fn effort(&self) -> Result<Effort, String> {
-        if !(self.margin > 0.0 && self.margin <= 0.1) {
-            return Err(format!(
-                "--margin: must be more than 0 and at most 0.1 of the arm's reach, is {}",
-                self.margin
-            ));
-        }
-        Ok(Effort { levels: self.levels.into(), margin: self.margin, cells: self.cells as usize, ..Effort::default() })
+    pub fn effort(&self) -> Effort {
+        Effort { levels: self.levels.into(), margin: self.margin, cells: self.cells as usize, ..Effort::default() }
     }
+}
+
+fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if allowed(value) => Ok(value),
+        _ => Err(format!("must be a number {range}")),
+    }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x > 0.0 && x <= 0.1, "of more than 0 and at most 0.1 (of the arm's reach)")
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
+    number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)
+}
+
+fn clearance(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
 }
 
 /// Options of the main job.
@@ -129,6 +141,9 @@ pub struct PlanArgs {
     /// Print the result as JSON, and nothing else, on stdout.
     #[arg(long)]
     pub json: bool,
+    /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
+    #[arg(long)]
+    pub timings: bool,
     /// No summary, no progress.
     #[arg(long)]
     pub quiet: bool,
@@ -169,7 +184,7 @@ pub struct CheckArgs {
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
     pub at: JointValues,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
     /// Draw workspace and configuration space with the configuration: .svg or .png. Can be repeated.
     #[arg(long, value_name = "FILE")]

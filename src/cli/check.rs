@@ -73,7 +73,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     if let Some(clearance) = args.clearance {
         loaded.scene.workspace.clearance = clearance;
     }
-    loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm.joints, "--at").map_err(input::InputError::from)?;
     let findings = findings(scene, q);

@@ -18,20 +18,20 @@ use std::time::Duration;
 /// Bad input and I/O.
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
-    let effort = args.effort.effort().map_err(Failure::Option)?;
+    let effort = args.effort.effort();
     let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
-    loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+    loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let problem = &loaded.problem;
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let mut answers = Vec::new();
     let mut rows = Vec::new();
     for method in methods {
         if !args.quiet {
-            eprintln!("{method} ...");
+            output::say(&format!("{method} ..."));
         }
         let answer = solve(problem, method, &effort, &mut |text| {
             if !args.quiet {
-                eprintln!("{text}");
+                output::say(text);
             }
         });
         rows.push(row(problem, &answer, args.effort.period)?);
@@ -72,6 +72,7 @@ fn row(problem: &Problem, answer: &Answer, period: f64) -> Result<Row, Failure> 
         build: seconds(answer.stages.build),
         query: seconds(answer.stages.query),
         certify: seconds(answer.stages.certify),
+        note: answer.run.note,
     };
     match &answer.verdict {
         Verdict::Found(certified) => {

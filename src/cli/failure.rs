@@ -1,4 +1,4 @@
-//! What ends a job with exit code 1.
+//! What ends a job before its result: exit code 1, or 2 for a wrong command line.
 
 use crate::draw::DrawError;
 use crate::input::InputError;
@@ -20,7 +20,17 @@ pub enum Failure {
     /// A picture.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// An option's value.
+    /// What an option asks for cannot be done.
     #[error("{0}")]
     Option(String),
+    /// A wrong command line.
+    #[error("{0}")]
+    Usage(String),
+}
+
+impl Failure {
+    /// The process's exit code.
+    pub fn exit_code(&self) -> u8 {
+        if matches!(self, Self::Usage(_)) { super::USAGE } else { super::BAD_INPUT }
+    }
 }

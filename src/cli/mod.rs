@@ -18,6 +18,8 @@ use std::process::ExitCode;
 const DONE: u8 = 0;
 /// Exit code: bad input or I/O.
 const BAD_INPUT: u8 = 1;
+/// Exit code: wrong command line, as clap has it.
+const USAGE: u8 = 2;
 /// Exit code: there is no path, proven.
 const INFEASIBLE: u8 = 3;
 /// Exit code of `verify`: a proven collision, or a limit that is broken.
@@ -37,7 +39,7 @@ pub fn run() -> ExitCode {
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };
     ExitCode::from(done.unwrap_or_else(|failure: Failure| {
-        eprintln!("error: {failure}");
-        BAD_INPUT
+        output::say(&format!("error: {failure}"));
+        failure.exit_code()
     }))
 }

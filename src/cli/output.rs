@@ -5,7 +5,7 @@ use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, Picture};
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Verdict};
-use crate::trajectory::{Format, Report, write_whole};
+use crate::trajectory::{Format, Report, check_writable, write_whole};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -53,16 +53,17 @@ const PICTURE_TOLERANCE: f64 = 1e-3;
 /// What the file names ask for, checked before any work is done.
 ///
 /// # Errors
-/// Extensions that are none of ours.
+/// Extensions that are none of ours, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
     let mut sinks = Vec::new();
     for path in results {
-        let format = Format::from_path(path).map_err(|e| Failure::Option(e.to_string()))?;
+        let format = Format::from_path(path).map_err(|e| Failure::Usage(e.to_string()))?;
         sinks.push(Sink::Result(format, path.clone()));
     }
     for path in pictures {
         sinks.push(Sink::Picture(picture_format(path)?, path.clone()));
     }
+    sinks.iter().try_for_each(|sink| check_writable(sink.path()))?;
     Ok(sinks)
 }
 
@@ -75,7 +76,7 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
     match extension.as_deref() {
         Some("svg") => Ok(PictureFormat::Svg),
         Some("png") => Ok(PictureFormat::Png),
-        _ => Err(Failure::Option(format!("{}: a picture's name must end in .svg or .png", path.display()))),
+        _ => Err(Failure::Usage(format!("{}: a picture's name must end in .svg or .png", path.display()))),
     }
 }
 
@@ -86,7 +87,7 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
 pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), Failure> {
     match format.text(report) {
         Some(text) => write_whole(path, text.as_bytes())?,
-        None => eprintln!("warning: {} is not written: there is no trajectory to put into it", path.display()),
+        None => say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display())),
     }
     Ok(())
 }
@@ -160,6 +161,11 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
         }
     }
     Ok(())
+}
+
+/// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// Prints on stdout. A reader that has seen enough (`cplan ... | head`) is no error.

@@ -17,13 +17,13 @@ use crate::trajectory::{Report, time};
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
-    let effort = args.effort.effort().map_err(Failure::Option)?;
+    let effort = args.effort.effort();
     let mut clock = Clock::start();
     let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {
-            eprintln!("{text}");
+            output::say(text);
         }
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
@@ -32,7 +32,9 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     clock.stages(&answer.stages);
     let mut report = report(problem, &answer, args.effort.period)?;
     clock.stage("trajectory");
-    report.timings = clock.milliseconds();
+    if args.timings {
+        report.timings = clock.milliseconds();
+    }
     for sink in &sinks {
         match sink {
             Sink::Result(format, path) => output::write_result(*format, path, &report)?,

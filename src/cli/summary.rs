@@ -86,13 +86,17 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
         lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
     }
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
-    let obstacles = scene.workspace.obstacles.len();
-    lines.push(("world", format!("{}, {obstacles} obstacles", non_empty(&scene.workspace.name))));
+    let obstacles = match scene.workspace.obstacles.len() {
+        1 => "1 obstacle".to_owned(),
+        n => format!("{n} obstacles"),
+    };
+    lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace.name))));
     lines.push(("start", configuration(arm, loaded.problem.start)));
     for &goal in &loaded.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
     lines.push(("planner", format!("{}: {}", answer.method, size(answer.run.size))));
+    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();

@@ -65,8 +65,9 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
     match trace {
         Trace::Roadmap { .. } => vec![(line(EDGE), "visibility graph".to_owned())],
-        Trace::Channel { .. } => {
-            vec![(line(EDGE), "cells".to_owned()), (Sign::Swatch(CHANNEL), "channel".to_owned())]
+        Trace::Channel { channel, .. } => {
+            let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
+            [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()
         }
         Trace::Wavefront { .. } => Vec::new(),
         Trace::Field { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
@@ -223,6 +224,15 @@ mod tests {
         assert_eq!(lines.len(), 1);
         let [from, to] = [lines[0][0][0], lines[0][lines[0].len() - 1][0]];
         assert!(from.min(to) < -std::f64::consts::PI && from.max(to) > std::f64::consts::PI);
+    }
+
+    #[test]
+    fn a_channel_is_explained_only_where_there_is_one() {
+        let names = |channel: Vec<usize>| -> Vec<String> {
+            keys(&Trace::Channel { cells: Vec::new(), channel }).into_iter().map(|key| key.1).collect()
+        };
+        assert_eq!(names(vec![0]), ["cells", "channel"]);
+        assert_eq!(names(Vec::new()), ["cells"]);
     }
 
     #[test]

@@ -15,13 +15,13 @@ pub enum PolygonDefect {
         count: usize,
     },
     /// A coordinate is infinite or not a number.
-    #[error("corner {corner} has a coordinate that is not finite")]
+    #[error("corner {} has a coordinate that is not finite", corner + 1)]
     NotFinite {
         /// The corner.
         corner: usize,
     },
     /// Two corners lie in the same place.
-    #[error("corners {first} and {second} coincide")]
+    #[error("corners {} and {} coincide", first + 1, second + 1)]
     RepeatedCorner {
         /// The one that comes first in the list.
         first: usize,
@@ -32,13 +32,13 @@ pub enum PolygonDefect {
     #[error("all corners lie on one line: the polygon has no area")]
     NoArea,
     /// The boundary turns back on itself.
-    #[error("the side after corner {corner} folds back onto the side before it")]
+    #[error("the side after corner {} folds back onto the side before it", corner + 1)]
     Spike {
         /// The corner at the tip.
         corner: usize,
     },
     /// Two sides cross.
-    #[error("sides {first} and {second} cross")]
+    #[error("sides {} and {} cross", first + 1, second + 1)]
     SidesCross {
         /// The lower index.
         first: usize,
@@ -46,7 +46,7 @@ pub enum PolygonDefect {
         second: usize,
     },
     /// Two sides that are no neighbours touch or overlap.
-    #[error("sides {first} and {second} touch")]
+    #[error("sides {} and {} touch", first + 1, second + 1)]
     SidesTouch {
         /// The lower index.
         first: usize,

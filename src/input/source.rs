@@ -1,7 +1,8 @@
 //! A text file and positions in it.
 
 use super::error::{Defect, InputError};
-use std::io::Read;
+use std::fs::File;
+use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -21,8 +22,21 @@ pub(super) struct Source {
     pub text: String,
 }
 
-/// Larger files are refused: a recording of some million samples is smaller. Also ends the reading of devices.
+/// Bytes of the largest file that is read. Real ones, meshes included, stay far below; a device that never ends does not.
 const LARGEST_FILE: u64 = 256 << 20;
+
+/// A file's content.
+///
+/// # Errors
+/// I/O, and a file larger than [`LARGEST_FILE`].
+pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(io::Error::other(format!("it is larger than {} MiB", LARGEST_FILE >> 20)));
+    }
+    Ok(bytes)
+}
 
 /// Characters of a long source line that an excerpt shows on either side of the place.
 const EXCERPT_REACH: usize = 60;
@@ -30,18 +44,10 @@ const EXCERPT_REACH: usize = 60;
 impl Source {
     /// Reads a file as UTF-8, without a byte order mark.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let mut bytes = Vec::new();
-        let read = std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
-        read.map_err(|error| {
+        let bytes = read_bounded(path).map_err(|error| {
             Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
                 .cure("check the path and the file's permissions")
         })?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            let message = format!("is larger than {} MiB", LARGEST_FILE >> 20);
-            return Err(Defect::new(path.display().to_string(), message)
-                .cure("split it, or thin out its samples")
-                .into());
-        }
         let text = String::from_utf8(bytes).map_err(|error| {
             Defect::new(
                 path.display().to_string(),
@@ -78,7 +84,7 @@ impl Source {
         let position = self.position(range.start);
         Defect {
             position: Some(position),
-            excerpt: Some(self.excerpt(position, range.len())),
+            excerpt: Some(self.excerpt(position, self.text.get(range).map_or(1, |text| text.chars().count()))),
             ..Defect::new(self.name(), message)
         }
     }
@@ -117,6 +123,12 @@ mod tests {
         let s = source("first\n  radius = -1\n");
         let shown = s.defect_at(17..19, "bad").to_string();
         assert_eq!(shown, "a.toml: line 2, column 12: bad\n  2 |   radius = -1\n    |            ^^");
+    }
+
+    #[test]
+    fn carets_count_characters() {
+        let shown = source("\"\u{e4}\" = 1\n").defect_at(0..4, "bad").to_string();
+        assert!(shown.ends_with("| ^^^"), "{shown}");
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Joint values and points given on the command line.
 
 use super::error::Defect;
+use super::world::LARGEST;
 use crate::geometry::Point;
 use crate::model::Joint;
 use crate::space::Configuration;
@@ -93,7 +94,8 @@ fn pair(text: &str) -> Result<[&str; 2], String> {
 
 fn finite(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) if value.abs() <= LARGEST => Ok(value),
+        Ok(value) if value.is_finite() => Err(format!("{value:e} is too large (at most {LARGEST:e})")),
         Ok(_) => Err(format!("\"{text}\" is not a finite number")),
         Err(_) => Err(format!("\"{text}\" is not a number")),
     }
@@ -140,6 +142,7 @@ mod tests {
             ("a,2", "\"a\" is not a number"),
             ("1,nan", "finite"),
             ("inf,1", "finite"),
+            ("1e300,0", "too large"),
             ("deg,1", "not a number"),
             ("", "found 1"),
         ] {

@@ -96,7 +96,7 @@ struct CircleTable {
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
-const LARGEST: f64 = 1e6;
+pub(super) const LARGEST: f64 = 1e6;
 
 /// Reads a world file.
 ///
@@ -109,8 +109,8 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
         return Err(defect.cure("give the URDF first and the world file second").into());
     }
     let file: WorldFile = toml::from_str(&source.text).map_err(|error| match error.span() {
-        Some(span) => source.defect_at(span, error.message()),
-        None => source.defect(error.message()),
+        Some(span) => source.defect_at(span, in_toml_words(error.message())),
+        None => source.defect(in_toml_words(error.message())),
     })?;
     let reader = Reader { source: &source };
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
@@ -125,6 +125,14 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
         robot: file.robot,
         source,
     })
+}
+
+/// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
+fn in_toml_words(message: &str) -> String {
+    message
+        .replace("unknown field", "unknown key")
+        .replace("missing field", "missing key")
+        .replace("expected f64", "expected a number")
 }
 
 /// Checks values and knows the file they come from.

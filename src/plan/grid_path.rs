@@ -3,8 +3,7 @@
 use super::attach::{Attachment, Joined};
 use super::{Query, shortcut};
 use crate::cspace::Grid;
-use crate::space::{Axis, Configuration, Path};
-use std::f64::consts::TAU;
+use crate::space::{Configuration, Path};
 
 /// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
 pub(super) fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
@@ -58,15 +57,6 @@ pub(super) fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line 
     line
 }
 
-/// The copy of `q` nearest to `near`: exactly `q` where no turn is added.
-pub(super) fn copy_near(grid: &Grid, q: Configuration, near: Configuration) -> Configuration {
-    let copy = |k: usize| match grid.topology.axes[k] {
-        Axis::Interval { .. } => q[k],
-        Axis::Circle => q[k] + TAU * ((near[k] - q[k]) / TAU).round(),
-    };
-    Configuration::new(copy(0), copy(1))
-}
-
 /// The goal that a path ending at `cell` goes to: of those joined there the nearest to `near` (the unwrapped centre of
 /// the cell), as its nearest copy.
 fn goal_at<'a>(
@@ -78,7 +68,7 @@ fn goal_at<'a>(
 ) -> Option<(Configuration, &'a Attachment)> {
     let here = query.goals.iter().zip(&joined.goals).filter_map(|(&goal, attachment)| {
         let attachment = attachment.as_ref().filter(|attachment| attachment.cells.contains(&cell))?;
-        Some((copy_near(grid, goal, near), attachment))
+        Some((grid.topology.lift(goal, near), attachment))
     });
     here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
 }

@@ -1,9 +1,9 @@
 //! The harmonic field planner.
 
 use super::attach::Joined;
-use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
+use super::{Note, Outcome, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::field::{Component, Lattice, Potential, harmonic, rough_harmonic};
+use crate::field::{Component, Lattice, Potential, Progress, harmonic, rough_harmonic};
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
 /// circles) and climbs it by the greatest neighbour (Connolly, Grupen 1993).
@@ -45,6 +45,7 @@ impl Planner for Harmonic {
             outcome: Outcome::GaveUp(reason),
             trace: Trace::Field { cells: space.cells, potential: vec![f64::NEG_INFINITY; space.blocked.len()] },
             size: Size::Grid { cells: 0, sweeps: 0 },
+            note: None,
         };
         if !self.factor.is_none_or(|factor| (1.0..2.0).contains(&factor)) {
             return gave_up("the relaxation factor must be at least 1 and less than 2".into());
@@ -61,17 +62,20 @@ impl Planner for Harmonic {
                 outcome: Outcome::NoPath,
                 trace: trace(space, &component, &rough_harmonic(&component)),
                 size: Size::Grid { cells: component.len(), sweeps: 0 },
+                note: None,
             };
         };
         let field = harmonic(&component, self.factor, self.tolerance, self.max_sweeps);
-        let size = Size::Grid { cells: component.len(), sweeps: field.progress.sweeps };
+        let Progress { sweeps, change, converged } = field.progress;
+        let size = Size::Grid { cells: component.len(), sweeps };
+        let note = (!converged).then_some(Note::Unconverged { sweeps, change });
         let trace = trace(space, &component, &field.potential);
         let path = field.potential.ascend(&component, start).and_then(|positions| {
             let cells: Vec<usize> = positions.into_iter().map(|at| component.cells[at] as usize).collect();
             grid_path::path(space, query, &joined, &cells, self.shortcut)
         });
         let outcome = path.map_or_else(|| Outcome::GaveUp("the field has a local maximum".into()), Outcome::Found);
-        Run { outcome, trace, size }
+        Run { outcome, trace, size, note }
     }
 }
 

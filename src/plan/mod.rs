@@ -93,6 +93,32 @@ pub enum Trace {
     },
 }
 
+/// What a run that ended well has to add.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Note {
+    /// The field was not relaxed to the tolerance asked for: the way through it is a way, but not the one that the
+    /// harmonic function would show.
+    Unconverged {
+        /// Passes over all cells, until the limit.
+        sweeps: usize,
+        /// Greatest relative change of a value in the last sweep that was measured.
+        change: f64,
+    },
+}
+
+impl std::fmt::Display for Note {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unconverged { sweeps, change } => {
+                write!(
+                    f,
+                    "not converged: relaxation stopped after {sweeps} sweeps, at a relative change of {change:.1e}"
+                )
+            }
+        }
+    }
+}
+
 /// A planner's answer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
@@ -102,6 +128,8 @@ pub struct Run {
     pub trace: Trace,
     /// How much was built.
     pub size: Size,
+    /// What to know about the outcome beyond it.
+    pub note: Option<Note>,
 }
 
 /// A planner: settings are the fields of the implementing type.

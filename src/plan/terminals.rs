@@ -4,7 +4,6 @@ use super::Query;
 use super::boundary::Boundary;
 use crate::cspace::Regions;
 use crate::geometry::Point;
-use std::f64::consts::TAU;
 
 /// Ends of the paths that answer a query.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,14 +45,6 @@ fn shown(p: Point) -> String {
 
 /// The copies of `p`, shifted by whole turns along circle axes, within the window; on intervals `p` as it is.
 fn window_copies(regions: &Regions, p: Point) -> Vec<Point> {
-    let values = |k: usize| -> Vec<f64> {
-        if !regions.topology.axes[k].is_circle() {
-            return vec![p[k]];
-        }
-        let (lower, upper) = regions.window[k];
-        let turns = ((lower - p[k]) / TAU).ceil() as i64..=((upper - p[k]) / TAU).floor() as i64;
-        turns.map(|turn| p[k] + turn as f64 * TAU).collect()
-    };
-    let seconds = values(1);
-    values(0).into_iter().flat_map(|x| seconds.iter().map(move |&y| Point::new(x, y))).collect()
+    let values = |k: usize| regions.topology.axes[k].copies_within(p[k], regions.window[k]);
+    values(0).flat_map(|x| values(1).map(move |y| Point::new(x, y))).collect()
 }

@@ -93,6 +93,7 @@ impl Planner for Trapezoid {
             outcome,
             trace: Trace::Channel { cells: map.corners.clone(), channel },
             size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.doors.len() },
+            note: None,
         }
     }
 }

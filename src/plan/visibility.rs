@@ -87,6 +87,7 @@ impl Planner for Visibility {
             outcome,
             trace: Trace::Roadmap { edges },
             size: Size::Graph { nodes: graph.node_count(), edges: graph.edge_count() },
+            note: None,
         }
     }
 }

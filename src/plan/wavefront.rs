@@ -40,6 +40,7 @@ impl Planner for Wavefront {
                     outcome: Outcome::GaveUp(reason),
                     trace: Trace::Wavefront { cells: space.cells, labels },
                     size: Size::Grid { cells: 0, sweeps: 0 },
+                    note: None,
                 };
             }
         };
@@ -51,6 +52,7 @@ impl Planner for Wavefront {
             outcome: path.map_or(Outcome::NoPath, Outcome::Found),
             trace: Trace::Wavefront { cells: space.cells, labels: wave.labels(map) },
             size: Size::Grid { cells: wave.reached(), sweeps: wave.levels },
+            note: None,
         }
     }
 }

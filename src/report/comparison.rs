@@ -1,7 +1,7 @@
 //! Several planners on one problem.
 
 use super::table::{Align, Column, Table};
-use crate::plan::Size;
+use crate::plan::{Note, Size};
 
 /// What one planner did. What it did not come to is missing.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +24,8 @@ pub struct Row {
     pub query: Option<f64>,
     /// Computing time of the certificate, seconds.
     pub certify: Option<f64>,
+    /// What the planner has to add.
+    pub note: Option<Note>,
 }
 
 /// The rows, and what they are about.
@@ -52,10 +54,12 @@ impl Comparison {
         if length == best { Some(1.0) } else { Some(length / best).filter(|r| r.is_finite()) }
     }
 
-    /// An aligned table for a terminal, units in the header, `-` where there is nothing. Ends in a newline.
+    /// An aligned table for a terminal, units in the header, `-` where there is nothing; below it the planners' notes,
+    /// a line each. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        self.table().to_text()
+        let noted = self.rows.iter().filter_map(|row| row.note.map(|note| format!("{}: {note}\n", row.planner)));
+        self.table().to_text() + &noted.collect::<String>()
     }
 
     /// The same table in Markdown.
@@ -68,7 +72,7 @@ impl Comparison {
     #[must_use]
     pub fn to_csv(&self) -> String {
         const HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,\
-                              build_s,query_s,certify_s\n";
+                              build_s,query_s,certify_s,note\n";
         let mut text = HEADER.to_owned();
         for row in &self.rows {
             let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
@@ -87,6 +91,7 @@ impl Comparison {
                 number(row.build),
                 number(row.query),
                 number(row.certify),
+                row.note.map_or_else(String::new, |note| quoted(&note.to_string())),
             ];
             text.push_str(&fields.join(","));
             text.push('\n');
@@ -112,6 +117,7 @@ impl Comparison {
                 "duration": row.duration,
                 "size": size,
                 "time": { "build": row.build, "query": row.query, "certify": row.certify },
+                "note": row.note.map(|note| note.to_string()),
             })
         };
         serde_json::json!({
@@ -196,6 +202,7 @@ mod tests {
                     build: Some(0.0021),
                     query: Some(0.000_412),
                     certify: Some(0.001),
+                    note: None,
                 },
                 Row {
                     planner: "harmonic".to_owned(),
@@ -207,6 +214,7 @@ mod tests {
                     build: Some(0.0),
                     query: Some(1.5),
                     certify: None,
+                    note: Some(Note::Unconverged { sweeps: 40, change: 2.5e-4 }),
                 },
                 Row {
                     planner: "a, \"b\" | c".to_owned(),
@@ -218,6 +226,7 @@ mod tests {
                     build: None,
                     query: Some(f64::NAN),
                     certify: None,
+                    note: None,
                 },
             ],
         }
@@ -231,6 +240,7 @@ mod tests {
     visibility  found          4.0000  1.000           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000
     harmonic    found          5.0000  1.250          12.500       4.000  65536 cells, 40 sweeps       0.000    1500.000             -
     a, "b" | c  unknown             -      -               -           -  -                                -           -             -
+    harmonic: not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4
     "#);
     }
 
@@ -248,10 +258,10 @@ mod tests {
     #[test]
     fn csv_is_quoted_and_has_empty_fields() {
         insta::assert_snapshot!(example().to_csv(), @r#"
-    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,build_s,query_s,certify_s
-    visibility,found,4,1,0.0011,3.25,512,2300,,,0.0021,0.000412,0.001
-    harmonic,found,5,1.25,0.0125,4,,,65536,40,0,1.5,
-    "a, ""b"" | c",unknown,,,,,,,,,,,
+    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,build_s,query_s,certify_s,note
+    visibility,found,4,1,0.0011,3.25,512,2300,,,0.0021,0.000412,0.001,
+    harmonic,found,5,1.25,0.0125,4,,,65536,40,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4"
+    "a, ""b"" | c",unknown,,,,,,,,,,,,
     "#);
     }
 

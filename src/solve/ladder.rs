@@ -37,6 +37,10 @@ const FIRST_BOXES: usize = 20_000;
 /// Of the room that start and goal have, the margin leaves at least half.
 const ROOM: f64 = 0.5;
 
+/// Least margin, as a share of the reach: where start or goals have no room at all beyond the clearance to keep, they are
+/// outside of polygons with any margin, and the planner says so. Far above the rounding of contours.
+const LEAST_MARGIN: f64 = 1e-10;
+
 /// Turns of the universal cover to plan in, on either side of the start.
 const PERIODS: usize = 1;
 
@@ -142,7 +146,8 @@ fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions>
     let room = |q| scene.clearance(q) - scene.workspace.clearance;
     let ends = problem.goals.iter().copied().chain([problem.start]);
     let tightest = ends.map(room).fold(f64::INFINITY, f64::min);
-    let margin = (effort.margin * reach).min(ROOM * tightest) * 0.25_f64.powi(level as i32);
+    let wanted = (effort.margin * reach).min(ROOM * tightest) * 0.25_f64.powi(level as i32);
+    let margin = wanted.max(LEAST_MARGIN * reach);
     Some(regions(scene, margin, problem.start, PERIODS))
 }
 

@@ -47,6 +47,7 @@ impl Path {
     /// Euclidean length in joint space (rad and m as they come).
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.segments().map(|(a, b)| (b - a).norm()).sum()
+        // Not `sum`: of nothing it is -0.
+        self.segments().map(|(a, b)| (b - a).norm()).fold(0.0, |length, piece| length + piece)
     }
 }

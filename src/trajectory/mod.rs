@@ -19,4 +19,4 @@ pub use format::{Format, UnknownFormat};
 pub use result::{INTERPOLATION, Report, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory, time};
-pub use whole_file::{WriteError, write_whole};
+pub use whole_file::{WriteError, check_writable, write_whole};

@@ -25,7 +25,9 @@ pub enum Status {
     Unknown,
 }
 
-/// The result of a run. [`Report::json`] writes the fields in this order and leaves out those that are `None` or empty.
+/// The result of a run. [`Report::json`] writes the fields in this order. Those that a
+/// script relies on are always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the others
+/// are left out when `None` or empty.
 ///
 /// Numbers are finite; radians for a revolute joint and metres for a prismatic one, and seconds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -45,17 +47,13 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Waypoints, straight segments between them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<Vec<[f64; 2]>>,
     /// Euclidean length of the path in joint space.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub length: Option<f64>,
-    /// Whether the whole continuous motion was shown free of collision. Absent without a path.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub certified: Option<bool>,
-    /// Proven lower bound on the distance between arm and obstacles along the path, metres. Absent without a path, and
+    /// Whether the whole continuous motion was shown free of collision; false without a path.
+    pub certified: bool,
+    /// Proven lower bound on the distance between arm and obstacles along the path, metres. None without a path, and
     /// where nothing can be hit: then it is infinite, for which JSON has no word.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The link and the obstacle that come closest, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -63,7 +61,8 @@ pub struct Report {
     /// How much the planner built: `nodes` and `edges`, or `cells` and `sweeps`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub size: BTreeMap<&'static str, usize>,
-    /// Stages in the order in which they ran, with the milliseconds that each took.
+    /// Stages in the order in which they ran, with the milliseconds that each took; empty unless asked for, because they
+    /// differ from run to run and nothing else in a result does.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
     pub timings: Vec<(String, f64)>,
     /// Of the motion, seconds.
@@ -73,7 +72,6 @@ pub struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<&'static str>,
     /// The motion.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub trajectory: Option<Trajectory>,
 }
 
@@ -86,7 +84,7 @@ impl Report {
         Self {
             path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
             length: Some(path.length()),
-            certified: Some(true),
+            certified: true,
             clearance: clearance.is_finite().then_some(clearance),
             duration: Some(trajectory.duration()),
             interpolation: Some(INTERPOLATION),
@@ -117,7 +115,7 @@ impl Report {
             reason: None,
             path: None,
             length: None,
-            certified: None,
+            certified: false,
             clearance: None,
             closest: None,
             size: BTreeMap::new(),

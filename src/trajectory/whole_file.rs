@@ -43,6 +43,38 @@ pub enum WriteError {
 /// [`WriteError`]; nothing is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
+    let Target { file: target, folder, kept } = target(path)?;
+    let mut file = new_temporary(&folder).map_err(refused)?;
+    file.write_all(bytes).map_err(refused)?;
+    if let Some(permissions) = kept {
+        file.as_file().set_permissions(permissions).map_err(refused)?;
+    }
+    file.persist(&target).map_err(|e| refused(e.error))?;
+    Ok(())
+}
+
+/// Whether a file of that name could be written, as far as can be told without writing: for jobs that would learn it
+/// only after long work.
+///
+/// # Errors
+/// [`WriteError`].
+pub fn check_writable(path: &Path) -> Result<(), WriteError> {
+    let Target { folder, .. } = target(path)?;
+    // Gone again at once: its name is never seen by anybody who does not look in this very moment.
+    new_temporary(&folder).map(drop).map_err(|source| WriteError::Refused { path: path.to_owned(), source })
+}
+
+/// Where a file is to be written.
+struct Target {
+    /// The file itself, behind a symbolic link.
+    file: PathBuf,
+    folder: PathBuf,
+    /// Permissions of the file that is there.
+    kept: Option<fs::Permissions>,
+}
+
+fn target(path: &Path) -> Result<Target, WriteError> {
+    let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
     let target = if path.is_symlink() { fs::canonicalize(path).map_err(refused)? } else { path.to_owned() };
     let kept = match fs::metadata(&target) {
         Ok(found) if found.is_file() => Some(found.permissions()),
@@ -57,13 +89,8 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     if !folder.is_dir() {
         return Err(WriteError::NoFolder { path: path.to_owned(), folder: folder.to_owned() });
     }
-    let mut file = new_temporary(folder).map_err(refused)?;
-    file.write_all(bytes).map_err(refused)?;
-    if let Some(permissions) = kept {
-        file.as_file().set_permissions(permissions).map_err(refused)?;
-    }
-    file.persist(&target).map_err(|e| refused(e.error))?;
-    Ok(())
+    let folder = folder.to_owned();
+    Ok(Target { file: target, folder, kept })
 }
 
 /// A temporary file with the permissions of an ordinary new one; by default nobody else could read it.

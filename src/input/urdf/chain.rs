@@ -180,7 +180,12 @@ impl Chooser<'_> {
             candidates.len(),
             list.join(", ")
         );
-        let example = [candidates[0], candidates[1]].map(|j| self.all()[j].name.as_str());
+        let turning = |j: usize| self.all()[j].joint_type != JointType::Prismatic;
+        let pairs = || candidates.iter().flat_map(|&a| candidates.iter().map(move |&b| [a, b]));
+        let serial = |[a, b]: &[usize; 2]| a != b && self.tree.carries(*a, self.tree.parent[*b]);
+        let likely = pairs().filter(serial).find(|pair| pair.iter().all(|j| turning(*j)));
+        let example = likely.or_else(|| pairs().find(serial)).unwrap_or([candidates[0], candidates[1]]);
+        let example = example.map(|j| self.all()[j].name.as_str());
         let cure = format!(
             "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values)",
             quoted(example)

@@ -1,5 +1,6 @@
 //! Mesh files: where they are, and their vertices.
 
+use crate::input::source::read_bounded;
 use nalgebra::Point3;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Path) -> Result<V
         return Err(format!("mesh \"{filename}\" is no STL file, and cplan reads no other mesh format"));
     }
     let path = find(filename, urdf)?;
-    let bytes = std::fs::read(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
+    let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
     let points = read_stl(bytes).map_err(|e| format!("mesh {}: {e}", path.display()))?;
     Ok(points.into_iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect())
 }

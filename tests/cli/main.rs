@@ -1,0 +1,85 @@
+//! The program from outside: arguments, streams, files and exit codes.
+
+mod commands;
+mod inputs;
+mod results;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A file of the repository.
+fn shipped(file: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+fn shelf() -> [String; 2] {
+    [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")]
+}
+
+/// Start and goal in free space for `planar_2r`.
+const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
+
+/// A folder to run the program in.
+struct Place(TempDir);
+
+/// What came of a run.
+struct Done {
+    code: i32,
+    stdout: String,
+    stderr: String,
+}
+
+impl Place {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, file: &str) -> PathBuf {
+        self.0.path().join(file)
+    }
+
+    fn write(&self, file: &str, content: impl AsRef<[u8]>) {
+        std::fs::write(self.path(file), content).unwrap();
+    }
+
+    fn read(&self, file: &str) -> String {
+        std::fs::read_to_string(self.path(file)).unwrap()
+    }
+
+    fn command(&self) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
+        command.current_dir(self.0.path()).stdin(Stdio::null());
+        command
+    }
+
+    fn run<S: AsRef<str>>(&self, files: &[S], options: &str) -> Done {
+        let mut command = self.command();
+        command.args(files.iter().map(AsRef::as_ref)).args(options.split_whitespace());
+        let Output { status, stdout, stderr } = command.output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Done { code: status.code().expect("no signal"), stdout: text(stdout), stderr: text(stderr) }
+    }
+
+    /// The main job on `planar_2r` with a world of its own.
+    fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
+        self.write("world.toml", world);
+        self.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], options)
+    }
+}
+
+impl Done {
+    /// Exit code, and nothing on stdout; the message has all `parts`.
+    fn refused(&self, code: i32, parts: &[&str]) {
+        assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
+        assert!(self.stderr.starts_with("error: ") && !self.stderr.contains("panicked"), "{}", self.stderr);
+        assert_eq!(self.stderr.matches("error: ").count(), 1, "{}", self.stderr);
+        for part in parts {
+            assert!(self.stderr.contains(part), "{part:?} is not in: {}", self.stderr);
+        }
+    }
+
+    fn json(&self) -> serde_json::Value {
+        serde_json::from_str(&self.stdout).expect("one JSON document and nothing else")
+    }
+}
