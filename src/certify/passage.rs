@@ -10,6 +10,10 @@ const TIGHTNESS: f64 = 0.9;
 /// Looks at pairs and spans of a motion before giving up: some seconds' worth.
 const MAX_EVALUATIONS: usize = 20_000_000;
 
+/// Looks that are left once some span stays open: the motion cannot be proven free any more, only a contact can still
+/// decide, and a motion that slides along an obstacle leaves spans open without end.
+const MORE_EVALUATIONS: usize = 200_000;
+
 /// Spans of a piece are halved down to this share of it: a nanosecond of a long one, and still far above what rounding
 /// does to a share.
 const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
@@ -92,6 +96,7 @@ pub fn passage(scene: &Scene, recording: &Recording, clearance: f64) -> Passage 
         hit: None,
         open: None,
         evaluations: 0,
+        budget: MAX_EVALUATIONS,
     };
     search.look_around();
     search.run();
@@ -151,6 +156,8 @@ struct Search<'a> {
     /// The earliest span that stayed open, and what was nearest there.
     open: Option<(Place, Encounter)>,
     evaluations: usize,
+    /// Evaluations after which spans are halved no more.
+    budget: usize,
 }
 
 impl Search<'_> {
@@ -207,7 +214,7 @@ impl Search<'_> {
             if pairs.is_empty() {
                 continue;
             }
-            match span.halves().filter(|_| self.evaluations < MAX_EVALUATIONS) {
+            match span.halves().filter(|_| self.evaluations < self.budget) {
                 Some([first, second]) => stack.extend([(second, pairs.clone()), (first, pairs)]),
                 None => self.leave_open(span, &pairs),
             }
@@ -256,6 +263,7 @@ impl Search<'_> {
         }
         if let (None, Some(nearest)) = (&self.open, nearest) {
             self.open = Some((span.start(), nearest));
+            self.budget = self.budget.min(self.evaluations + MORE_EVALUATIONS);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
-use super::{Names, Samples, Series};
+use super::{Names, Samples, Series, UNUSED};
 use crate::input::error::{Defect, InputError, quoted};
 use crate::input::source::Source;
 
@@ -97,7 +97,7 @@ impl Columns {
             notes.push(format!("columns that are not used: {}", quoted(unknown)));
         }
         if used.iter().any(|(_, m)| matches!(m, Meaning::Of(_, Quantity::Acceleration))) {
-            notes.push("accelerations in the file are not used: positions and velocities imply them".into());
+            notes.push(UNUSED.into());
         }
         used.retain(|(_, m)| !matches!(m, Meaning::Of(_, Quantity::Acceleration)));
         Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, notes })

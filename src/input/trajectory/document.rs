@@ -1,6 +1,6 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
-use super::{Names, Samples, Series};
+use super::{Samples, Series, UNUSED};
 use crate::input::error::{Defect, InputError};
 use crate::input::source::Source;
 use serde::Deserialize;
@@ -25,6 +25,7 @@ struct Inner {
     time: Option<Vec<f64>>,
     position: Option<Vec<Vec<f64>>>,
     velocity: Option<Vec<Vec<f64>>>,
+    acceleration: Option<Vec<Vec<f64>>>,
     joint_names: Option<Vec<String>>,
     points: Option<Vec<Point>>,
 }
@@ -36,6 +37,8 @@ struct Point {
     positions: Vec<f64>,
     #[serde(default)]
     velocities: Vec<f64>,
+    #[serde(default)]
+    accelerations: Vec<f64>,
     time_from_start: Option<Stamp>,
 }
 
@@ -63,7 +66,7 @@ impl Stamp {
 }
 
 /// Reads JSON.
-pub(super) fn json(source: &Source, _: &Names) -> Result<Samples, InputError> {
+pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
         let cure =
             "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
@@ -73,7 +76,7 @@ pub(super) fn json(source: &Source, _: &Names) -> Result<Samples, InputError> {
 }
 
 /// Reads YAML.
-pub(super) fn yaml(source: &Source, _: &Names) -> Result<Samples, InputError> {
+pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
     options.with_snippet = false;
     // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
@@ -132,6 +135,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
                     joint.velocity = Some(column);
                 }
             }
+            samples.notes.extend(inner.acceleration.map(|_| UNUSED.into()));
             return Ok(samples);
         }
     }
@@ -176,6 +180,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
                 .cure(format!("give all points their {what}, or none")));
         }
     }
+    let accelerated = points.iter().any(|p| !p.accelerations.is_empty());
     let mut time = Vec::new();
     let (mut positions, mut velocities) = (Vec::new(), Vec::new());
     for point in points {
@@ -184,6 +189,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
         velocities.push(point.velocities);
     }
     let mut samples = Samples { what: "points", ..Samples::default() };
+    samples.notes.extend(accelerated.then(|| UNUSED.into()));
     samples.time = (timed > 0).then_some(time);
     samples.joints = series(source, names, &positions, "positions of points")?;
     if moving > 0 {

@@ -19,6 +19,9 @@ use std::path::Path;
 /// a controller's jitter or six printed digits, less than what could matter to a collision.
 const STILL: f64 = 1e-4;
 
+/// What to say of accelerations in a file.
+const UNUSED: &str = "accelerations in the file are not used: positions and velocities imply them";
+
 /// A recorded motion and how it was read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadedRecording {
@@ -60,23 +63,21 @@ struct Samples {
 /// are no motion; with the place in the file and the cure.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    let read = match extension.as_deref() {
-        Some("json") => document::json,
-        Some("csv") => csv::read,
-        Some("yaml" | "yml") => document::yaml,
-        _ => {
-            let message = "cannot tell the format of this file";
-            return Err(Defect::new(path.display().to_string(), message)
-                .cure("name it .json (cplan), .csv, or .yaml (ROS 2 JointTrajectory)")
-                .into());
-        }
-    };
+    if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml")) {
+        return Err(Defect::new(path.display().to_string(), "cannot tell the format of this file")
+            .cure("name it .json (cplan), .csv, or .yaml (ROS 2 JointTrajectory)")
+            .into());
+    }
     let source = Source::read(path)?;
     let names = Names {
         arm: scene.scene.arm.joints.each_ref().map(|j| j.name.as_str()),
         held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
     };
-    let samples = read(&source, &names)?;
+    let samples = match extension.as_deref() {
+        Some("json") => document::json(&source)?,
+        Some("csv") => csv::read(&source, &names)?,
+        _ => document::yaml(&source)?,
+    };
     Ok(names.recording(&source, samples)?)
 }
 
