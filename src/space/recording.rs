@@ -93,7 +93,7 @@ impl Recording {
                 return Err(RecordingDefect::Count { positions: position.len(), what, others });
             }
         }
-        let outside = |value: f64, limit: f64| !(value.abs() <= limit);
+        let outside = |value: f64, limit: f64| value.is_nan() || value.abs() > limit;
         for sample in 0..position.len() {
             let rates = velocity.as_ref().map(|v| v[sample]);
             let numbers = [("position", Some(position[sample]), LARGEST_VALUE), ("velocity", rates, LARGEST_RATE)];

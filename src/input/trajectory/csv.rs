@@ -105,15 +105,16 @@ impl Columns {
 
     /// Puts the columns' values where they belong.
     fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
-        let mut found: Vec<(Option<Vec<f64>>, Option<Vec<f64>>)> = self.joints.iter().map(|_| (None, None)).collect();
+        let count = self.joints.len();
+        let (mut positions, mut velocities) = (vec![None; count], vec![None; count]);
         for ((_, meaning), column) in self.used.into_iter().zip(values) {
             match meaning {
                 Meaning::Time => samples.time = Some(column),
-                Meaning::Of(joint, Quantity::Velocity) => found[joint].1 = Some(column),
-                Meaning::Of(joint, _) => found[joint].0 = Some(column),
+                Meaning::Of(joint, Quantity::Velocity) => velocities[joint] = Some(column),
+                Meaning::Of(joint, _) => positions[joint] = Some(column),
             }
         }
-        for (name, (position, velocity)) in self.joints.into_iter().zip(found) {
+        for ((name, position), velocity) in self.joints.into_iter().zip(positions).zip(velocities) {
             if let Some(position) = position {
                 samples.joints.push(Series { name, position, velocity });
             }

@@ -135,8 +135,8 @@ impl Names<'_> {
         let Some((_, held)) = self.held.iter().find(|(held, _)| held == name) else {
             return Ok(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
         };
-        // NaN is no value to stand still at.
-        match other.position.iter().position(|v| !((v - held).abs() <= STILL)) {
+        let moves = |v: &f64| v.is_nan() || (v - held).abs() > STILL;
+        match other.position.iter().position(moves) {
             None => Ok(format!("joint \"{name}\" stands still at {held}, as it should: ignored")),
             Some(sample) => {
                 let value = other.position[sample];
