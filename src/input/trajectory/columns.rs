@@ -41,7 +41,7 @@ pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
             let with_word = |word: &&str| {
                 ["_", ".", "/"].iter().any(|s| is(&format!("{joint}{s}{word}")) || is(&format!("{word}{s}{joint}")))
             };
-            if words.iter().any(with_word) || (quantity == Quantity::Position && is(joint)) {
+            if words.iter().any(with_word) || (quantity == Quantity::Position && column == *joint) {
                 found.push(Meaning::Of(index, quantity));
             }
         }
