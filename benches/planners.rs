@@ -17,9 +17,19 @@ fn polygons(problem: &Problem) -> Regions {
     regions(&problem.scene, 1e-3 * problem.scene.arm.reach(), problem.start, 1)
 }
 
-/// As the program begins.
-fn cells(problem: &Problem) -> Grid {
-    outer_grid(&problem.scene, [256, 256], problem.scene.workspace.clearance)
+fn cells(problem: &Problem, n: usize) -> Grid {
+    outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance)
+}
+
+/// The cells along each axis at which the program finds a path: from 256 on doubled until there is one.
+fn sufficient(problem: &Problem) -> usize {
+    let query = Query { start: problem.start, goals: problem.goals.clone() };
+    let planner = Wavefront::default();
+    let finds = |&n: &usize| {
+        let space = cells(problem, n);
+        matches!(planner.query(&space, &planner.build(&space), &query).outcome, Outcome::Found(_))
+    };
+    [256, 512, 1024, 2048].into_iter().find(finds).expect("a path at the finest resolution")
 }
 
 fn shelf() -> Problem {
@@ -41,11 +51,12 @@ fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &Problem, planner
 
 fn planners(c: &mut Criterion) {
     for (name, problem) in [("problem A", scenes::problem_a()), ("shelf", shelf())] {
+        let n = sufficient(&problem);
         let mut group = c.benchmark_group(format!("{name}/space"));
         group.bench_function("polygons", |b| b.iter(|| polygons(black_box(&problem))));
-        group.bench_function("256 x 256 cells", |b| b.iter(|| cells(black_box(&problem))));
+        group.bench_function(format!("{n} x {n} cells"), |b| b.iter(|| cells(black_box(&problem), n)));
         group.finish();
-        let (regions, grid) = (polygons(&problem), cells(&problem));
+        let (regions, grid) = (polygons(&problem), cells(&problem, n));
         measure(c, name, &problem, &Visibility, &regions);
         measure(c, name, &problem, &Trapezoid::default(), &regions);
         measure(c, name, &problem, &Wavefront::default(), &grid);

@@ -28,7 +28,7 @@ fn main() {
         let test = polygon_test(&bar, &other);
         let depth = penetration_depth(&Convex::new(bar.clone(), 0.0), &Convex::new(other, 0.0));
         println!(
-            "{name:28}{:>6}{:>16}{:>16}{:>11}{depth:>10.3}",
+            "{name:28}{:>6}{:>16}{:>16}{:>11}{depth:>10.1e}",
             if test.meet { "yes" } else { "no" },
             test.b_inside.len(),
             test.a_inside.len(),

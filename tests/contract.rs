@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Benchmark, all_kinds, arm, benchmark, joint, link, q, rectangle, scene};
+use common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
@@ -102,11 +102,13 @@ fn polar(turn: Axis) -> Scene {
 
 #[test]
 fn paths_lead_from_the_start_to_a_goal_through_free_space() {
-    let (narrow, start, goal) = benchmark(Benchmark::A);
     let problems = [
         (gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]), query(q(-0.8, 0.0), &[q(0.8, 0.1)])),
         (polar(Axis::Circle), query(q(0.5, 1.2), &[q(-0.5, 0.7)])),
-        (narrow, query(start, &[goal])),
+        (
+            scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(0.7, 0.9, 0.4, 0.8)]),
+            query(q(0.0, 0.0), &[q(1.5, 0.3)]),
+        ),
     ];
     for (scene, query) in &problems {
         for (name, plan) in PLANNERS {

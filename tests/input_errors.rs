@@ -198,7 +198,7 @@ fn robot_tables_that_do_not_fit() {
     with_robot("velocity = { j1 = 0 }", &["line 3", "velocity of \"j1\" must be positive"]);
     with_robot("acceleration = { j1 = nan }", &["line 3", "acceleration of \"j1\""]);
     with_robot("bar = -1", &["line 3", "bar"]);
-    with_robot("fixd = {}", &["line 3, column 1", "unknown field `fixd`", "fixd = {}", "^^^^"]);
+    with_robot("fixd = {}", &["line 3, column 1", "unknown key `fixd`", "fixd = {}", "^^^^"]);
 }
 
 #[test]
@@ -212,7 +212,7 @@ fn obstacles_that_are_none() {
         ("polygon = [[5, nan], [6, 0], [7, 1]]", &["line 8, column 16", "not a finite number"]),
         ("polygon = [[5, 0, 1], [6, 0], [7, 1]]", &["line 8, column 12", "two numbers, found 3"]),
         ("circle = { center = [5, 0], radius = 0 }", &["line 8, column 38", "radius must be positive"]),
-        ("circle = { center = [5, 0], radius = 1, r = 2 }", &["line 8", "unknown field `r`"]),
+        ("circle = { center = [5, 0], radius = 1, r = 2 }", &["line 8", "unknown key `r`"]),
         ("polyline = [[5, 0]]", &["line 8", "at least two points"]),
         ("polyline = [[5, 0], [6, 0], [6, 0]]", &["line 8", "points 2 and 3"]),
         ("height = [0, 1]", &["line 6", "exactly one shape", "it has 0"]),
@@ -220,7 +220,7 @@ fn obstacles_that_are_none() {
         ("circle = { center = [5, 0], radius = 1 }\nheight = [1, 0]", &["line 9, column 10", "empty"]),
         ("circle = { center = [5e9, 0], radius = 1 }", &["line 8", "too large", "metres"]),
         ("circle = { center = 5 }", &["line 8, column 21", "^"]),
-        ("colour = \"red\"", &["line 8, column 1", "unknown field `colour`"]),
+        ("colour = \"red\"", &["line 8, column 1", "unknown key `colour`"]),
     ] {
         bad_world(shape, text, parts);
     }

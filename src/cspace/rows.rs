@@ -3,7 +3,7 @@
 use super::contact::{Hits, normalized, turning_from};
 use super::features::{Features, product};
 use super::sliding::{along_and_across, sliding_tracks};
-use crate::geometry::{Convex, Point, Vector};
+use crate::geometry::{Convex, Point, Vector, merge_in_place};
 use crate::model::{Joint, Motion, Pair, Scene};
 use crate::space::Configuration;
 use std::collections::BTreeMap;
@@ -258,15 +258,8 @@ impl Row {
     }
 
     fn merge(&mut self) {
-        self.scratch.clear();
-        self.scratch.extend(self.forbidden.iter().map(|f| f.interval));
-        self.scratch.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        for &[start, end] in &self.scratch {
-            match self.merged.last_mut() {
-                Some(last) if start <= last[1] => last[1] = last[1].max(end),
-                _ => self.merged.push([start, end]),
-            }
-        }
+        self.merged.extend(self.forbidden.iter().map(|f| f.interval));
+        merge_in_place(&mut self.merged);
     }
 }
 

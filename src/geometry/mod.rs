@@ -18,7 +18,7 @@ mod separation;
 pub use convex::Convex;
 pub use decompose::decompose;
 pub use hull::hull;
-pub use intervals::{Interval, Intervals, complement_into, merge_in_place, unroll_arc};
+pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
 pub use minkowski::{minkowski_difference, penetration_depth};
 pub use penetration::{

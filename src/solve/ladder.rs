@@ -1,10 +1,11 @@
 //! The ladder of refinement.
 
+use super::admission::{Admit, Ends};
 use super::{Answer, Method, Space, Stages, Verdict};
 use crate::certify::{Connectivity, Rejection, certify, connectivity};
 use crate::cspace::{Grid, Regions, outer_grid, regions};
 use crate::model::{Problem, Scene};
-use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::plan::{Harmonic, Outcome, Planner, Run, Trapezoid, Visibility, Wavefront};
 use std::time::Instant;
 
 /// How much to try before the answer is unknown.
@@ -34,13 +35,6 @@ const MOST_CELLS: usize = 2048;
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
 
-/// Of the room that start and goal have, the margin leaves at least half.
-const ROOM: f64 = 0.5;
-
-/// Least margin, as a share of the reach: where start or goals have no room at all beyond the clearance to keep, they are
-/// outside of polygons with any margin, and the planner says so. Far above the rounding of contours.
-const LEAST_MARGIN: f64 = 1e-10;
-
 /// Turns of the universal cover to plan in, on either side of the start.
 const PERIODS: usize = 1;
 
@@ -67,10 +61,9 @@ fn climb<P: Planner>(
     build: Builder<P::Space>,
 ) -> Answer
 where
-    P::Space: Into<Space> + Described,
+    P::Space: Into<Space> + Described + Admit,
 {
     let clearance = problem.scene.workspace.clearance;
-    let query = Query { start: problem.start, goals: problem.goals.clone() };
     let mut stages = Stages::default();
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
@@ -81,12 +74,13 @@ where
         let map = planner.build(&space);
         stages.build += clock.elapsed();
         let clock = Instant::now();
-        let run = planner.query(&space, &map, &query);
+        let ends = Ends::new(problem, &space);
+        let run = planner.query(&space, &map, &ends.query);
         stages.query += clock.elapsed();
         let failure = match &run.outcome {
             Outcome::Found(path) => {
                 let clock = Instant::now();
-                let certified = certify(&problem.scene, path.clone(), clearance);
+                let certified = certify(&problem.scene, ends.complete(path), clearance);
                 stages.certify += clock.elapsed();
                 match certified {
                     Ok(path) => {
@@ -139,16 +133,10 @@ fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict
     proof.map(Verdict::Infeasible)
 }
 
-/// Polygons grown by the level's margin, less where start or goals have little room.
+/// Polygons grown by the level's margin.
 fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
-    let scene = &problem.scene;
-    let reach = scene.arm.reach();
-    let room = |q| scene.clearance(q) - scene.workspace.clearance;
-    let ends = problem.goals.iter().copied().chain([problem.start]);
-    let tightest = ends.map(room).fold(f64::INFINITY, f64::min);
-    let wanted = (effort.margin * reach).min(ROOM * tightest) * 0.25_f64.powi(level as i32);
-    let margin = wanted.max(LEAST_MARGIN * reach);
-    Some(regions(scene, margin, problem.start, PERIODS))
+    let margin = effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level as i32);
+    Some(regions(&problem.scene, margin, problem.start, PERIODS))
 }
 
 /// Cells of the level's size.

@@ -4,6 +4,7 @@
 //! Planners see approximations of the configuration space, so their paths are proposals. What leaves this module as
 //! found has passed [`crate::certify`], what leaves it as infeasible is proven there.
 
+mod admission;
 mod ladder;
 mod method;
 

@@ -101,10 +101,11 @@ fn look(problem: &Problem, seed: u64, effort: &Effort, lattice: usize, counts: &
         lies.push(format!("{} {seed}: infeasible by {method}, found by another", problem.scene.arm.kind()));
     }
     // Both roadmaps see the same polygons on the same level, and the visibility graph holds a shortest path in them.
-    if let [Some((shortest, _, level)), Some((other, _, at)), ..] = lengths {
-        if level == at && shortest > other * (1.0 + ROUNDING) {
-            lies.push(format!("{} {seed}: visibility {shortest}, trapezoid {other}", problem.scene.arm.kind()));
-        }
+    if let [Some((shortest, _, level)), Some((other, _, at)), ..] = lengths
+        && level == at
+        && shortest > other * (1.0 + ROUNDING)
+    {
+        lies.push(format!("{} {seed}: visibility {shortest}, trapezoid {other}", problem.scene.arm.kind()));
     }
     // A path that keeps more than the first margin lies in those polygons, unless it turns more often than they do.
     if let Some((shortest, _, _)) = lengths[0] {
