@@ -8,8 +8,15 @@ use crate::space::{Axis, Configuration, Derivative, Piece, Recording};
 /// and six printed digits make of it, and no drive tells the two apart.
 const TOLERANCE: f64 = 1e-6;
 
-/// Numbers are taken to be rounded in their last decimal, but to be exact to this many at least: `0.5` means a half.
-const LEAST_DECIMALS: i32 = 6;
+/// Numbers with this many decimals or more are taken to be rounded in the last one.
+const ROUNDED_FROM: i32 = 6;
+
+/// Numbers with fewer are as they were meant (`0.5` is a half, a time of `0.004` is the fourth millisecond), exact to
+/// this many decimals: the nanosecond in which ROS counts.
+const MEANT_TO: i32 = 9;
+
+/// Units in the last place by which doubles are taken to be off: what computing a sample, and the cubic through it, costs.
+const ULPS: f64 = 4.0;
 
 /// A limit of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,8 +68,8 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
             if recording.times().is_some() {
                 judge.velocity(index, piece, recording.velocities().is_some());
             }
-            if recording.velocities().is_some() {
-                judge.acceleration(index, piece);
+            if let Some([before, after]) = recording.velocities().and_then(|v| v.get(index..index + 2)) {
+                judge.acceleration(index, piece, [before[k], after[k]]);
             }
         }
         if let Some(velocities) = recording.velocities() {
@@ -125,7 +132,7 @@ impl Judge<'_> {
         }
     }
 
-    fn acceleration(&mut self, index: usize, piece: &Piece) {
+    fn acceleration(&mut self, index: usize, piece: &Piece, [before, after]: [f64; 2]) {
         let duration = piece.to - piece.from;
         if duration <= 0.0 {
             return;
@@ -134,8 +141,11 @@ impl Judge<'_> {
         // difference between the mean velocity and the mean of the velocities.
         let in_middle = 2.0 * self.precision.velocity / duration;
         let at_ends = in_middle + 6.0 * (self.mean_velocity_error(piece) + self.precision.velocity) / duration;
-        for (u, may) in [(0.0, at_ends), (1.0, at_ends), (0.5, in_middle)] {
-            let value = piece.derivative(Derivative::Acceleration, u)[self.k];
+        // The middle's is taken from the velocities: from the positions it would come with the errors of the ends.
+        let value = |u: f64| piece.derivative(Derivative::Acceleration, u)[self.k];
+        let places =
+            [(0.0, value(0.0), at_ends), (1.0, value(1.0), at_ends), (0.5, (after - before) / duration, in_middle)];
+        for (u, value, may) in places {
             let late = value.abs() * 2.0 * self.precision.time / duration;
             let over = value.abs() - self.joint.acceleration;
             if over > may + late + TOLERANCE * self.joint.acceleration {
@@ -199,7 +209,7 @@ impl Precision {
 
 /// Half a unit of the last decimal that any of the numbers has, plus the rounding of doubles of their size.
 fn rounding(values: impl Iterator<Item = f64>) -> f64 {
-    let (mut most, mut largest) = (LEAST_DECIMALS, 0.0_f64);
+    let (mut most, mut largest) = (0, 0.0_f64);
     for value in values {
         largest = largest.max(value.abs());
         // Doubles have no more than 17 digits: nothing finer is to be found.
@@ -207,7 +217,8 @@ fn rounding(values: impl Iterator<Item = f64>) -> f64 {
             most = most.max(decimals(value));
         }
     }
-    0.5 * 10f64.powi(-most) + 2.0 * f64::EPSILON * largest
+    let digits = if most < ROUNDED_FROM { MEANT_TO } else { most };
+    0.5 * 10f64.powi(-digits) + ULPS * f64::EPSILON * largest
 }
 
 /// Decimals of the shortest decimal number that reads as `value`.
@@ -227,7 +238,8 @@ mod tests {
         for (value, expected) in [(0.0, 0), (1.0, 0), (120.0, -1), (0.25, 2), (-3.125, 3), (1e-7, 7), (1.5e-7, 8)] {
             assert_eq!(decimals(value), expected, "{value}");
         }
-        assert_eq!(rounding([0.5, 1.0].into_iter()), 0.5e-6 + 2.0 * f64::EPSILON);
+        assert_eq!(rounding([0.5, 1.0].into_iter()), 0.5e-9 + ULPS * f64::EPSILON);
+        assert_eq!(rounding([0.5, 0.333_333].into_iter()), 0.5e-6 + 0.5 * ULPS * f64::EPSILON);
         assert!(rounding([0.123_456_789].into_iter()) < 0.6e-9);
     }
 }

@@ -87,6 +87,11 @@ fn rounded_numbers_of_a_motion_at_its_limits_break_none() {
             assert_eq!(ramps(4.0, h, decimals), [], "{decimals} decimals every {h} s");
         }
     }
+    // Doubles themselves are rounded: over such short times differences of positions say little.
+    for h in [1e-4, 1e-5] {
+        assert_eq!(ramps(4.0, h, 15), [], "every {h} s");
+        assert!(ramps(4.04, h, 15).iter().any(|e| e.limit == Limit::Acceleration), "every {h} s");
+    }
 }
 
 #[test]
