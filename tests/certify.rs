@@ -76,6 +76,7 @@ proptest! {
             let boxed = Deviation::Box([half.0, half.1]);
             let (least, greatest) = (posture.bound(pair, boxed).least, posture.greatest(pair, boxed));
             let least_along = posture.bound(pair, Deviation::Along(along)).least;
+            let tube = posture.bound(pair, Deviation::Tube(along, [half.1 / 4.0, half.0 / 4.0])).least;
             for &(u, v) in &deviations {
                 let there = |d: Configuration| scene.separations(middle + d).nth(i).unwrap().separation.distance;
                 let distance = there(q(u * half.0, v * half.1));
@@ -83,6 +84,8 @@ proptest! {
                 prop_assert!(distance.max(0.0) >= least);
                 prop_assert!(distance <= greatest);
                 prop_assert!(there(along * u).max(0.0) >= least_along);
+                let inside_tube = along * u + q(v * half.1, -u * half.0) / 4.0;
+                prop_assert!(there(inside_tube).max(0.0) >= tube);
             }
         }
     }

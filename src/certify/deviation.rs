@@ -23,6 +23,8 @@ pub enum Deviation {
     Along(Configuration),
     /// A box: `|d_1| <= h_1` and `|d_2| <= h_2`.
     Box([f64; 2]),
+    /// The sum of both: a motion that is straight up to a box about each of its points, as a curve about its chord is.
+    Tube(Configuration, [f64; 2]),
 }
 
 impl Deviation {
@@ -31,6 +33,7 @@ impl Deviation {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
             Deviation::Box(h) => g[0].abs() * h[0] + g[1].abs() * h[1],
+            Deviation::Tube(d, h) => Deviation::Along(d).linear(g) + Deviation::Box(h).linear(g),
         }
     }
 
@@ -39,6 +42,7 @@ impl Deviation {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
             Deviation::Box(h) => h,
+            Deviation::Tube(d, h) => [d[0].abs() + h[0], d[1].abs() + h[1]],
         }
     }
 }
@@ -204,6 +208,7 @@ impl<'a> Posture<'a> {
             (_, Prismatic { direction: one }, Prismatic { direction: two }) => match deviation {
                 Deviation::Along(d) => (one * d[0] + two * d[1]).norm(),
                 Deviation::Box(_) => d1 + d2,
+                Deviation::Tube(d, h) => (one * d[0] + two * d[1]).norm() + h[0] + h[1],
             },
         }
     }

@@ -11,6 +11,8 @@ mod deviation;
 mod disconnection;
 mod motion;
 mod proof_json;
+mod limits;
+mod passage;
 mod recheck;
 
 pub use boxes::Cell;
@@ -18,6 +20,8 @@ pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use deviation::{Bounded, Deviation, Posture};
 pub use disconnection::{Disconnection, StuckBox};
+pub use limits::{Excess, Limit, limits_kept};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use passage::{Encounter, Moment, Passage, passage};
 pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};

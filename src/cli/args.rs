@@ -19,6 +19,7 @@ Examples:
   cplan inspect robots/scara.urdf --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
+  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
 
 Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
@@ -44,6 +45,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// Check a proof that there is no path, with code that shares nothing with the search that made it.
     Recheck(RecheckArgs),
+    /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
+    Verify(VerifyArgs),
 }
 
 /// The two files.
@@ -225,4 +228,34 @@ pub struct RecheckArgs {
     pub proof: PathBuf,
     #[command(flatten)]
     pub query: QueryArgs,
+}
+
+/// Arguments of `verify`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Between samples the motion is the cubic that positions and velocities imply; without velocities it is straight in
+joint space. CSV columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians
+or metres. Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision or limit
+broken, 4 undecided.")]
+pub struct VerifyArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// The motion: .json (a result of cplan), .csv, or .yaml (ROS 2 JointTrajectory).
+    #[arg(value_name = "TRAJECTORY")]
+    pub trajectory: PathBuf,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub clearance: Option<f64>,
+    /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
+    #[arg(long)]
+    pub unwrap: bool,
+    /// Draw workspace and configuration space with the motion: .svg or .png. Can be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub picture: Vec<PathBuf>,
+    /// Print the findings as JSON, and nothing else, on stdout.
+    #[arg(long)]
+    pub json: bool,
+    /// No summary.
+    #[arg(long)]
+    pub quiet: bool,
 }

@@ -10,6 +10,7 @@ mod output;
 mod plan;
 mod recheck;
 mod summary;
+mod verify;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser, error::ErrorKind};
@@ -24,6 +25,8 @@ const BAD_INPUT: u8 = 1;
 const USAGE: u8 = 2;
 /// Exit code: there is no path, proven.
 const INFEASIBLE: u8 = 3;
+/// Exit code of `verify`: a proven collision, or a limit that is broken.
+const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;
 
@@ -36,6 +39,7 @@ pub fn run() -> ExitCode {
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
+        (Some(Command::Verify(args)), _) => verify::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

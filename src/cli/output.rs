@@ -130,7 +130,11 @@ pub fn write_picture(
 
 /// Workspace and robot.
 pub fn title(problem: &Problem) -> String {
-    let scene = &problem.scene;
+    title_of(&problem.scene)
+}
+
+/// The same without a start and a goal.
+pub fn title_of(scene: &Scene) -> String {
     match scene.workspace.name.as_str() {
         "" => scene.arm.name.clone(),
         name => format!("{name}: {}", scene.arm.name),

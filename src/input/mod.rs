@@ -5,6 +5,8 @@
 //!              |                           +--> Scene --+--> Problem
 //! arm.urdf ----+-> Arm (planar reduction) -+            |
 //! --start, --goal, --goal-tip, --clearance -------------+
+//!
+//! motion.json, .csv, .yaml ---> Recording
 //! ```
 
 mod error;
@@ -12,6 +14,7 @@ mod inspection;
 mod inverse;
 mod problem;
 mod source;
+mod trajectory;
 mod urdf;
 mod values;
 mod world;
@@ -23,7 +26,8 @@ pub use inspection::{
 };
 pub use inverse::{Inverse, inverse};
 pub use source::Position;
-pub use values::{JointValues, Overrides, TipPoint};
+pub use trajectory::{LoadedRecording, load_recording};
+pub use values::{JointValues, Overrides, TipPoint, clearance};
 pub use world::World;
 
 use crate::model::{Problem, Scene};
@@ -36,6 +40,8 @@ pub struct RobotReport {
     pub notes: Vec<String>,
     /// What may surprise: links that cannot collide, meshes that a bar stands in for.
     pub warnings: Vec<String>,
+    /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
+    pub held: Vec<(String, f64)>,
 }
 
 /// Arm and obstacles as the files have them, without start and goal.

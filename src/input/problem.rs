@@ -3,7 +3,7 @@
 use super::error::{Defect, InputError};
 use super::inverse::{inverse, within};
 use super::world::WorldGoal;
-use super::{Loaded, LoadedScene, Overrides};
+use super::{Loaded, LoadedScene, Overrides, clearance as checked_clearance};
 use crate::geometry::{Point, shapes_meet};
 use crate::model::{Contact, Goal, Problem, Scene};
 use crate::space::{Axis, Configuration};
@@ -33,11 +33,7 @@ impl LoadedScene {
     /// deep.
     pub fn problem(mut self, overrides: &Overrides) -> Result<Loaded, InputError> {
         if let Some(clearance) = overrides.clearance {
-            if !(clearance.is_finite() && clearance >= 0.0) {
-                let message = format!("the clearance must be a finite number that is not negative, is {clearance}");
-                return Err(Defect::new("--clearance", message).into());
-            }
-            self.scene.workspace.clearance = clearance;
+            self.scene.workspace.clearance = checked_clearance(clearance)?;
         }
         let (start, place) = self.start(overrides)?;
         self.require("the start", start, &place)?;

@@ -20,6 +20,17 @@ pub struct Overrides {
     pub clearance: Option<f64>,
 }
 
+/// Checks a clearance given with `--clearance`, metres.
+///
+/// # Errors
+/// When it is negative or no finite number.
+pub fn clearance(value: f64) -> Result<f64, Defect> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(value);
+    }
+    Err(Defect::new("--clearance", format!("the clearance must be a finite number that is not negative, is {value}")))
+}
+
 /// Two joint values as written: `-0.9,0.4` or `10deg, 20deg`. Without a suffix radians or metres, as the joint has it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointValues {

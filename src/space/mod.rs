@@ -1,9 +1,13 @@
-//! Configurations and the topology of the space they live in.
+//! Configurations, motions, and the topology of the space they live in.
 
+mod curve;
 mod path;
+mod recording;
 mod topology;
 
+pub use curve::{Derivative, Piece};
 pub use path::Path;
+pub use recording::{Recording, RecordingDefect};
 pub use topology::{Axis, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.

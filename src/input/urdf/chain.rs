@@ -18,7 +18,9 @@ pub(super) struct Chain {
     pub tip: usize,
     /// Value of every joint, 0 for the chosen ones.
     pub values: Vec<f64>,
-    /// The other movable joints and the values that they are held at.
+    /// The other movable joints that matter to the arm. Their values are held.
+    pub held: Vec<usize>,
+    /// The same in words.
     pub notes: Vec<String>,
 }
 
@@ -46,8 +48,15 @@ pub(super) fn with_joints(
     let chooser = Chooser { document, tree, world };
     chooser.independent(joints)?;
     let tip = chooser.tip(joints)?;
-    let (values, notes) = chooser.values(joints)?;
-    Ok(Chain { joints, tip, values, notes })
+    let Held { values, held, notes } = chooser.values(joints)?;
+    Ok(Chain { joints, tip, values, held, notes })
+}
+
+/// Values of all joints, and which of them are held where it matters.
+struct Held {
+    values: Vec<f64>,
+    held: Vec<usize>,
+    notes: Vec<String>,
 }
 
 /// Whether all else that the world's `[robot]` table says goes with these two joints.
@@ -303,7 +312,7 @@ impl Chooser<'_> {
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }
 
-    fn values(&self, chosen: [usize; 2]) -> Result<(Vec<f64>, Vec<String>), InputError> {
+    fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
         for name in self.world.robot.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
                 let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
@@ -314,7 +323,7 @@ impl Chooser<'_> {
             }
         }
         let mut values = vec![0.0; self.all().len()];
-        let mut notes = Vec::new();
+        let (mut held, mut notes) = (Vec::new(), Vec::new());
         for (j, joint) in self.all().iter().enumerate() {
             if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
                 continue;
@@ -323,6 +332,7 @@ impl Chooser<'_> {
             if self.tree.path_to(self.tree.child[chosen[1]]).contains(&j)
                 || self.tree.carries(chosen[0], self.tree.child[j])
             {
+                held.push(j);
                 notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
             }
         }
@@ -344,6 +354,7 @@ impl Chooser<'_> {
             values[j] = value.factor * values[leader] + value.offset;
             if self.tree.carries(chosen[0], self.tree.child[j]) {
                 let leader = &self.all()[leader].name;
+                held.push(j);
                 notes.push(format!(
                     "joint \"{}\" follows joint \"{leader}\": held at {} {}",
                     joint.name,
@@ -352,7 +363,7 @@ impl Chooser<'_> {
                 ));
             }
         }
-        Ok((values, notes))
+        Ok(Held { values, held, notes })
     }
 
     /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.

@@ -91,6 +91,8 @@ impl<'a> Reduction<'a> {
         }
         report.notes.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
         report.notes.extend(self.chain.notes.iter().cloned());
+        let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
+        report.held = self.chain.held.iter().map(held).collect();
         report.notes.extend(bounds.iter().filter_map(|b| b.rates.note.clone()));
         report.notes.extend(outlines.notes);
         report.warnings.extend(outlines.warnings);

@@ -1,0 +1,310 @@
+//! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
+
+use super::deviation::{Deviation, Posture};
+use crate::model::{Contact, Pair, Scene};
+use crate::space::{Configuration, Piece, Recording};
+
+/// The proven clearance is at least this share of the true one, as for [`super::certify`].
+const TIGHTNESS: f64 = 0.9;
+
+/// Looks at pairs and spans of a motion before giving up: some seconds' worth.
+const MAX_EVALUATIONS: usize = 20_000_000;
+
+/// Looks that are left once some span stays open: the motion cannot be proven free any more, only a contact can still
+/// decide, and a motion that slides along an obstacle leaves spans open without end.
+const MORE_EVALUATIONS: usize = 200_000;
+
+/// Spans of a piece are halved down to this share of it: a nanosecond of a long one, and still far above what rounding
+/// does to a share.
+const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Configurations, evenly spread over the pieces, at which every pair is looked at beforehand: they show how near the
+/// motion comes, and so how fine it pays to look.
+const LOOKS: usize = 1024;
+
+/// A moment of a recorded motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Seconds on the recording's clock; without one, the number of the waypoint, counted from 0, and the share of the
+    /// way to the next.
+    pub time: f64,
+    /// The sample at or before it, counted from 0.
+    pub sample: usize,
+    /// Where the arm is.
+    pub at: Configuration,
+}
+
+impl Moment {
+    pub(super) fn new(index: usize, piece: &Piece, u: f64) -> Self {
+        // The end of a piece that lasts is the next sample.
+        let sample = index + usize::from(u == 1.0 && piece.to > piece.from);
+        Self { time: piece.time(u), sample, at: piece.at(u) }
+    }
+}
+
+/// A pair of shapes at a moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encounter {
+    /// When.
+    pub moment: Moment,
+    /// The shapes and their signed distance then.
+    pub contact: Contact,
+}
+
+/// What the continuous check of a motion found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Passage {
+    /// Proven: the whole motion keeps more than zero and at least the clearance asked for.
+    Free {
+        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can
+        /// meet. At least 0.9 of the true value, unless the clearance asked for is nearer to it.
+        clearance: f64,
+        /// Where it came nearest, as far as was looked; none if nothing can meet.
+        nearest: Option<Encounter>,
+    },
+    /// Proven: the motion touches an obstacle, or comes nearer to it than the clearance to keep.
+    Collision {
+        /// The earliest contact that was found.
+        first: Encounter,
+        /// Before this time on the same clock the motion is proven free: unless the motion grazes an obstacle before,
+        /// a trillionth of a piece before `first`.
+        free_until: f64,
+        /// The least signed distance that was seen anywhere on the motion.
+        deepest: Encounter,
+    },
+    /// Neither: at this moment (the first such) the distance is too near to the clearance to keep to be told apart, or
+    /// the search ran out.
+    Undecided(Encounter),
+}
+
+/// Checks the whole motion against every pair that can meet, in the order of time: a distance of more than zero and at
+/// least `clearance` metres. Joint limits are not its business; see [`super::limits_kept`].
+///
+/// A span of one piece is a tube about its chord: a curve deviates from the chord by at most an eighth of its greatest
+/// second derivative times the squared width, joint by joint. A span of several pieces is the box of their control
+/// points. The bound of [`Posture::bound`] decides, else both halves are looked at, so that many samples cost little
+/// where nothing is near. Once a contact is found only what comes before it is looked at.
+#[must_use]
+pub fn passage(scene: &Scene, recording: &Recording, clearance: f64) -> Passage {
+    let pieces = recording.pieces();
+    let mut search = Search {
+        scene,
+        pieces: &pieces,
+        required: clearance,
+        proven: f64::INFINITY,
+        least: None,
+        hit: None,
+        open: None,
+        evaluations: 0,
+        budget: MAX_EVALUATIONS,
+    };
+    search.look_around();
+    search.run();
+    search.verdict()
+}
+
+/// A place on the motion: a piece, and a share of it.
+type Place = (usize, f64);
+
+/// A stretch of the motion.
+#[derive(Debug, Clone, Copy)]
+enum Span {
+    /// Whole pieces, from one to before another.
+    Pieces(usize, usize),
+    /// From one share of a piece to another.
+    Part(usize, f64, f64),
+}
+
+impl Span {
+    fn start(self) -> Place {
+        match self {
+            Span::Pieces(first, _) => (first, 0.0),
+            Span::Part(piece, from, _) => (piece, from),
+        }
+    }
+
+    /// Both halves, in order; none of a span that is as fine as can be.
+    fn halves(self) -> Option<[Span; 2]> {
+        let whole = |from: usize, to: usize| match to - from {
+            1 => Span::Part(from, 0.0, 1.0),
+            _ => Span::Pieces(from, to),
+        };
+        match self {
+            Span::Pieces(from, to) => {
+                let middle = from + (to - from) / 2;
+                Some([whole(from, middle), whole(middle, to)])
+            }
+            Span::Part(_, from, to) if to - from <= FINEST => None,
+            Span::Part(piece, from, to) => {
+                let middle = (from + to) / 2.0;
+                Some([Span::Part(piece, from, middle), Span::Part(piece, middle, to)])
+            }
+        }
+    }
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    pieces: &'a [Piece],
+    required: f64,
+    /// Least of the bounds that were accepted.
+    proven: f64,
+    /// Least distance seen.
+    least: Option<Encounter>,
+    /// The earliest contact seen.
+    hit: Option<(Place, Encounter)>,
+    /// The earliest span that stayed open, and what was nearest there.
+    open: Option<(Place, Encounter)>,
+    evaluations: usize,
+    /// Evaluations after which spans are halved no more.
+    budget: usize,
+}
+
+impl Search<'_> {
+    /// Every pair at places all over the motion.
+    fn look_around(&mut self) {
+        let count = self.pieces.len();
+        let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
+        for index in (0..count).step_by(stride) {
+            (0..shares).for_each(|i| self.look((index, i as f64 / shares as f64)));
+        }
+        self.look((count - 1, 1.0));
+    }
+
+    fn look(&mut self, place: Place) {
+        for contact in self.scene.separations(self.pieces[place.0].at(place.1)) {
+            self.see(place, contact);
+        }
+    }
+
+    /// Takes note of a distance on the motion.
+    fn see(&mut self, place: Place, contact: Contact) {
+        let distance = contact.separation.distance;
+        let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
+        let nearer = |than: &Encounter| distance < than.contact.separation.distance;
+        if self.least.as_ref().is_none_or(nearer) {
+            self.least = Some(encounter);
+        }
+        let is_hit = distance <= 0.0 || distance < self.required;
+        let earlier = |(known, than): &(Place, Encounter)| place < *known || (place == *known && nearer(than));
+        if is_hit && self.hit.as_ref().is_none_or(earlier) {
+            self.hit = Some((place, encounter));
+        }
+    }
+
+    /// Whether a bound proves enough. Once there is a contact it is only asked whether it is the first.
+    fn suffices(&self, bound: f64) -> bool {
+        let seen = self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance);
+        let target = if self.hit.is_some() { self.required } else { (TIGHTNESS * seen).max(self.required) };
+        bound > 0.0 && bound >= target
+    }
+
+    /// All spans in the order of time, each with the pairs that are open in it.
+    fn run(&mut self) {
+        let all = match self.pieces.len() {
+            1 => Span::Part(0, 0.0, 1.0),
+            n => Span::Pieces(0, n),
+        };
+        let mut stack = vec![(all, self.scene.pairs().to_vec())];
+        while let Some((span, mut pairs)) = stack.pop() {
+            if self.hit.as_ref().is_some_and(|(place, _)| span.start() >= *place) {
+                continue;
+            }
+            self.judge(span, &mut pairs);
+            if pairs.is_empty() {
+                continue;
+            }
+            match span.halves().filter(|_| self.evaluations < self.budget) {
+                Some([first, second]) => stack.extend([(second, pairs.clone()), (first, pairs)]),
+                None => self.leave_open(span, &pairs),
+            }
+        }
+    }
+
+    /// Drops the pairs that are proven to keep their distance all over the span.
+    fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
+        let (middle, deviation) = match span {
+            Span::Pieces(first, end) => around(&self.pieces[first..end]),
+            Span::Part(index, from, to) => along(&self.pieces[index], from, to),
+        };
+        let posture = Posture::new(self.scene, middle);
+        pairs.retain(|&pair| {
+            let bounded = posture.bound(pair, deviation);
+            self.evaluations += 1;
+            if let Span::Part(index, from, to) = span {
+                self.see((index, (from + to) / 2.0), Contact { pair, separation: bounded.here });
+            }
+            let free = self.suffices(bounded.least);
+            if free {
+                self.proven = self.proven.min(bounded.least);
+            }
+            !free
+        });
+    }
+
+    /// A span that can neither be proven free nor halved: only its ends remain to be looked at.
+    fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
+        let ends = match span {
+            Span::Pieces(first, end) => [(first, 0.0), (end - 1, 1.0)],
+            Span::Part(index, from, to) => [(index, from), (index, to)],
+        };
+        let mut nearest: Option<Encounter> = None;
+        for place in ends {
+            let at = self.pieces[place.0].at(place.1);
+            let posture = Posture::new(self.scene, at);
+            for &pair in pairs {
+                let separation = posture.bound(pair, Deviation::Box([0.0; 2])).here;
+                let contact = Contact { pair, separation };
+                self.see(place, contact);
+                if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {
+                    nearest = Some(Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact });
+                }
+            }
+        }
+        if let (None, Some(nearest)) = (&self.open, nearest) {
+            self.open = Some((span.start(), nearest));
+            self.budget = self.budget.min(self.evaluations + MORE_EVALUATIONS);
+        }
+    }
+
+    fn verdict(self) -> Passage {
+        match (self.hit, self.open, self.least) {
+            (Some((place, first)), open, least) => {
+                let from = open.map_or(place, |(from, _)| if from < place { from } else { place });
+                let free_until = self.pieces[from.0].time(from.1);
+                Passage::Collision { first, free_until, deepest: least.unwrap_or(first) }
+            }
+            (None, Some((_, nearest)), _) => Passage::Undecided(nearest),
+            (None, None, nearest) => Passage::Free { clearance: self.proven, nearest },
+        }
+    }
+}
+
+/// Rounding of a configuration that is computed from control points, relative to the largest of them: a dozen
+/// operations.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// The box about several pieces.
+fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
+    let points = || pieces.iter().flat_map(|p| p.control());
+    let mut middle = Configuration::zeros();
+    let half = [0, 1].map(|k| {
+        let lower = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+        let upper = points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+        middle[k] = (lower + upper) / 2.0;
+        (upper - lower) / 2.0 + ROUNDING * lower.abs().max(upper.abs())
+    });
+    (middle, Deviation::Box(half))
+}
+
+/// The tube about a part of a piece, from the configuration halfway through it.
+fn along(piece: &Piece, from: f64, to: f64) -> (Configuration, Deviation) {
+    let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
+    let bend = piece.bend(from, to);
+    let off_chord = (first + last) / 2.0 - middle;
+    let half = [0, 1].map(|k| {
+        let largest = piece.control().iter().map(|p| p[k].abs()).fold(0.0, f64::max);
+        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + ROUNDING * largest
+    });
+    (middle, Deviation::Tube((last - first) / 2.0, half))
+}

@@ -1,0 +1,180 @@
+//! What `verify` found, as data.
+
+use crate::certify::{Encounter, Excess, Limit, Moment, Passage};
+use crate::model::{Joint, Scene};
+use crate::space::Recording;
+use serde::Serialize;
+
+/// In a word. A collision comes before a broken limit, and that before doubt.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Verdict {
+    /// Proven free and within all limits that can be judged.
+    Free,
+    /// Proven to collide.
+    Collision,
+    /// Not known to collide, but a limit is broken.
+    Limits,
+    /// Neither proven free nor proven to collide.
+    Undecided,
+}
+
+impl Verdict {
+    /// As it is written in JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Free => "free",
+            Verdict::Collision => "collision",
+            Verdict::Limits => "limits",
+            Verdict::Undecided => "undecided",
+        }
+    }
+}
+
+/// What there is to say about a motion.
+#[derive(Debug, Serialize)]
+pub(super) struct Findings {
+    pub verdict: Verdict,
+    pub joints: [String; 2],
+    pub units: [&'static str; 2],
+    pub samples: usize,
+    /// Seconds from the first to the last sample.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub duration: Option<f64>,
+    /// The distance to keep, metres.
+    pub required: f64,
+    /// Proven lower bound on the distance to every obstacle, metres; only of a free motion that could hit something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Where a free motion comes nearest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<EncounterFinding>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub first_contact: Option<EncounterFinding>,
+    /// The motion before this is proven free, on the clock of `first_contact`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_until: Option<f64>,
+    /// The least distance seen on a motion that collides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub deepest: Option<EncounterFinding>,
+    /// Where it could not be decided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub undecided: Option<EncounterFinding>,
+    pub limits_broken: Vec<LimitFinding>,
+    pub notes: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct EncounterFinding {
+    #[serde(flatten)]
+    pub moment: MomentFinding,
+    pub link: String,
+    pub body: String,
+    pub obstacle: String,
+    /// Penetration depth, metres; negative is a distance.
+    pub depth: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct MomentFinding {
+    /// Seconds on the file's clock.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<f64>,
+    /// Without a clock: number of the waypoint, counted from 0, and the share of the way to the next.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub waypoint: Option<f64>,
+    /// The sample at or before it, counted from 0.
+    pub sample: usize,
+    pub configuration: [f64; 2],
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct LimitFinding {
+    pub joint: String,
+    pub limit: &'static str,
+    pub value: f64,
+    pub allowed: f64,
+    #[serde(flatten)]
+    pub moment: MomentFinding,
+}
+
+impl Findings {
+    /// Collects what the checks found.
+    pub fn new(scene: &Scene, recording: &Recording, passage: &Passage, broken: &[Excess], notes: Vec<String>) -> Self {
+        let timed = recording.times().is_some();
+        let encounter = |e: &Encounter| encounter(scene, e, timed);
+        let joints = &scene.arm.joints;
+        let verdict = match passage {
+            Passage::Collision { .. } => Verdict::Collision,
+            _ if !broken.is_empty() => Verdict::Limits,
+            Passage::Free { .. } => Verdict::Free,
+            Passage::Undecided(_) => Verdict::Undecided,
+        };
+        let mut findings = Self {
+            verdict,
+            joints: joints.each_ref().map(|j| j.name.clone()),
+            units: joints.each_ref().map(Joint::unit),
+            samples: recording.positions().len(),
+            duration: recording.duration(),
+            required: scene.workspace.clearance,
+            clearance: None,
+            nearest: None,
+            first_contact: None,
+            free_until: None,
+            deepest: None,
+            undecided: None,
+            limits_broken: broken.iter().map(|excess| limit(joints, excess, timed)).collect(),
+            notes,
+        };
+        match passage {
+            Passage::Free { clearance, nearest } => {
+                findings.clearance = Some(*clearance).filter(|c| c.is_finite());
+                findings.nearest = nearest.as_ref().map(encounter);
+            }
+            Passage::Collision { first, free_until, deepest } => {
+                findings.first_contact = Some(encounter(first));
+                findings.free_until = Some(*free_until);
+                findings.deepest = Some(encounter(deepest));
+            }
+            Passage::Undecided(nearest) => findings.undecided = Some(encounter(nearest)),
+        }
+        findings
+    }
+}
+
+fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
+    let pair = e.contact.pair;
+    let link = &scene.arm.links[pair.link];
+    EncounterFinding {
+        moment: moment(&e.moment, timed),
+        link: link.name.clone(),
+        body: link.parts[pair.part].body.clone(),
+        obstacle: scene.workspace.obstacles[pair.obstacle].name.clone(),
+        depth: -e.contact.separation.distance,
+    }
+}
+
+fn moment(m: &Moment, timed: bool) -> MomentFinding {
+    MomentFinding {
+        time: timed.then_some(m.time),
+        waypoint: (!timed).then_some(m.time),
+        sample: m.sample,
+        configuration: [m.at[0], m.at[1]],
+    }
+}
+
+fn limit(joints: &[Joint; 2], excess: &Excess, timed: bool) -> LimitFinding {
+    LimitFinding {
+        joint: joints[excess.joint].name.clone(),
+        limit: match excess.limit {
+            Limit::Position => "position",
+            Limit::Velocity => "velocity",
+            Limit::Acceleration => "acceleration",
+            Limit::RestAtStart => "rest at start",
+            Limit::RestAtEnd => "rest at end",
+        },
+        value: excess.value,
+        allowed: excess.allowed,
+        moment: moment(&excess.moment, timed),
+    }
+}

@@ -1,0 +1,85 @@
+//! What the columns of a table of joint values mean, by their names.
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Meaning {
+    /// Seconds.
+    Time,
+    /// Values of the joint of this index.
+    Of(usize, Quantity),
+}
+
+/// What of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Position,
+    Velocity,
+    Acceleration,
+}
+
+/// Names of columns that hold times, in lower case.
+const TIMES: [&str; 4] = ["time", "t", "time_from_start", "time_s"];
+
+/// Words that go with a joint's name.
+const WORDS: [(Quantity, &[&str]); 3] = [
+    (Quantity::Position, &["position", "positions", "pos"]),
+    (Quantity::Velocity, &["velocity", "velocities", "vel"]),
+    (Quantity::Acceleration, &["acceleration", "accelerations", "acc"]),
+];
+
+/// Everything that a column's name can mean: `elbow`, `elbow_velocity`, `elbow.velocity`, `velocities_elbow` and the
+/// like, also below a topic (`/joint_states/elbow/position`); or a time. More than one meaning is for the caller to
+/// refuse.
+pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
+    let mut found = Vec::new();
+    if TIMES.contains(&column.to_lowercase().as_str()) {
+        found.push(Meaning::Time);
+    }
+    let is = |name: &str| column.strip_suffix(name).is_some_and(|topic| topic.is_empty() || topic.ends_with('/'));
+    for (index, joint) in joints.iter().enumerate() {
+        for (quantity, words) in WORDS {
+            let with_word = |word: &&str| {
+                ["_", ".", "/"].iter().any(|s| is(&format!("{joint}{s}{word}")) || is(&format!("{word}{s}{joint}")))
+            };
+            if words.iter().any(with_word) || (quantity == Quantity::Position && column == *joint) {
+                found.push(Meaning::Of(index, quantity));
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Quantity::{Acceleration, Position, Velocity};
+
+    #[test]
+    fn common_spellings() {
+        let joints = ["shoulder", "elbow"];
+        for (column, expected) in [
+            ("elbow", Meaning::Of(1, Position)),
+            ("shoulder_velocity", Meaning::Of(0, Velocity)),
+            ("elbow.position", Meaning::Of(1, Position)),
+            ("positions_elbow", Meaning::Of(1, Position)),
+            ("pos_shoulder", Meaning::Of(0, Position)),
+            ("elbow_vel", Meaning::Of(1, Velocity)),
+            ("/joint_states/elbow/position", Meaning::Of(1, Position)),
+            ("accelerations/elbow", Meaning::Of(1, Acceleration)),
+            ("Time", Meaning::Time),
+            ("t", Meaning::Time),
+            ("time_from_start", Meaning::Time),
+        ] {
+            assert_eq!(meanings(column, &joints), [expected], "{column}");
+        }
+        for column in ["", "wrist", "left_elbow", "elbow_effort", "Elbow", "elbowposition", "timestamps"] {
+            assert_eq!(meanings(column, &joints), [], "{column}");
+        }
+    }
+
+    #[test]
+    fn names_that_read_two_ways_have_both_meanings() {
+        assert_eq!(meanings("a_vel", &["a", "a_vel"]), [Meaning::Of(0, Velocity), Meaning::Of(1, Position)]);
+        assert_eq!(meanings("t", &["t", "u"]), [Meaning::Time, Meaning::Of(0, Position)]);
+    }
+}

@@ -1,0 +1,124 @@
+//! Joint values as a table: a header of names, then a sample a line.
+
+use super::columns::{Meaning, Quantity, meanings};
+use super::records::{Field, Records};
+use super::{Names, Samples, Series, UNUSED};
+use crate::input::error::{Defect, InputError, quoted};
+use crate::input::source::Source;
+
+/// Reads a table. See [`super::load_recording`] for the names of columns.
+pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
+    let mut records = Records::new(&source.text);
+    let header = records.next().ok_or_else(|| {
+        source.defect("is empty").cure("write a header of names, then the samples: time,joint1,joint2")
+    })?;
+    let columns = Columns::new(source, names, &header)?;
+    let mut samples = Samples { what: "sample", ..Samples::default() };
+    let mut values: Vec<Vec<f64>> = columns.used.iter().map(|_| Vec::new()).collect();
+    for record in records {
+        if record.len() != header.len() {
+            let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
+            return Err(source
+                .defect_at(whole(&record), message)
+                .cure("give every line one value for each name of the header")
+                .into());
+        }
+        for (&(index, _), column) in columns.used.iter().zip(&mut values) {
+            column.push(number(source, &header[index], &record[index])?);
+        }
+        samples.places.push(whole(&record));
+    }
+    columns.fill(&mut samples, values);
+    Ok(samples)
+}
+
+fn whole(record: &[Field]) -> std::ops::Range<usize> {
+    record.first().map_or(0, |f| f.range.start)..record.last().map_or(0, |f| f.range.end)
+}
+
+fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Defect> {
+    match field.text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) => Err(source
+            .defect_at(field.range.clone(), format!("{} is {value}", quoted([&name.text])))
+            .cure("drop the samples that were not measured")),
+        Err(_) => Err(source
+            .defect_at(
+                field.range.clone(),
+                format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text),
+            )
+            .cure("write numbers with a decimal point and no unit: radians or metres, and seconds")),
+    }
+}
+
+/// Which columns are read.
+struct Columns {
+    /// Names of the joints that a meaning's index stands for.
+    joints: Vec<String>,
+    /// Where each is, and what it means; ordered as in the file.
+    used: Vec<(usize, Meaning)>,
+    notes: Vec<String>,
+}
+
+impl Columns {
+    fn new(source: &Source, names: &Names, header: &[Field]) -> Result<Self, Defect> {
+        let joints: Vec<&str> = names.all().collect();
+        let (mut used, mut unknown): (Vec<(usize, Meaning)>, Vec<&str>) = (Vec::new(), Vec::new());
+        for (index, field) in header.iter().enumerate() {
+            // Some programs begin the header as a comment.
+            let name = if index == 0 { field.text.trim_start_matches(['#', ' ']) } else { &field.text };
+            match meanings(name, &joints)[..] {
+                [] => unknown.push(name),
+                [meaning] => {
+                    if let Some((other, _)) = used.iter().find(|(_, known)| *known == meaning) {
+                        let message = format!("columns \"{}\" and \"{name}\" mean the same", header[*other].text);
+                        return Err(source.defect_at(field.range.clone(), message).cure("keep one of them"));
+                    }
+                    used.push((index, meaning));
+                }
+                _ => {
+                    let message = format!("the column \"{name}\" can be read in more than one way");
+                    let cure = "name it after its joint, with .position, .velocity or .acceleration behind it";
+                    return Err(source.defect_at(field.range.clone(), message).cure(cure));
+                }
+            }
+        }
+        if used.is_empty() && header.iter().all(|f| f.text.parse::<f64>().is_ok()) {
+            let cure = format!("name the columns in the first line: time, {}", names.arm.join(", "));
+            return Err(source.defect_at(whole(header), "there is no header").cure(cure));
+        }
+        let tabbed = |f: &Field| f.text.contains([';', '\t']);
+        if used.is_empty() && header.iter().any(tabbed) {
+            let message = "the columns are not separated by commas";
+            return Err(source.defect_at(whole(header), message).cure("separate values by commas, decimals by points"));
+        }
+        let mut notes = Vec::new();
+        if !unknown.is_empty() {
+            notes.push(format!("columns that are not used: {}", quoted(unknown)));
+        }
+        if used.iter().any(|(_, m)| matches!(m, Meaning::Of(_, Quantity::Acceleration))) {
+            notes.push(UNUSED.into());
+        }
+        used.retain(|(_, m)| !matches!(m, Meaning::Of(_, Quantity::Acceleration)));
+        Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, notes })
+    }
+
+    /// Puts the columns' values where they belong.
+    fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
+        let count = self.joints.len();
+        let (mut positions, mut velocities) = (vec![None; count], vec![None; count]);
+        for ((_, meaning), column) in self.used.into_iter().zip(values) {
+            match meaning {
+                Meaning::Time => samples.time = Some(column),
+                Meaning::Of(joint, Quantity::Velocity) => velocities[joint] = Some(column),
+                Meaning::Of(joint, _) => positions[joint] = Some(column),
+            }
+        }
+        for ((name, position), velocity) in self.joints.into_iter().zip(positions).zip(velocities) {
+            if let Some(position) = position {
+                samples.joints.push(Series { name, position, velocity });
+            }
+        }
+        samples.notes.extend(self.notes);
+    }
+}

@@ -1,0 +1,218 @@
+//! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
+
+use super::{Samples, Series, UNUSED};
+use crate::input::error::{Defect, InputError};
+use crate::input::source::Source;
+use serde::Deserialize;
+
+/// The members that are looked at; others may be there.
+#[derive(Deserialize)]
+struct Document {
+    /// cplan's result.
+    status: Option<String>,
+    joints: Option<Vec<String>>,
+    path: Option<Vec<Vec<f64>>>,
+    trajectory: Option<Inner>,
+    /// A ROS message, alone or inside another.
+    joint_names: Option<Vec<String>>,
+    points: Option<Vec<Point>>,
+    joint_trajectory: Option<Inner>,
+}
+
+/// A trajectory: cplan's, or a ROS message.
+#[derive(Deserialize)]
+struct Inner {
+    time: Option<Vec<f64>>,
+    position: Option<Vec<Vec<f64>>>,
+    velocity: Option<Vec<Vec<f64>>>,
+    acceleration: Option<Vec<Vec<f64>>>,
+    joint_names: Option<Vec<String>>,
+    points: Option<Vec<Point>>,
+}
+
+/// A `trajectory_msgs/msg/JointTrajectoryPoint`.
+#[derive(Deserialize)]
+struct Point {
+    #[serde(default)]
+    positions: Vec<f64>,
+    #[serde(default)]
+    velocities: Vec<f64>,
+    #[serde(default)]
+    accelerations: Vec<f64>,
+    time_from_start: Option<Stamp>,
+}
+
+/// A `builtin_interfaces/msg/Duration`, also as ROS 1 spells it, or plain seconds.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Stamp {
+    Parts {
+        #[serde(alias = "secs")]
+        sec: i64,
+        #[serde(alias = "nsecs", default)]
+        nanosec: u32,
+    },
+    Seconds(f64),
+}
+
+impl Stamp {
+    /// Correctly rounded, so that as a decimal it has no more than nine digits behind the point.
+    fn seconds(&self) -> f64 {
+        match *self {
+            Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
+            Stamp::Seconds(seconds) => seconds,
+        }
+    }
+}
+
+/// Reads JSON.
+pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
+    let document: Document = serde_json::from_str(&source.text).map_err(|error| {
+        let cure =
+            "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+        located(source, error.line(), error.column(), &plain(&error.to_string())).cure(cure)
+    })?;
+    Ok(samples(source, document)?)
+}
+
+/// Reads YAML.
+pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
+    let mut options = serde_saphyr::Options::default();
+    options.with_snippet = false;
+    // The file is in memory already, and its size is bounded: so are the events and nodes that it can make.
+    if let Some(budget) = &mut options.budget {
+        budget.max_events = source.text.len().max(budget.max_events);
+        budget.max_nodes = source.text.len().max(budget.max_nodes);
+        budget.max_total_scalar_bytes = source.text.len().max(budget.max_total_scalar_bytes);
+    }
+    // `ros2 topic echo` ends a message with a line of three dashes.
+    let text = source.text.trim_end();
+    let text = text.strip_suffix("\n---").unwrap_or(text);
+    let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
+        let place = error.location();
+        let (line, column) = place.map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
+        let cure = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
+        located(source, line, column, &plain(&error.without_snippet().to_string())).cure(cure)
+    })?;
+    Ok(samples(source, document)?)
+}
+
+/// A parser's message without the place at its end, which is given at the beginning.
+fn plain(message: &str) -> String {
+    let message = message.lines().next().unwrap_or_default();
+    message.split(" at line ").next().unwrap_or(message).to_owned()
+}
+
+/// A defect at a line and column, both counted from 1; 0 is unknown.
+fn located(source: &Source, line: usize, column: usize, message: &str) -> Defect {
+    if line == 0 {
+        return source.defect(message);
+    }
+    let mut lines = source.text.split_inclusive('\n');
+    let before: usize = lines.by_ref().take(line - 1).map(str::len).sum();
+    let inside = lines.next().unwrap_or("");
+    let at = inside.char_indices().nth(column.saturating_sub(1)).map_or(inside.trim_end().len(), |(i, _)| i);
+    source.defect_at(before + at..before + at + 1, message)
+}
+
+fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
+    let Document { status, joints, path, trajectory, joint_names, points, joint_trajectory } = document;
+    if let Some(points) = points {
+        return message(source, joint_names, points);
+    }
+    for inner in [joint_trajectory, trajectory].into_iter().flatten() {
+        if let Some(points) = inner.points {
+            return message(source, inner.joint_names, points);
+        }
+        if let (Some(time), Some(position)) = (inner.time, inner.position) {
+            let names = named(source, joints, "joints")?;
+            let width = names.len();
+            let mut samples = Samples { time: Some(time), what: "trajectory.position", ..Samples::default() };
+            samples.joints = series(source, names, &position, "trajectory.position")?;
+            if let Some(velocity) = inner.velocity {
+                let columns = transposed(source, &velocity, width, "trajectory.velocity")?;
+                for (joint, column) in samples.joints.iter_mut().zip(columns) {
+                    joint.velocity = Some(column);
+                }
+            }
+            samples.notes.extend(inner.acceleration.map(|_| UNUSED.into()));
+            return Ok(samples);
+        }
+    }
+    if let Some(path) = path {
+        let names = named(source, joints, "joints")?;
+        let joints = series(source, names, &path, "path")?;
+        return Ok(Samples { joints, what: "path", ..Samples::default() });
+    }
+    Err(match status {
+        Some(status) => {
+            source.defect(format!("holds no path: its status is \"{status}\"")).cure("verify a result that found one")
+        }
+        None => source
+            .defect("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
+            .cure("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
+    })
+}
+
+fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Defect> {
+    let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
+        source
+            .defect(format!("\"{member}\" is missing: it is not said which value is which joint's"))
+            .cure(format!("add \"{member}\" with the joints' names in the order of the values"))
+    })?;
+    match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+        Some((_, twice)) => Err(source.defect(format!("\"{member}\" names joint \"{twice}\" twice")).cure("keep one")),
+        None => Ok(names),
+    }
+}
+
+/// A ROS message.
+fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Defect> {
+    let names = named(source, names, "joint_names")?;
+    let width = names.len();
+    let count = points.len();
+    let moving = points.iter().filter(|p| !p.velocities.is_empty()).count();
+    let timed = points.iter().filter(|p| p.time_from_start.is_some()).count();
+    for (found, what) in [(moving, "velocities"), (timed, "time_from_start")] {
+        if found != 0 && found != count {
+            return Err(source
+                .defect(format!("{found} of {count} points have {what}"))
+                .cure(format!("give all points their {what}, or none")));
+        }
+    }
+    let accelerated = points.iter().any(|p| !p.accelerations.is_empty());
+    let mut time = Vec::new();
+    let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+    for point in points {
+        time.extend(point.time_from_start.map(|stamp| stamp.seconds()));
+        positions.push(point.positions);
+        velocities.push(point.velocities);
+    }
+    let mut samples = Samples { what: "points", ..Samples::default() };
+    samples.notes.extend(accelerated.then(|| UNUSED.into()));
+    samples.time = (timed > 0).then_some(time);
+    samples.joints = series(source, names, &positions, "positions of points")?;
+    if moving > 0 {
+        for (joint, column) in
+            samples.joints.iter_mut().zip(transposed(source, &velocities, width, "velocities of points")?)
+        {
+            joint.velocity = Some(column);
+        }
+    }
+    Ok(samples)
+}
+
+/// Rows of positions as a series a joint.
+fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Defect> {
+    let columns = transposed(source, rows, names.len(), what)?;
+    Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, velocity: None }).collect())
+}
+
+/// Rows as columns.
+fn transposed(source: &Source, rows: &[Vec<f64>], width: usize, what: &str) -> Result<Vec<Vec<f64>>, Defect> {
+    if let Some(k) = rows.iter().position(|row| row.len() != width) {
+        let message = format!("{what}[{k}] has {} values, but {width} joints are named", rows[k].len());
+        return Err(source.defect(message).cure("give every sample one value for each joint"));
+    }
+    Ok((0..width).map(|joint| rows.iter().map(|row| row[joint]).collect()).collect())
+}

@@ -1,0 +1,194 @@
+//! Joint paths and trajectories from files: cplan's own JSON and CSV, anyone's CSV, and ROS 2 messages in YAML.
+//!
+//! Names decide which column is which joint, not their order. Every reader makes [`Samples`]; what holds for all of
+//! them (the arm's joints are there, the held joints stand still, times increase) is checked once, here.
+
+mod columns;
+mod csv;
+mod document;
+mod records;
+
+use super::LoadedScene;
+use super::error::{Defect, InputError, quoted};
+use super::source::Source;
+use crate::space::{Configuration, Recording, RecordingDefect};
+use std::ops::Range;
+use std::path::Path;
+
+/// By how much a held joint's recorded value may differ from the value that it is held at, radians or metres: more than
+/// a controller's jitter or six printed digits, less than what could matter to a collision.
+const STILL: f64 = 1e-4;
+
+/// What to say of accelerations in a file.
+const UNUSED: &str = "accelerations in the file are not used: positions and velocities imply them";
+
+/// A recorded motion and how it was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedRecording {
+    /// The arm's two joints, base to tip.
+    pub recording: Recording,
+    /// What the user should know: what was ignored, and which rule joins the samples.
+    pub notes: Vec<String>,
+}
+
+/// What a file holds of one joint.
+#[derive(Debug, Default)]
+struct Series {
+    name: String,
+    position: Vec<f64>,
+    velocity: Option<Vec<f64>>,
+}
+
+/// What a file holds.
+#[derive(Debug, Default)]
+struct Samples {
+    time: Option<Vec<f64>>,
+    joints: Vec<Series>,
+    /// How the file calls sample `k`: this, with `k` in brackets.
+    what: &'static str,
+    /// Where in the text each sample is, if the reader knows.
+    places: Vec<Range<usize>>,
+    notes: Vec<String>,
+}
+
+/// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml` or `.yml`.
+///
+/// - JSON: a result of cplan's own (its trajectory, else its path), or a ROS 2 message;
+/// - CSV: a header of names, then a sample a line. A column is a joint's position if its name is the joint's, or the
+///   joint's with `position` before or after it; velocities likewise; `time`, `t` or `time_from_start` are seconds;
+/// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
+///
+/// # Errors
+/// Files that cannot be read, are no such format, lack a joint, move a joint that the arm holds still, or whose samples
+/// are no motion; with the place in the file and the cure.
+pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml")) {
+        return Err(Defect::new(path.display().to_string(), "cannot tell the format of this file")
+            .cure("name it .json (cplan), .csv, or .yaml (ROS 2 JointTrajectory)")
+            .into());
+    }
+    let source = Source::read(path)?;
+    let names = Names {
+        arm: scene.scene.arm.joints.each_ref().map(|j| j.name.as_str()),
+        held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
+    };
+    let samples = match extension.as_deref() {
+        Some("json") => document::json(&source)?,
+        Some("csv") => csv::read(&source, &names)?,
+        _ => document::yaml(&source)?,
+    };
+    Ok(names.recording(&source, samples)?)
+}
+
+/// The joints that a file can speak of.
+struct Names<'a> {
+    arm: [&'a str; 2],
+    held: Vec<(&'a str, f64)>,
+}
+
+impl Names<'_> {
+    fn all(&self) -> impl Iterator<Item = &str> {
+        self.arm.iter().copied().chain(self.held.iter().map(|(name, _)| *name))
+    }
+
+    /// The arm's two joints of what was read.
+    fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Defect> {
+        let mut notes = std::mem::take(&mut samples.notes);
+        let mut chosen = Vec::new();
+        for name in self.arm {
+            match samples.joints.iter().position(|s| s.name == name) {
+                Some(index) => chosen.push(samples.joints.swap_remove(index)),
+                None => {
+                    let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
+                    let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
+                    let cure = format!("the arm's joints are {}: name the positions so", quoted(self.arm));
+                    return Err(source.defect(message).cure(cure));
+                }
+            }
+        }
+        for other in &samples.joints {
+            notes.push(self.stands_still(source, &samples, other)?);
+        }
+        let Ok([one, two]) = <[Series; 2]>::try_from(chosen) else {
+            return Err(source.defect("two joints are needed"));
+        };
+        let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| Configuration::new(*a, *b)).collect();
+        let velocity = match (&one.velocity, &two.velocity) {
+            (Some(a), Some(b)) => Some(both(a, b)),
+            (None, None) => None,
+            _ => {
+                notes.push("velocities of only one joint: not used".into());
+                None
+            }
+        };
+        let position = both(&one.position, &two.position);
+        let recording =
+            Recording::new(position, samples.time.take(), velocity).map_err(|d| misplaced(source, &samples, &d))?;
+        notes.push(rule(&recording).into());
+        Ok(LoadedRecording { recording, notes })
+    }
+
+    /// Checks a joint that is none of the arm's two.
+    fn stands_still(&self, source: &Source, samples: &Samples, other: &Series) -> Result<String, Defect> {
+        let name = &other.name;
+        let Some((_, held)) = self.held.iter().find(|(held, _)| held == name) else {
+            return Ok(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
+        };
+        let moves = |v: &f64| v.is_nan() || (v - held).abs() > STILL;
+        match other.position.iter().position(moves) {
+            None => Ok(format!("joint \"{name}\" stands still at {held}, as it should: ignored")),
+            Some(sample) => {
+                let value = other.position[sample];
+                let message = format!("joint \"{name}\" is at {value}, but the workspace holds it at {held}");
+                let cure = format!(
+                    "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the \
+                                    world file; one that moves cannot be checked with the arm's two"
+                );
+                Err(samples.defect(source, sample, &message).cure(cure))
+            }
+        }
+    }
+}
+
+impl Samples {
+    /// A defect of one sample.
+    fn defect(&self, source: &Source, sample: usize, message: &str) -> Defect {
+        match self.places.get(sample) {
+            Some(place) => source.defect_at(place.clone(), message),
+            None => source.defect(format!("{}[{sample}]: {message}", self.what)),
+        }
+    }
+}
+
+fn misplaced(source: &Source, samples: &Samples, defect: &RecordingDefect) -> Defect {
+    let message = defect.to_string();
+    let placed = match defect.sample() {
+        Some(sample) => samples.defect(source, sample, &message),
+        None => source.defect(message),
+    };
+    match defect {
+        RecordingDefect::Empty => placed.cure("record at least one sample"),
+        RecordingDefect::Count { .. } => placed.cure("give every sample all of its values"),
+        RecordingDefect::VelocityWithoutTime => placed.cure("add the times, in seconds, or leave the velocities out"),
+        RecordingDefect::Value { what, .. } => {
+            placed.cure(format!("a {what} is a finite number: radians or metres, and seconds"))
+        }
+        RecordingDefect::Time { .. } => placed.cure("sort the samples by time and drop repeated ones"),
+    }
+}
+
+/// How the samples are joined, in words.
+fn rule(recording: &Recording) -> &'static str {
+    match (recording.times(), recording.velocities()) {
+        (_, Some(_)) => "between samples: the cubic that positions and velocities imply",
+        (Some(_), None) => {
+            "between samples: straight in joint space at constant velocity; without velocities in the file, \
+             accelerations and rest at the ends cannot be judged"
+        }
+        (None, None) => {
+            "between waypoints: straight in joint space; without times in the file, velocities and accelerations cannot \
+             be judged"
+        }
+    }
+}

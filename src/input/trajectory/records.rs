@@ -1,0 +1,106 @@
+//! Comma-separated values (RFC 4180) with the place of every field.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+/// A field and where it is, quotes included.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Field<'a> {
+    pub text: Cow<'a, str>,
+    pub range: Range<usize>,
+}
+
+/// The records of a text, one after the other, blank lines left out. A quote that is never closed takes all that
+/// follows, which is no number and is refused as such.
+pub(super) struct Records<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Records<'a> {
+    pub fn new(text: &'a str) -> Self {
+        Self { text, at: 0 }
+    }
+
+    /// The next field, and whether it ends its record.
+    fn field(&mut self) -> (Field<'a>, bool) {
+        let start = self.at;
+        let rest = &self.text[start..];
+        let quoted = rest.starts_with('"').then(|| closing_quote(rest));
+        let begin = quoted.unwrap_or(0);
+        let length = rest[begin..].find([',', '\n']).map_or(rest.len(), |i| begin + i);
+        let ends = !rest[length..].starts_with(',');
+        self.at = start + (length + 1).min(rest.len());
+        let raw = rest[..length].trim();
+        let text = match quoted {
+            Some(_) => {
+                let inner = raw.strip_prefix('"').unwrap_or(raw);
+                Cow::Owned(inner.strip_suffix('"').unwrap_or(inner).replace("\"\"", "\""))
+            }
+            None => Cow::Borrowed(raw),
+        };
+        (Field { text, range: start..start + length }, ends)
+    }
+}
+
+/// Just behind the quote that closes the one at the beginning; the end if there is none.
+fn closing_quote(text: &str) -> usize {
+    let mut from = 1;
+    while let Some(i) = text[from..].find('"') {
+        from += i + 1;
+        if !text[from..].starts_with('"') {
+            return from;
+        }
+        from += 1;
+    }
+    text.len()
+}
+
+impl<'a> Iterator for Records<'a> {
+    type Item = Vec<Field<'a>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.at < self.text.len() {
+            let mut record = Vec::new();
+            loop {
+                let (field, ends) = self.field();
+                record.push(field);
+                if ends {
+                    break;
+                }
+            }
+            if record.len() > 1 || !record[0].text.is_empty() {
+                return Some(record);
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Vec<Vec<String>> {
+        Records::new(text).map(|r| r.into_iter().map(|f| f.text.into_owned()).collect()).collect()
+    }
+
+    #[test]
+    fn fields_and_records() {
+        assert_eq!(read("a,b\r\n\n 1 ,2\n"), [["a", "b"], ["1", "2"]]);
+        assert_eq!(read("a,\n,b"), [["a", ""], ["", "b"]]);
+        assert_eq!(read("\"a,\"\"b\"\"\",c\n1,2"), [["a,\"b\"", "c"], ["1", "2"]]);
+        assert_eq!(read("\"a\nb\",c"), [["a\nb", "c"]]);
+        assert_eq!(read(""), Vec::<Vec<String>>::new());
+        assert_eq!(read("\"never closed, 1\n2"), [["never closed, 1\n2"]]);
+        assert_eq!(read("\"\",1"), [["", "1"]]);
+    }
+
+    #[test]
+    fn places_are_those_of_the_text() {
+        let text = "a,\"b,\"\nç, d";
+        let fields: Vec<&str> =
+            Records::new(text).flatten().map(|f| f.range).collect::<Vec<_>>().into_iter().map(|r| &text[r]).collect();
+        assert_eq!(fields, ["a", "\"b,\"", "ç", " d"]);
+    }
+}

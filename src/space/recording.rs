@@ -1,0 +1,236 @@
+//! Motions as samples.
+
+use super::{Configuration, Path, Piece, Topology};
+use thiserror::Error;
+
+/// Joint values beyond this are no radians or metres of an arm; and doubles near it still resolve a nanometre.
+const LARGEST_VALUE: f64 = 1e6;
+
+/// Times and velocities beyond this are a mistake; seconds since 1970 are far below.
+const LARGEST_RATE: f64 = 1e12;
+
+/// A motion of both joints, given by samples, and with it what happens between them: where velocities are known, the
+/// cubic that positions and velocities imply (Hermite); otherwise both joints move at constant velocity, straight in
+/// joint space. Radians or metres, and seconds; values are taken as they are, not wrapped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    position: Vec<Configuration>,
+    time: Option<Vec<f64>>,
+    velocity: Option<Vec<Configuration>>,
+}
+
+/// Why samples are no motion. Samples count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum RecordingDefect {
+    /// There are none.
+    #[error("there is no sample")]
+    Empty,
+    /// Positions, times and velocities are not equally many.
+    #[error("there are {positions} positions, but {others} {what}")]
+    Count {
+        /// How many positions.
+        positions: usize,
+        /// `times` or `velocities`.
+        what: &'static str,
+        /// How many of those.
+        others: usize,
+    },
+    /// Velocities are of no use without times.
+    #[error("there are velocities, but no times")]
+    VelocityWithoutTime,
+    /// A number is NaN, infinite, or too large to be meant.
+    #[error("a {what} is {value}")]
+    Value {
+        /// The sample.
+        sample: usize,
+        /// `position`, `time` or `velocity`.
+        what: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// The clock stands still or runs backwards.
+    #[error("the time {time} s follows {before} s; times must increase")]
+    Time {
+        /// The later sample.
+        sample: usize,
+        /// Its time.
+        time: f64,
+        /// The time of the sample before.
+        before: f64,
+    },
+}
+
+impl RecordingDefect {
+    /// The sample at fault, if it is one.
+    #[must_use]
+    pub fn sample(&self) -> Option<usize> {
+        match *self {
+            RecordingDefect::Value { sample, .. } | RecordingDefect::Time { sample, .. } => Some(sample),
+            _ => None,
+        }
+    }
+}
+
+impl Recording {
+    /// Samples as a motion.
+    ///
+    /// # Errors
+    /// [`RecordingDefect`]: the first that there is.
+    pub fn new(
+        position: Vec<Configuration>,
+        time: Option<Vec<f64>>,
+        velocity: Option<Vec<Configuration>>,
+    ) -> Result<Self, RecordingDefect> {
+        if position.is_empty() {
+            return Err(RecordingDefect::Empty);
+        }
+        if velocity.is_some() && time.is_none() {
+            return Err(RecordingDefect::VelocityWithoutTime);
+        }
+        let counts = [("times", time.as_ref().map(Vec::len)), ("velocities", velocity.as_ref().map(Vec::len))];
+        for (what, others) in counts {
+            if let Some(others) = others.filter(|n| *n != position.len()) {
+                return Err(RecordingDefect::Count { positions: position.len(), what, others });
+            }
+        }
+        let outside = |value: f64, limit: f64| value.is_nan() || value.abs() > limit;
+        for sample in 0..position.len() {
+            let rates = velocity.as_ref().map(|v| v[sample]);
+            let numbers = [("position", Some(position[sample]), LARGEST_VALUE), ("velocity", rates, LARGEST_RATE)];
+            for (what, row, limit) in numbers {
+                if let Some(&value) = row.iter().flatten().find(|v| outside(**v, limit)) {
+                    return Err(RecordingDefect::Value { sample, what, value });
+                }
+            }
+            let Some(time) = &time else { continue };
+            if outside(time[sample], LARGEST_RATE) {
+                return Err(RecordingDefect::Value { sample, what: "time", value: time[sample] });
+            }
+            if sample > 0 && time[sample] <= time[sample - 1] {
+                let (time, before) = (time[sample], time[sample - 1]);
+                return Err(RecordingDefect::Time { sample, time, before });
+            }
+        }
+        Ok(Self { position, time, velocity })
+    }
+
+    /// Joint values of the samples; at least one.
+    #[must_use]
+    pub fn positions(&self) -> &[Configuration] {
+        &self.position
+    }
+
+    /// Times of the samples, strictly increasing, seconds.
+    #[must_use]
+    pub fn times(&self) -> Option<&[f64]> {
+        self.time.as_deref()
+    }
+
+    /// Joint velocities at the samples.
+    #[must_use]
+    pub fn velocities(&self) -> Option<&[Configuration]> {
+        self.velocity.as_deref()
+    }
+
+    /// From the first to the last sample, seconds.
+    #[must_use]
+    pub fn duration(&self) -> Option<f64> {
+        self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
+    }
+
+    /// The motion between the samples, piece `k` from sample `k` to `k + 1`; a single sample is one piece that stands
+    /// still. Without times, sample `k` is at `k`.
+    #[must_use]
+    pub fn pieces(&self) -> Vec<Piece> {
+        let at = |k: usize| self.time.as_ref().map_or(k as f64, |t| t[k]);
+        let q = &self.position;
+        if q.len() == 1 {
+            return vec![Piece::line(at(0), at(0), q[0], q[0])];
+        }
+        let piece = |k: usize| match &self.velocity {
+            Some(v) => Piece::hermite(at(k), at(k + 1), [q[k], v[k]], [q[k + 1], v[k + 1]]),
+            None => Piece::line(at(k), at(k + 1), q[k], q[k + 1]),
+        };
+        (0..q.len() - 1).map(piece).collect()
+    }
+
+    /// Steps of a joint on a circle that are nearer to a whole turn than to none, as the first sample of each and the
+    /// joint: a wrapped recording has them where it crosses the seam.
+    #[must_use]
+    pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
+        let steps = self.position.windows(2).enumerate();
+        let is_turn = |w: &[Configuration], k: usize| {
+            topology.axes[k].is_circle() && (w[1][k] - w[0][k]).abs() > std::f64::consts::PI
+        };
+        steps.flat_map(|(i, w)| (0..2).filter(move |&k| is_turn(w, k)).map(move |k| (i, k))).collect()
+    }
+
+    /// The same motion with every joint on a circle going the short way from sample to sample.
+    #[must_use]
+    pub fn unwrapped(mut self, topology: &Topology) -> Self {
+        for k in 1..self.position.len() {
+            self.position[k] = topology.lift(self.position[k], self.position[k - 1]);
+        }
+        self
+    }
+
+    /// A polyline for pictures: the samples, and on curved pieces points between them.
+    #[must_use]
+    pub fn outline(&self) -> Path {
+        let steps: u8 = if self.velocity.is_some() { 4 } else { 1 };
+        let between = |p: Piece| (1..=steps).map(move |i| p.at(f64::from(i) / f64::from(steps)));
+        let mut waypoints = vec![self.position[0]];
+        waypoints.extend(self.pieces().into_iter().flat_map(between));
+        Path::new(waypoints)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Axis;
+
+    fn q(a: f64, b: f64) -> Configuration {
+        Configuration::new(a, b)
+    }
+
+    #[test]
+    fn samples_that_are_no_motion() {
+        let two = || vec![q(0.0, 0.0), q(1.0, 2.0)];
+        assert_eq!(Recording::new(vec![], None, None), Err(RecordingDefect::Empty));
+        assert_eq!(Recording::new(two(), None, Some(two())), Err(RecordingDefect::VelocityWithoutTime));
+        let count = |what, others| Err(RecordingDefect::Count { positions: 2, what, others });
+        assert_eq!(Recording::new(two(), Some(vec![0.0]), None), count("times", 1));
+        assert_eq!(Recording::new(two(), Some(vec![0.0, 1.0]), Some(vec![])), count("velocities", 0));
+        for times in [[1.0, 1.0], [1.0, 0.5]] {
+            let defect = Recording::new(two(), Some(times.to_vec()), None).unwrap_err();
+            assert_eq!(defect, RecordingDefect::Time { sample: 1, time: times[1], before: 1.0 });
+            assert_eq!(defect.sample(), Some(1));
+        }
+        let sample = |r: Result<Recording, RecordingDefect>| r.unwrap_err().sample();
+        assert_eq!(sample(Recording::new(two(), Some(vec![0.0, f64::NAN]), None)), Some(1));
+        assert_eq!(sample(Recording::new(vec![q(0.0, 0.0), q(0.0, f64::INFINITY)], None, None)), Some(1));
+        assert_eq!(sample(Recording::new(vec![q(1e7, 0.0)], None, None)), Some(0));
+        let velocity = Some(vec![q(0.0, 0.0), q(f64::NAN, 0.0)]);
+        assert_eq!(sample(Recording::new(two(), Some(vec![0.0, 1.0]), velocity)), Some(1));
+    }
+
+    #[test]
+    fn seams_are_seen_and_undone() {
+        let topology = Topology { axes: [Axis::Circle, Axis::Interval { lower: -9.0, upper: 9.0 }] };
+        let wrapped = Recording::new(vec![q(3.0, 0.0), q(-3.0, 5.0), q(-2.9, -5.0)], None, None).unwrap();
+        assert_eq!(wrapped.turns(&topology), [(0, 0)]);
+        let unwrapped = wrapped.unwrapped(&topology);
+        assert!(unwrapped.turns(&topology).is_empty());
+        assert!((unwrapped.positions()[2] - q(std::f64::consts::TAU - 2.9, -5.0)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn one_sample_stands_still() {
+        let still = Recording::new(vec![q(0.1, 0.2)], Some(vec![3.0]), Some(vec![q(0.0, 0.0)])).unwrap();
+        assert_eq!(still.duration(), Some(0.0));
+        let pieces = still.pieces();
+        assert_eq!((pieces.len(), pieces[0].from, pieces[0].to, pieces[0].at(1.0)), (1, 3.0, 3.0, q(0.1, 0.2)));
+        assert_eq!(still.outline().waypoints(), [q(0.1, 0.2)]);
+    }
+}

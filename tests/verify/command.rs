@@ -1,0 +1,83 @@
+//! The command from outside: exit codes and what it prints.
+
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn shipped(file: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+/// Runs `verify` on a robot, a world and a CSV text.
+fn verify(robot: &str, world: &str, csv: &str, options: &[&str]) -> (i32, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.csv"), csv).unwrap();
+    let (robot, world) = (shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")));
+    let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
+        .current_dir(folder.path())
+        .args(["verify", &robot, &world, "m.csv"])
+        .args(options)
+        .output();
+    let Output { status, stdout, stderr } = run.unwrap();
+    for file in options.iter().filter(|o| o.ends_with(".svg")) {
+        let picture = std::fs::read_to_string(folder.path().join(file)).unwrap();
+        assert!(picture.starts_with("<svg") || picture.starts_with("<?xml"), "{picture:.40}");
+    }
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (status.code().unwrap(), text(stdout), text(stderr))
+}
+
+#[test]
+fn exit_codes_and_findings() {
+    let shelf = |csv: &str, options: &[&str]| verify("planar_2r", "shelf", csv, options);
+    let json = |csv: &str, code: i32| -> Value {
+        let (found, stdout, stderr) = shelf(csv, &["--json"]);
+        assert_eq!(found, code, "{stderr}");
+        serde_json::from_str(&stdout).unwrap()
+    };
+    let free = json("shoulder,elbow\n-0.9,0.4\n-0.8,0.4\n", 0);
+    assert_eq!((&free["verdict"], &free["joints"][1]), (&"free".into(), &"elbow".into()));
+    assert!(free["clearance"].as_f64().unwrap() > 0.0 && free["nearest"]["depth"].as_f64().unwrap() < 0.0);
+    assert!(free["first_contact"].is_null() && free["duration"].is_null());
+
+    let hit = json("time,shoulder,elbow\n0,-0.9,0.4\n2,1.55,-0.35\n", 3);
+    assert_eq!((&hit["verdict"], &hit["first_contact"]["obstacle"]), (&"collision".into(), &"shelf".into()));
+    let (time, until) = (hit["first_contact"]["time"].as_f64().unwrap(), hit["free_until"].as_f64().unwrap());
+    assert!(0.0 < until && until <= time && time < 2.0);
+
+    let fast = json("time,shoulder,elbow\n0,-0.9,0.4\n0.01,-0.8,0.4\n", 3);
+    assert_eq!(fast["verdict"], "limits");
+    let broken = &fast["limits_broken"][0];
+    assert_eq!((&broken["joint"], &broken["limit"]), (&"shoulder".into(), &"velocity".into()));
+    assert!((broken["value"].as_f64().unwrap() - 10.0).abs() < 1e-9);
+
+    let (code, stdout, stderr) = shelf("shoulder,elbow\n-0.9,0.4\n-0.8,x\n", &[]);
+    assert_eq!((code, stdout.as_str()), (1, ""));
+    assert!(stderr.contains("m.csv: line 3"), "{stderr}");
+    assert_eq!(shelf("shoulder,elbow\n-0.9,0.4\n", &["--clearance", "-1"]).0, 1);
+}
+
+#[test]
+fn summary_picture_clearance_and_quiet() {
+    let csv = "time,shoulder,elbow\n0,-0.9,0.4\n2,1.55,-0.35\n";
+    let (code, stdout, _) = verify("planar_2r", "shelf", csv, &["--picture", "m.svg"]);
+    assert_eq!(code, 3);
+    for part in ["contact", "obstacle \"shelf\" at 0.7", "proven free before 0.7", "deepest", "collision: proven"] {
+        assert!(stdout.contains(part), "no \"{part}\" in:\n{stdout}");
+    }
+    assert_eq!(verify("planar_2r", "shelf", csv, &["--quiet"]), (3, String::new(), String::new()));
+    let near = "shoulder,elbow\n-0.9,0.4\n-0.8,0.4\n";
+    let (code, stdout, _) = verify("planar_2r", "shelf", near, &["--clearance", "5"]);
+    assert_eq!(code, 3);
+    assert!(stdout.contains("apart") && stdout.contains("nearer than the clearance"), "{stdout}");
+}
+
+#[test]
+fn seams_of_wrapped_angles_are_noted_and_undone() {
+    let csv = "shoulder,elbow\n3.1,0.4\n-3.1,0.4\n";
+    let run = |options: &[&str]| verify("planar_2r_continuous", "wrap_around", csv, options);
+    let (_, stdout, _) = run(&[]);
+    assert!(stdout.contains("--unwrap") && stdout.contains("-6.2000 rad"), "{stdout}");
+    let (_, stdout, _) = run(&["--unwrap"]);
+    assert!(!stdout.contains("--unwrap") && stdout.contains("3.1832 rad"), "{stdout}");
+}

@@ -1,0 +1,184 @@
+//! Our own outputs in all formats, as they are and tampered with.
+
+use cplan::certify::{Excess, Limit, Passage, limits_kept, passage};
+use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
+use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::space::{Configuration, Path, Recording};
+use cplan::trajectory::{Format, Report, Trajectory, time};
+use std::path::PathBuf;
+
+fn root(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+/// A shipped workspace and the path found in it.
+fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Report)> {
+    let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
+    let loaded = input::load(&files[0], &files[1], &Overrides::default()).unwrap();
+    let joints = &loaded.problem.scene.arm.joints;
+    let answer = solve(&loaded.problem, Method::Visibility, &Effort::default(), &mut |_| {});
+    let Verdict::Found(certified) = &answer.verdict else { return None };
+    let report = Report::found("visibility", joints, certified, time(certified, joints, 0.01).unwrap());
+    Some((load_scene(&files[0], &files[1]).unwrap(), report))
+}
+
+fn read(scene: &LoadedScene, name: &str, text: &str) -> Recording {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join(name);
+    std::fs::write(&file, text).unwrap();
+    load_recording(&file, scene).unwrap_or_else(|e| panic!("{e}")).recording
+}
+
+fn judge(scene: &LoadedScene, recording: &Recording) -> (Passage, Vec<Excess>) {
+    let clearance = scene.scene.workspace.clearance;
+    (passage(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm.joints, recording))
+}
+
+#[test]
+fn every_shipped_result_verifies_alike_in_all_formats() {
+    let mut checked = 0;
+    for entry in std::fs::read_dir(root("workspaces")).unwrap() {
+        let file = entry.unwrap().path();
+        let text = std::fs::read_to_string(&file).unwrap();
+        let Some(robot) = text.lines().find_map(|l| l.strip_prefix("# robot: ")) else { continue };
+        let name = file.file_stem().unwrap().to_str().unwrap();
+        let Some((scene, report)) = planned(robot.trim(), name) else { continue };
+        let formats = [(Format::Json, "a.json"), (Format::Csv, "a.csv"), (Format::Yaml, "a.yaml")];
+        for (format, file) in formats {
+            let recording = read(&scene, file, &format.text(&report).unwrap());
+            let (verdict, broken) = judge(&scene, &recording);
+            let Passage::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
+            assert_eq!(broken, [], "{name}, {file}");
+            // The same motion: the bounds differ by how the search went, both at least 0.9 of the truth.
+            if let Some(certified) = report.clearance {
+                assert!(clearance >= 0.9 * certified && certified >= 0.9 * clearance, "{name}, {file}: {clearance}");
+            }
+        }
+        checked += 1;
+    }
+    assert!(checked >= 10, "only {checked} workspaces");
+}
+
+fn shelf() -> (LoadedScene, Report) {
+    planned("planar_2r", "shelf").expect("has a path")
+}
+
+fn with(report: &Report, change: impl FnOnce(&mut Trajectory)) -> Report {
+    let mut report = report.clone();
+    change(report.trajectory.as_mut().unwrap());
+    report
+}
+
+#[test]
+fn tampered_results_are_caught() {
+    let (scene, report) = shelf();
+    let read =
+        |report: &Report, format: Format, name| judge(&scene, &read(&scene, name, &format.text(report).unwrap()));
+    let kinds = |broken: &[Excess]| broken.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>();
+
+    // Twice as fast in the same shape: speeds double, accelerations quadruple.
+    let fast = with(&report, |t| {
+        t.time.iter_mut().for_each(|t| *t /= 2.0);
+        t.velocity.iter_mut().flatten().for_each(|v| *v *= 2.0);
+    });
+    for (format, name) in [(Format::Json, "a.json"), (Format::Csv, "a.csv"), (Format::Yaml, "a.yml")] {
+        let (verdict, broken) = read(&fast, format, name);
+        assert!(matches!(verdict, Passage::Free { .. }));
+        let ratio = |limit| {
+            let worst = broken.iter().filter(|e| e.limit == limit);
+            worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
+        };
+        let (speed, pull) = (ratio(Limit::Velocity), ratio(Limit::Acceleration));
+        assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.1, "{name}: {speed}, {pull}");
+    }
+
+    let (verdict, broken) = read(&with(&report, |t| t.velocity[0][1] = 0.25), Format::Csv, "a.csv");
+    assert!(matches!(verdict, Passage::Free { .. }));
+    assert!(kinds(&broken).contains(&(1, Limit::RestAtStart)), "{broken:?}");
+    let last = report.trajectory.as_ref().unwrap().time.len() - 1;
+    let (_, broken) = read(&with(&report, |t| t.velocity[last][0] = -0.25), Format::Yaml, "a.yaml");
+    let end = broken.iter().find(|e| e.limit == Limit::RestAtEnd).expect("does not end at rest");
+    assert_eq!((end.joint, end.value, end.moment.sample), (0, -0.25, last));
+
+    // One sample moved into the shelf: contact before it, and after the sample before.
+    let at = last / 2;
+    let hit = with(&report, |t| t.position[at] = [0.15, 0.08]);
+    assert!(scene.scene.clearance(Configuration::new(0.15, 0.08)) < -0.1);
+    let times = report.trajectory.as_ref().unwrap().time.clone();
+    let (verdict, _) = read(&hit, Format::Json, "a.json");
+    let Passage::Collision { first, free_until, deepest } = verdict else { panic!("{verdict:?}") };
+    assert!(times[at - 1] < free_until && free_until <= first.moment.time && first.moment.time < times[at]);
+    assert!(scene.scene.describe(first.contact.pair).contains("obstacle \"shelf\""));
+    assert!(deepest.contact.separation.distance < -0.1);
+}
+
+#[test]
+fn the_straight_way_collides_where_the_path_does_not() {
+    let (scene, report) = shelf();
+    let path = report.path.as_ref().unwrap();
+    let (a, b) = (path[0], path[path.len() - 1]);
+    let csv = format!("shoulder,elbow\n{},{}\n{},{}\n", a[0], a[1], b[0], b[1]);
+    let (verdict, broken) = judge(&scene, &read(&scene, "ends.csv", &csv));
+    let Passage::Collision { first, .. } = verdict else { panic!("{verdict:?}") };
+    assert_eq!(broken, []);
+    // The first contact by bisection of densely sampled distances.
+    let at = |u: f64| Configuration::new(a[0] + (b[0] - a[0]) * u, a[1] + (b[1] - a[1]) * u);
+    let sampled = (0..=100_000).map(|i| f64::from(i) / 1e5).find(|u| scene.scene.clearance(at(*u)) <= 0.0).unwrap();
+    assert!(first.moment.time <= sampled && sampled - first.moment.time <= 1e-5);
+}
+
+#[test]
+fn spellings_of_columns_and_messages_mean_the_same() {
+    let (scene, _) = shelf();
+    let expected = Recording::new(
+        vec![Configuration::new(0.1, 0.2), Configuration::new(0.2, 0.3)],
+        Some(vec![0.0, 1.5]),
+        Some(vec![Configuration::zeros(), Configuration::new(0.0, -0.5)]),
+    )
+    .unwrap();
+    for (name, text) in [
+        ("a.csv", "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0.1,0.2,0,0\n1.5,0.2,0.3,0,-0.5\n"),
+        (
+            "a.CSV",
+            "elbow.velocity, elbow.position ,effort,t,vel_shoulder,pos_shoulder\r\n0,.2,9,0,0,.1\r\n-0.5,.3,9,1.5,0,.2\r\n",
+        ),
+        (
+            "a.csv",
+            "# time_from_start,/js/shoulder/position,/js/elbow/position,/js/elbow/velocity,/js/shoulder/velocity\n0,0.1,0.2,0,0\n\n15e-1,0.2,0.3,-0.5,0",
+        ),
+        (
+            "a.yaml",
+            "joint_names: [elbow, camera, shoulder]\npoints:\n- {positions: [0.2, 7, 0.1], velocities: [0, 0, 0], effort: [], time_from_start: {sec: 0}}\n- positions: [0.3, 8, 0.2]\n  velocities: [-0.5, 0, 0]\n  time_from_start: {sec: 1, nanosec: 500000000}\n---\n",
+        ),
+        (
+            "a.yml",
+            "joint_trajectory:\n  joint_names: [shoulder, elbow]\n  points:\n  - {positions: [0.1, 0.2], velocities: [0, 0], time_from_start: 0}\n  - {positions: [0.2, 0.3], velocities: [0, -0.5], time_from_start: 1.5}\n",
+        ),
+        (
+            "a.json",
+            r#"{"joint_names": ["shoulder", "elbow"], "points": [
+            {"positions": [0.1, 0.2], "velocities": [0, 0], "time_from_start": {"secs": 0, "nsecs": 0}},
+            {"positions": [0.2, 0.3], "velocities": [0, -0.5], "time_from_start": {"secs": 1, "nsecs": 500000000}}]}"#,
+        ),
+        (
+            "a.json",
+            r#"{"joints": ["elbow", "shoulder"], "path": [[9, 9]], "trajectory":
+            {"time": [0, 1.5], "position": [[0.2, 0.1], [0.3, 0.2]], "velocity": [[0, 0], [-0.5, 0]]}}"#,
+        ),
+    ] {
+        assert_eq!(read(&scene, name, text), expected, "{text}");
+    }
+    let path = read(&scene, "a.json", r#"{"joints": ["elbow", "shoulder"], "path": [[0.2, 0.1], [0.3, 0.2]]}"#);
+    assert_eq!(path.outline(), Path::new(expected.positions().to_vec()));
+    assert!(path.times().is_none() && path.velocities().is_none());
+}
+
+#[test]
+fn thousands_of_points_are_no_bomb() {
+    let (scene, _) = shelf();
+    let mut text = String::from("joint_names: [shoulder, elbow]\npoints:\n");
+    for k in 0..60_000 {
+        text += &format!("- positions: [0.0, 0.0]\n  time_from_start: {{sec: {k}, nanosec: 0}}\n");
+    }
+    assert_eq!(read(&scene, "long.yaml", &text).positions().len(), 60_000);
+}

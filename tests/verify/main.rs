@@ -1,0 +1,10 @@
+//! `cplan verify`: recorded motions against closed forms, dense sampling and tampering.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod bad_input;
+mod command;
+mod files;
+mod limits;
+mod motion;
