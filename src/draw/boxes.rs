@@ -54,7 +54,7 @@ pub fn proof(stuck: &[StuckBox], frame: &Frame) -> Item {
 /// Legend of a proof.
 #[must_use]
 pub fn proof_key() -> Key {
-    (Sign::Swatch(PROOF), "proof: boxes of collisions that separate start and goal".to_owned())
+    (Sign::Swatch(PROOF), "proof: separating boxes".to_owned())
 }
 
 #[cfg(test)]

@@ -124,7 +124,7 @@ fn recheck_accepts_true_proofs_and_no_others() {
         place.run(&[&urdf, &closed], "--planner subdivision --json --quiet --output proof.json --picture proof.svg");
     assert_eq!((made.code, made.stderr.as_str()), (3, ""));
     let boxes = made.json()["proof"].as_array().unwrap().len();
-    assert!(place.read("proof.svg").contains("proof: boxes of collisions"));
+    assert!(place.read("proof.svg").contains("proof: separating boxes"));
     let judge = |world: &str, options: &str| place.run(&["recheck", &urdf, world], &format!("--proof {options}"));
     let holds = judge(&closed, "proof.json");
     assert_eq!((holds.code, holds.stdout.contains(&format!("holds: {boxes} boxes"))), (0, true), "{}", holds.stderr);
