@@ -27,7 +27,7 @@
 //! ```
 //!
 //! Below all of it lie [`geometry`] (exact predicates, convex shapes, Minkowski differences) and [`space`]
-//! (configurations, and the only code that knows about circles).
+//! (configurations, and the only code that wraps them on circles).
 //!
 //! Modules import downwards only; [`certify`] imports neither [`cspace`] nor [`plan`], so that it judges them
 //! independently. A test holds this table.
@@ -52,3 +52,8 @@ pub mod trajectory;
 pub mod draw;
 pub mod report;
 pub mod cli;
+
+/// The README's example is compiled and run as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

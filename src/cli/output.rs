@@ -45,6 +45,7 @@ pub enum PictureFormat {
 }
 
 /// Pixels of a PNG picture per unit of the SVG.
+#[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
 /// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.

@@ -1,4 +1,4 @@
-//! Intervals and circles: the only code that wraps angles.
+//! Intervals and circles: the only code that wraps configurations.
 
 use super::Configuration;
 use std::f64::consts::{PI, TAU};
