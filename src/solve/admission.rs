@@ -84,14 +84,29 @@ impl Ends {
         Self { topology, start, goals, query }
     }
 
-    /// The planner's path from the true start to the true goal.
+    /// The planner's path from the true start to the true goal by way of the stand-ins.
     pub fn complete(&self, path: &Path) -> Path {
+        self.join(path.waypoints(), self.goal_reached(path))
+    }
+
+    /// The same past the stand-ins, which saves the detour where it is free; none if there is nothing to save.
+    pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
+        let (inner, goal) = (path.waypoints(), self.goal_reached(path));
+        let (first, last) = (self.start != path.start(), goal != path.goal());
+        let past = || self.join(&inner[usize::from(first)..inner.len() - usize::from(last)], goal);
+        (inner.len() > 1 && (first || last)).then(past)
+    }
+
+    /// The true goal, as the copy that the path leads to.
+    fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
-        let reached = self.query.goals.iter().zip(&self.goals).find_map(|(stand_in, goal)| {
-            let same = self.topology.distance(*stand_in, end) < SAME;
-            same.then(|| end + (goal - stand_in))
-        });
-        let inner = path.waypoints().iter().copied();
-        Path::new([self.start].into_iter().chain(inner).chain(reached).collect())
+        let of = |(stand_in, goal): (&Configuration, &Configuration)| {
+            (self.topology.distance(*stand_in, end) < SAME).then(|| end + (goal - stand_in))
+        };
+        self.query.goals.iter().zip(&self.goals).find_map(of).unwrap_or(end)
+    }
+
+    fn join(&self, middle: &[Configuration], goal: Configuration) -> Path {
+        Path::new([self.start].into_iter().chain(middle.iter().copied()).chain([goal]).collect())
     }
 }

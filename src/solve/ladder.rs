@@ -81,7 +81,9 @@ where
         let failure = match &run.outcome {
             Outcome::Found(path) => {
                 let clock = Instant::now();
-                let certified = certify(&problem.scene, ends.complete(path), clearance);
+                let judge = |path| certify(&problem.scene, path, clearance);
+                let straight = ends.past_stand_ins(path).and_then(|path| judge(path).ok());
+                let certified = straight.map_or_else(|| judge(ends.complete(path)), Ok);
                 stages.certify += clock.elapsed();
                 match certified {
                     Ok(path) => {

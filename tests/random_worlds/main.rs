@@ -109,9 +109,10 @@ fn look(problem: &Problem, seed: u64, effort: &Effort, lattice: usize, counts: &
     {
         lies.push(format!("{} {seed}: visibility {shortest}, trapezoid {other}", problem.scene.arm.kind()));
     }
-    // A path that keeps more than the first margin lies in those polygons, unless it turns more often than they do.
+    // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
+    // they do.
     if let Some((shortest, _, _)) = lengths[0] {
-        let margin = effort.margin * problem.scene.arm.reach() + problem.scene.workspace.clearance;
+        let margin = 3.0 * effort.margin * problem.scene.arm.reach() + problem.scene.workspace.clearance;
         for (length, clearance, _) in lengths[1..].iter().flatten() {
             if *clearance > margin && shortest > length * (1.0 + ROUNDING) {
                 lies.push(format!("{} {seed}: visibility {shortest}, another {length}", problem.scene.arm.kind()));
