@@ -159,13 +159,13 @@ proptest! {
 #[test]
 fn w20_from_rows_is_that_of_collision_tests() {
     let scene = common::w20();
-    let cells = [360, 360];
+    let cells = [1024, 1024];
     let (rows, sampled) = (grid_from_rows(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
     let differing: Vec<usize> = (0..rows.blocked.len()).filter(|&i| rows.blocked[i] != sampled.blocked[i]).collect();
     for &index in &differing {
         let distance = scene.clearance(rows.center(index));
         assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
     }
-    let blocked = rows.blocked.iter().filter(|b| **b).count();
-    assert!(blocked > 10_000 && blocked < 120_000, "a mixed picture, not {blocked} cells");
+    let blocked = rows.blocked.iter().filter(|b| **b).count() as f64 / rows.blocked.len() as f64;
+    assert!(blocked > 0.1 && blocked < 0.9, "a mixed picture, not a share of {blocked}");
 }
