@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Benchmark, all_kinds, benchmark, q, rectangle, rr, scene};
+use common::{Benchmark, all_kinds, benchmark, clutter, q, rectangle, rr, scene};
 use cplan::certify::{
     CertifiedPath, Connectivity, Deviation, Occupancy, Posture, ProofDefect, Rejection, StuckBox, certify,
     connectivity, explore, recheck,
@@ -11,15 +11,6 @@ use cplan::geometry::{Convex, Point};
 use cplan::model::Scene;
 use cplan::space::{Axis, Configuration, Path};
 use proptest::prelude::*;
-
-fn clutter() -> Vec<Convex> {
-    vec![
-        rectangle(0.7, 0.9, 0.4, 0.8),
-        Convex::disc(Point::new(-0.5, 0.6), 0.15),
-        Convex::segment(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
-        Convex::new(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
-    ]
-}
 
 fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
     let at = |k: usize, t: f64| {

@@ -78,6 +78,16 @@ pub fn all_kinds() -> Vec<Arm> {
     ]
 }
 
+/// A polygon, a triangle, a disc and a thin wall within reach of all arms here.
+pub fn clutter() -> Vec<Convex> {
+    vec![
+        rectangle(0.7, 0.9, 0.4, 0.8),
+        Convex::disc(Point::new(-0.5, 0.6), 0.15),
+        Convex::segment(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
+        Convex::new(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
+    ]
+}
+
 pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
     let shape = match piece.core() {
         [center] => Shape::Circle { center: *center, radius: piece.radius() },

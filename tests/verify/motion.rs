@@ -1,21 +1,12 @@
 //! The continuous check against dense sampling and contacts known in closed form.
 
-use crate::common::{all_kinds, q, rectangle, rr, scene};
+use crate::common::{all_kinds, clutter, q, rectangle, rr, scene};
 use cplan::certify::{Passage, passage};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Scene;
 use cplan::space::{Axis, Configuration, Recording};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_4;
-
-fn clutter() -> Vec<Convex> {
-    vec![
-        rectangle(0.7, 0.9, 0.4, 0.8),
-        Convex::disc(Point::new(-0.5, 0.6), 0.15),
-        Convex::segment(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
-        Convex::new(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
-    ]
-}
 
 /// Cubic Hermite interpolation by its basis polynomials.
 fn hermite(h: f64, u: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Configuration {
