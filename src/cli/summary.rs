@@ -3,7 +3,6 @@
 use super::output::Sink;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint};
-use crate::plan::Size;
 use crate::solve::{Answer, Stages, Verdict};
 use crate::space::{Axis, Configuration};
 use crate::trajectory::Report;
@@ -66,14 +65,6 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// Size of what a planner built.
-pub fn size(size: Size) -> String {
-    match size {
-        Size::Graph { nodes, edges } => format!("{nodes} nodes, {edges} edges"),
-        Size::Grid { cells, sweeps } => format!("{cells} cells, {sweeps} sweeps"),
-    }
-}
-
 /// What was found, in some ten lines.
 pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], clock: &Clock) -> String {
     let scene = &loaded.problem.scene;
@@ -95,7 +86,7 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
     for &goal in &loaded.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
-    lines.push(("planner", format!("{}: {}", answer.method, size(answer.run.size))));
+    lines.push(("planner", format!("{}: {}", answer.method, answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     match &answer.verdict {
         Verdict::Found(certified) => {

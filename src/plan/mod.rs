@@ -62,6 +62,16 @@ pub enum Size {
     },
 }
 
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let counted = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+        match *self {
+            Size::Graph { nodes, edges } => write!(f, "{}, {}", counted(nodes, "node"), counted(edges, "edge")),
+            Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
+        }
+    }
+}
+
 /// What a planner saw on its way, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {

@@ -143,7 +143,7 @@ impl Comparison {
                 fixed(self.ratio(row), 3),
                 fixed(row.clearance.map(|v| v * 1e3), 3),
                 fixed(row.duration, 3),
-                row.size.map(describe),
+                row.size.map(|size| size.to_string()),
                 fixed(row.build.map(|v| v * 1e3), 3),
                 fixed(row.query.map(|v| v * 1e3), 3),
                 fixed(row.certify.map(|v| v * 1e3), 3),
@@ -155,18 +155,6 @@ impl Comparison {
 
 fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
     value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
-}
-
-fn describe(size: Size) -> String {
-    let counted = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
-    match size {
-        Size::Graph { nodes, edges } => {
-            format!("{}, {}", counted(nodes, "node", "nodes"), counted(edges, "edge", "edges"))
-        }
-        Size::Grid { cells, sweeps } => {
-            format!("{}, {}", counted(cells, "cell", "cells"), counted(sweeps, "sweep", "sweeps"))
-        }
-    }
 }
 
 /// Nodes, edges, cells, sweeps.
