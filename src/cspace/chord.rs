@@ -112,7 +112,7 @@ impl<'a> PairMotion<'a> {
 
     /// Bounds on the second derivative, along the straight motion over a unit of time, of a corner of the part seen from
     /// the world, and of a corner of the piece seen from the link.
-    fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
+    pub fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let d = to - from;
         let (offset, part, piece) = (self.arm.offset, self.part_reach, self.piece_reach);
         match (self.arm.joints[0].motion, self.arm.joints[1].motion) {

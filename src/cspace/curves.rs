@@ -5,7 +5,7 @@ use super::chord::{Contact, PairMotion};
 use super::events::events;
 use super::outline::{Break, Flattening, Source, contours};
 use super::rows::Rows;
-use crate::geometry::Point;
+use crate::geometry::{Convex, Point};
 use crate::space::Configuration;
 use std::f64::consts::{PI, TAU};
 
@@ -60,43 +60,59 @@ impl<'a> Curves<'a> {
     fn breaks(&self) -> Vec<Break> {
         let scene = self.rows.scene();
         let pair = scene.pairs()[self.index];
-        let joint = &scene.arm.joints[0];
-        let (start, end) = if joint.motion.is_revolute() {
-            let start = self.seam();
-            (start, start + TAU)
-        } else {
-            joint.axis.domain()
-        };
-        let step = (end - start) / FIRST_ROWS as f64;
-        let mut breaks: Vec<Break> = (0..FIRST_ROWS)
-            .map(|i| Break { q1: start + step * i as f64, keep: false })
-            .chain([Break { q1: end, keep: false }])
-            .collect();
-        for (level, keep) in [(self.floor, true), (self.level, false)] {
-            for q1 in events(&scene.arm, scene.part(pair), scene.piece(pair), level) {
-                let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
-                if start <= q1 && q1 <= end {
-                    breaks.push(Break { q1, keep });
-                }
+        let shapes = [scene.part(pair), scene.piece(pair)];
+        let levels = [(self.floor, true), (self.level, false)];
+        first_breaks(self.rows, self.index, shapes, &levels, OVERLAP * self.min_width)
+    }
+}
+
+/// Rows to begin with, in order: some all over the range of `q1`, and those where pair `index`, with `shapes` for part and
+/// piece, begins or ceases to be at each of `levels`, to be kept as it says. Of two no farther apart than `same` one does.
+pub(super) fn first_breaks(
+    rows: &Rows,
+    index: usize,
+    shapes: [&Convex; 2],
+    levels: &[(f64, bool)],
+    same: f64,
+) -> Vec<Break> {
+    let arm = &rows.scene().arm;
+    let joint = &arm.joints[0];
+    let greatest = levels.iter().map(|l| l.0).fold(0.0, f64::max);
+    let (start, end) = if joint.motion.is_revolute() {
+        let start = seam(rows, index, greatest);
+        (start, start + TAU)
+    } else {
+        joint.axis.domain()
+    };
+    let step = (end - start) / FIRST_ROWS as f64;
+    let mut breaks: Vec<Break> = (0..FIRST_ROWS)
+        .map(|i| Break { q1: start + step * i as f64, keep: false })
+        .chain([Break { q1: end, keep: false }])
+        .collect();
+    for &(level, keep) in levels {
+        for q1 in events(arm, shapes[0], shapes[1], level) {
+            let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
+            if start <= q1 && q1 <= end {
+                breaks.push(Break { q1, keep });
             }
         }
-        breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
-        breaks.dedup_by(|b, a| {
-            let same = b.q1 - a.q1 <= OVERLAP * self.min_width;
-            a.keep |= same && b.keep;
-            same
-        });
-        breaks
     }
+    breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
+    breaks.dedup_by(|b, a| {
+        let near = b.q1 - a.q1 <= same;
+        a.keep |= near && b.keep;
+        near
+    });
+    breaks
+}
 
-    /// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
-    fn seam(&self) -> f64 {
-        let mut intervals = Vec::new();
-        (0..FIRST_ROWS)
-            .map(|i| -PI + TAU / FIRST_ROWS as f64 * i as f64)
-            .find(|&q1| self.rows.second_link(self.index, q1, self.level, &mut intervals) == Hits::Never)
-            .unwrap_or(-PI)
-    }
+/// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
+fn seam(rows: &Rows, index: usize, level: f64) -> f64 {
+    let mut intervals = Vec::new();
+    (0..FIRST_ROWS)
+        .map(|i| -PI + TAU / FIRST_ROWS as f64 * i as f64)
+        .find(|&q1| rows.second_link(index, q1, level, &mut intervals) == Hits::Never)
+        .unwrap_or(-PI)
 }
 
 impl Source for &Curves<'_> {
@@ -120,8 +136,17 @@ impl Source for &Curves<'_> {
         end.turned(turns)
     }
 
-    fn accepts(&self, from: &Contact, to: &Contact) -> bool {
+    fn links(&self, from: &[Contact; 2], to: &[Contact; 2]) -> bool {
+        (0..2).all(|side| self.shortens(&from[side], &to[side]))
+    }
+
+    fn shortens(&self, from: &Contact, to: &Contact) -> bool {
         self.motion.least_distance(from, to) >= self.floor
             && self.motion.separation((from.q + to.q) / 2.0).distance <= self.ceiling
+    }
+
+    /// To cover more than the C-obstacle is allowed.
+    fn fills(&self, _: f64, _: f64, _: [f64; 2]) -> bool {
+        true
     }
 }

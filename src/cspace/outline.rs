@@ -1,7 +1,10 @@
 //! Contours of a C-obstacle from its rows: adaptive flattening of curves that are known at each `q1` exactly.
 
 use crate::geometry::Point;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
+
+/// All of `q2` where that turns.
+const TURN: [f64; 2] = [-PI, PI];
 
 /// A C-obstacle, row by row, and a judge of its chords.
 pub(super) trait Source {
@@ -21,8 +24,15 @@ pub(super) trait Source {
     /// The same point on another turn of joint 2.
     fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
 
-    /// Whether the straight line between two boundary points can stand for the boundary between them.
-    fn accepts(&self, from: &Self::End, to: &Self::End) -> bool;
+    /// Whether the intervals with these ends in two rows can be linked by straight lines.
+    fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
+
+    /// Whether the straight line between two boundary points can stand for the lines by way of the rows between.
+    fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
+
+    /// Whether a rectangle over the strip from `u` to `v` and `span` can stand for the C-obstacle there, given that at
+    /// each end of the strip or at one of them all of the span is blocked.
+    fn fills(&self, u: f64, v: f64, span: [f64; 2]) -> bool;
 }
 
 /// How to flatten.
@@ -107,8 +117,8 @@ impl<S: Source> Tracer<'_, S> {
 
     /// Extends the chains from row `u` to row `v`, through as many rows between as it takes.
     fn strip(&mut self, u: &Row<S::End>, v: &Row<S::End>) {
-        if u.full && v.full {
-            self.rectangle(u.at.q1, v.at.q1, None);
+        if u.full && v.full && self.source.fills(u.at.q1, v.at.q1, TURN) {
+            self.rectangle(u.at.q1, v.at.q1, TURN);
         } else if let Some(links) = self.matching(u, v) {
             self.extend(v, &links);
         } else if v.at.q1 - u.at.q1 <= self.how.min_width {
@@ -133,8 +143,7 @@ impl<S: Source> Tracer<'_, S> {
                     let j = (i + rotation) % n;
                     let turns = self.turns_between(&u.intervals[i], &v.intervals[j]);
                     let to = v.intervals[j].map(|end| self.source.shifted(&end, turns));
-                    let linked = self.overlap(&u.intervals[i], &to)
-                        && (0..2).all(|side| self.source.accepts(&u.intervals[i][side], &to[side]));
+                    let linked = self.overlap(&u.intervals[i], &to) && self.source.links(&u.intervals[i], &to);
                     linked.then_some((j, turns))
                 })
                 .collect()
@@ -171,22 +180,23 @@ impl<S: Source> Tracer<'_, S> {
     /// Covers the narrow strip between two rows that do not match.
     fn cover(&mut self, u: &Row<S::End>, v: &Row<S::End>) {
         self.close_chains();
-        if u.full || v.full {
-            self.rectangle(u.at.q1, v.at.q1, None);
+        let spans = if u.full || v.full {
+            vec![TURN]
         } else {
-            let spans: Vec<[f64; 2]> =
-                u.intervals.iter().chain(&v.intervals).map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect();
-            for span in united(spans, self.how.turning) {
-                self.rectangle(u.at.q1, v.at.q1, Some(span));
+            let both = u.intervals.iter().chain(&v.intervals);
+            united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.how.turning)
+        };
+        for span in spans {
+            if self.source.fills(u.at.q1, v.at.q1, span) {
+                self.rectangle(u.at.q1, v.at.q1, span);
             }
         }
         self.start_chains(v);
     }
 
-    /// A rectangle over the strip and `span`, or a whole turn.
-    fn rectangle(&mut self, u: f64, v: f64, span: Option<[f64; 2]>) {
+    /// A rectangle over the strip and `span`.
+    fn rectangle(&mut self, u: f64, v: f64, [lower, upper]: [f64; 2]) {
         let pad = self.how.overlap;
-        let [lower, upper] = span.unwrap_or([-TAU / 2.0, TAU / 2.0]);
         let (u, v, lower, upper) = (u - pad, v + pad, lower - pad, upper + pad);
         self.finish(vec![Point::new(u, lower), Point::new(v, lower), Point::new(v, upper), Point::new(u, upper)]);
     }
@@ -216,7 +226,7 @@ impl<S: Source> Tracer<'_, S> {
         let mut from = 0;
         while from + 1 < rows.len() {
             let mut to = from + 1;
-            while to + 1 < rows.len() && !rows[to].1 && self.source.accepts(&rows[from].0[side], &rows[to + 1].0[side])
+            while to + 1 < rows.len() && !rows[to].1 && self.source.shortens(&rows[from].0[side], &rows[to + 1].0[side])
             {
                 to += 1;
             }

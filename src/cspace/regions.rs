@@ -1,6 +1,7 @@
 //! Configuration space as polygons.
 
 use super::curves::Curves;
+use super::inner::InnerObstacles;
 use super::rows::Rows;
 use super::union::free_space;
 use super::{Hits, Proves, translation};
@@ -106,16 +107,40 @@ impl Regions {
 #[must_use]
 pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
     assert!(margin > 0.0, "a margin for the flattening of curves");
+    let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
+    within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
+}
+
+/// As [`regions`], but with obstacles made smaller by at most about `margin` metres: what is blocked here cannot be
+/// entered, so no motion is shorter than the shortest path here that ends in the window; see [`InnerObstacles`]. Of the
+/// pairs only those in `chosen` (numbers in [`Scene::pairs`]) count; any choice proves as much.
+#[must_use]
+pub fn inner_regions(
+    scene: &Scene,
+    obstacles: &mut InnerObstacles,
+    center: Configuration,
+    periods: usize,
+    chosen: &[usize],
+) -> Regions {
+    let contours = chosen.iter().flat_map(|&pair| obstacles.contours(scene, pair).to_vec()).collect();
+    let proves = Proves::Inner { margin: obstacles.margin() };
+    within_window(scene, proves, window(scene, center, periods), contours)
+}
+
+/// The limits of interval axes, and `periods` turns to either side of `center` on circles.
+fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm.topology();
     let turns = TAU * periods as f64;
-    let window = [0, 1].map(|k| match topology.axes[k] {
+    [0, 1].map(|k| match topology.axes[k] {
         Axis::Interval { lower, upper } => (lower, upper),
         Axis::Circle => (center[k] - turns, center[k] + turns),
-    });
-    let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
+    })
+}
+
+fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
     let periods = [0, 1].map(|k| scene.arm.joints[k].motion.is_revolute().then_some(TAU));
     let free = free_space(window, periods, obstacles.iter().map(|o| o.contour.as_slice()));
-    Regions { topology, proves: Proves::Outer { margin }, window, obstacles, free }
+    Regions { topology: scene.arm.topology(), proves, window, obstacles, free }
 }
 
 /// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
@@ -140,7 +165,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     let mut obstacles = Vec::new();
     for (index, pair) in scene.pairs().iter().enumerate() {
         let contours = match (pair.link, &map) {
-            (0, _) => bands(&rows, index, level + tolerance),
+            (0, _) => bands(&rows, index, level + tolerance, OVERLAP * level.min(1.0)),
             (_, Some(map)) => {
                 let (part, piece) = (scene.part(*pair), scene.piece(*pair));
                 vec![translation::contour(&scene.arm, map, part, piece, level, tolerance)]
@@ -153,17 +178,16 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     obstacles
 }
 
-/// The values of `q1` at which a pair of link 1 is within `level`, for all `q2`.
-fn bands(rows: &Rows, index: usize, level: f64) -> Vec<Vec<Point>> {
+/// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
+/// closes the seam between the copies of a whole turn.
+pub(super) fn bands(rows: &Rows, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.motion.is_revolute() { (-PI, PI) } else { joint.axis.domain() };
     let [first, second] = &rows.scene().arm.joints;
     let mut spans = Vec::new();
     if rows.first_link(index, level, &mut spans) == Hits::Always {
         spans = vec![<[f64; 2]>::from(domain(first))];
     }
-    // The overlap closes the seam between the copies of a whole turn.
     let (lower, upper) = domain(second);
-    let pad = OVERLAP * level.min(1.0);
     let corners = |[a, b]: [f64; 2]| {
         [(a, lower - pad), (b, lower - pad), (b, upper + pad), (a, upper + pad)].map(|(x, y)| Point::new(x, y)).to_vec()
     };

@@ -4,7 +4,7 @@ use super::contact::{Hits, normalized, turning_from};
 use super::features::{Features, product};
 use super::sliding::{along_and_across, sliding_tracks};
 use crate::geometry::{Convex, Point, Vector, merge_in_place};
-use crate::model::{Joint, Motion, Pair, Scene};
+use crate::model::{Arm, Joint, Motion, Pair, Scene};
 use crate::space::Configuration;
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -30,6 +30,20 @@ struct Prepared {
     sweep: Option<Carried>,
     /// Into the pieces.
     piece: usize,
+}
+
+impl Prepared {
+    /// The pair with `part` for its link and the piece of that number.
+    fn new(arm: &Arm, pair: Pair, part: &Convex, piece: usize) -> Self {
+        let [first, second] = &arm.joints;
+        let (part, sweep) = if pair.link == 0 {
+            (Carried::new(first.motion, part), None)
+        } else {
+            let sweep = swept(part, second, arm.offset);
+            (Carried::new(second.motion, part), Some(Carried::new(first.motion, &sweep)))
+        };
+        Self { pair, part, sweep, piece }
+    }
 }
 
 /// A part and the joint that moves it.
@@ -82,7 +96,6 @@ impl<'a> Rows<'a> {
     /// Prepares a scene. Linear in its size.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
-        let [first, second] = &scene.arm.joints;
         let mut pieces = Vec::new();
         let mut piece_of = BTreeMap::new();
         let pairs = scene
@@ -93,17 +106,15 @@ impl<'a> Rows<'a> {
                     pieces.push(Features::new(scene.piece(pair)));
                     pieces.len() - 1
                 });
-                let shape = scene.part(pair);
-                let (part, sweep) = if pair.link == 0 {
-                    (Carried::new(first.motion, shape), None)
-                } else {
-                    let sweep = swept(shape, second, scene.arm.offset);
-                    (Carried::new(second.motion, shape), Some(Carried::new(first.motion, &sweep)))
-                };
-                Prepared { pair, part, sweep, piece }
+                Prepared::new(&scene.arm, pair, scene.part(pair), piece)
             })
             .collect();
         Self { scene, pairs, pieces }
+    }
+
+    /// Prepares one pair of a scene, as number 0, with other shapes than its own. Linear in their size.
+    pub(super) fn of_pair(scene: &'a Scene, pair: Pair, part: &Convex, piece: &Convex) -> Self {
+        Self { scene, pairs: vec![Prepared::new(&scene.arm, pair, part, 0)], pieces: vec![Features::new(piece)] }
     }
 
     /// The scene.

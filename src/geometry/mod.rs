@@ -7,6 +7,7 @@
 mod convex;
 mod decompose;
 mod hull;
+mod inset;
 mod intervals;
 mod meet;
 mod minkowski;
@@ -18,6 +19,7 @@ mod separation;
 pub use convex::Convex;
 pub use decompose::decompose;
 pub use hull::hull;
+pub use inset::{clip, common, inset};
 pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
 pub use minkowski::{minkowski_difference, penetration_depth};
