@@ -1,6 +1,6 @@
 //! Polygonal regions against distances of sampled configurations.
 
-use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
+use cplan::cspace::{InnerObstacles, Polygon, Proves, Regions, c_obstacles, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
 use cplan::space::{Axis, Configuration};
@@ -288,4 +288,99 @@ fn nothing_to_hit_leaves_the_window_free() {
     let regions = regions(&scene, 1e-3, Configuration::zeros(), 1);
     assert_eq!(regions.free.len(), 1);
     assert!((regions.free[0].area() - (4.0 * PI).powi(2)).abs() < 1e-9);
+}
+
+/// All numbers of the pairs.
+fn every_pair(scene: &Scene) -> Vec<usize> {
+    (0..scene.pairs().len()).collect()
+}
+
+fn inside_any(contours: &[cplan::cspace::CObstacle], q: Configuration) -> bool {
+    let turns = [-TAU, 0.0, TAU];
+    contours.iter().any(|o| {
+        let polygon = Polygon { outer: o.contour.clone(), holes: Vec::new() };
+        turns.iter().any(|dx| turns.iter().any(|dy| polygon.contains(Point::new(q[0] + dx, q[1] + dy))))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// What lies in a contour from the inside is blocked, all of it: points within, and on the sides.
+    #[test]
+    fn inner_contours_hold_blocked_configurations_only(
+        scene in any_scene(),
+        margin in prop_oneof![Just(1e-4), Just(1e-3), Just(1e-2)],
+        picks in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64), 400),
+    ) {
+        let clearance = scene.workspace.clearance;
+        let mut inner = InnerObstacles::new(margin);
+        let mut looked = 0;
+        for (index, &pair) in scene.pairs().iter().enumerate() {
+            let distance = |p: Point| {
+                let pose = scene.arm.pose(pair.link, Configuration::new(p.x, p.y));
+                cplan::geometry::separation(&scene.part(pair).at(&pose), scene.piece(pair)).distance
+            };
+            for contour in inner.contours(&scene, index) {
+                let polygon = Polygon { outer: contour.contour.clone(), holes: Vec::new() };
+                prop_assert!(polygon.area() > -1e-12, "{}", polygon.area());
+                let n = contour.contour.len();
+                for &(s, t) in &picks[..100] {
+                    let i = (s * n as f64) as usize % n;
+                    let p = contour.contour[i] + (contour.contour[(i + 1) % n] - contour.contour[i]) * t;
+                    prop_assert!(distance(p) <= clearance + 1e-9, "{:?} {p} {}", pair, distance(p));
+                }
+                let low = contour.contour.iter().fold(contour.contour[0], |l, p| Point::new(l.x.min(p.x), l.y.min(p.y)));
+                let high = contour.contour.iter().fold(contour.contour[0], |h, p| Point::new(h.x.max(p.x), h.y.max(p.y)));
+                for &(s, t) in &picks {
+                    let p = Point::new(low.x + s * (high.x - low.x), low.y + t * (high.y - low.y));
+                    if polygon.contains(p) {
+                        looked += 1;
+                        prop_assert!(distance(p) <= clearance + 1e-9, "{:?} {p} {}", pair, distance(p));
+                    }
+                }
+            }
+        }
+        prop_assume!(looked > 0);
+    }
+
+    /// Where shapes with area overlap by three margins, a contour covers the configuration.
+    #[test]
+    fn inner_contours_leave_little_out(scene in any_scene(), picks in prop::collection::vec((-3.1..3.1f64, -3.1..3.1f64), 300)) {
+        let margin = 1e-3;
+        let mut inner = InnerObstacles::new(margin);
+        for (index, &pair) in scene.pairs().iter().enumerate() {
+            let (part, piece) = (scene.part(pair), scene.piece(pair));
+            let contours = inner.contours(&scene, index).to_vec();
+            for &(x, y) in &picks {
+                let within = |k: usize, v: f64| scene.arm.joints[k].axis.is_circle() || scene.arm.joints[k].axis.contains(v);
+                if !within(0, x) || !within(1, y) {
+                    continue;
+                }
+                let q = Configuration::new(x, y);
+                let pose = scene.arm.pose(pair.link, q);
+                let distance = cplan::geometry::separation(&part.at(&pose), piece).distance;
+                if distance < scene.workspace.clearance - 3.0 * margin {
+                    prop_assert!(inside_any(&contours, q), "{pair:?} {q} {distance} {part:?} {piece:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn corners_of_inner_contours_grow_like_the_root_of_the_tolerance() {
+    let scene = torus(0.0);
+    let corners = |margin: f64| -> usize {
+        let mut inner = InnerObstacles::new(margin);
+        every_pair(&scene)
+            .iter()
+            .map(|&i| inner.contours(&scene, i).iter().map(|c| c.contour.len()).sum::<usize>())
+            .sum()
+    };
+    let counts: Vec<usize> = [1e-3, 1e-4, 1e-5, 1e-6].map(corners).to_vec();
+    for pair in counts.windows(2) {
+        let growth = pair[1] as f64 / pair[0] as f64;
+        assert!(growth < 4.0, "{counts:?}");
+    }
 }

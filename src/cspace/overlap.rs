@@ -9,7 +9,7 @@ use crate::space::Configuration;
 pub(super) type Quad = [[Configuration; 2]; 2];
 
 /// Times that a quadrilateral is halved across the strip, before it counts as not proven.
-const HALVINGS: u32 = 10;
+const HALVINGS: u32 = 24;
 
 /// A part of link 2 and an obstacle piece, which *overlap* where their cores are at most `radius` apart.
 ///
@@ -46,15 +46,16 @@ impl<'a> Overlaps<'a> {
     }
 
     fn halved(&self, quad: &Quad, halvings: u32) -> bool {
-        self.follows(quad) || halvings > 0 && {
-            let middle = quad.map(|[lower, upper]| (lower + upper) / 2.0);
-            let below = [[quad[0][0], middle[0]], [quad[1][0], middle[1]]];
-            let above = [[middle[0], quad[0][1]], [middle[1], quad[1][1]]];
-            // Where the middle is free no halving will help.
-            self.overlap_at((middle[0] + middle[1]) / 2.0)
-                && self.halved(&below, halvings - 1)
-                && self.halved(&above, halvings - 1)
-        }
+        self.follows(quad)
+            || halvings > 0 && {
+                let middle = quad.map(|[lower, upper]| (lower + upper) / 2.0);
+                let below = [[quad[0][0], middle[0]], [quad[1][0], middle[1]]];
+                let above = [[middle[0], quad[0][1]], [middle[1], quad[1][1]]];
+                // Where the middle is free no halving will help.
+                self.overlap_at((middle[0] + middle[1]) / 2.0)
+                    && self.halved(&below, halvings - 1)
+                    && self.halved(&above, halvings - 1)
+            }
     }
 
     fn overlap_at(&self, q: Configuration) -> bool {
