@@ -18,7 +18,7 @@ type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
 const PLANNERS: [(&str, Plan); 7] = [
-    (Visibility::NAME, |scene, query| answered(&Visibility, &polygons(scene, query), query)),
+    (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
     ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
     ("wavefront, cells", |scene, query| answered(&Wavefront { shortcut: false }, &cells(scene), query)),

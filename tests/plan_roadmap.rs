@@ -5,11 +5,12 @@ mod roadmap;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::plan::{Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
-use cplan::space::{Axis, Path, Topology};
+use cplan::space::{Axis, Metric, Path, Topology};
 use proptest::prelude::*;
 use roadmap::*;
 use std::f64::consts::{PI, TAU};
 
+const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean };
 const MIDDLES: Trapezoid = Trapezoid { taut: false };
 const TAUT: Trapezoid = Trapezoid { taut: true };
 
@@ -41,7 +42,7 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
 
 /// Lengths by visibility, taut trapezoids and untaut ones, after checks of their order.
 fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
-    let shortest = checked_path(&Visibility, regions, query);
+    let shortest = checked_path(&VISIBILITY, regions, query);
     let taut = checked_path(&TAUT, regions, query);
     let middles = checked_path(&MIDDLES, regions, query);
     assert_eq!(shortest.is_some(), taut.is_some(), "planners agree on whether there is a path");
@@ -158,7 +159,7 @@ proptest! {
             let [s, g] = [p, q].map(|p| mapped(map, f64::from(p[0]) / 2.0, f64::from(p[1]) / 2.0));
             let query = query((s.x, s.y), (g.x, g.y));
             if from.is_empty() || to.is_empty() {
-                for outcome in [run(&Visibility, &regions, &query).outcome, run(&TAUT, &regions, &query).outcome] {
+                for outcome in [run(&VISIBILITY, &regions, &query).outcome, run(&TAUT, &regions, &query).outcome] {
                     prop_assert!(matches!(outcome, Outcome::GaveUp(_)));
                 }
             } else {
@@ -173,7 +174,7 @@ mod contract {
     use super::*;
 
     fn both(test: impl Fn(&dyn Fn(&Regions, &Query) -> Outcome)) {
-        test(&|regions, query| run(&Visibility, regions, query).outcome);
+        test(&|regions, query| run(&VISIBILITY, regions, query).outcome);
         test(&|regions, query| run(&TAUT, regions, query).outcome);
         test(&|regions, query| run(&MIDDLES, regions, query).outcome);
     }
@@ -273,7 +274,7 @@ fn a_taut_string_along_a_slanted_side_has_no_corners_between() {
     let regions = regions([(0.0, 4.0), (0.0, 3.0)], vec![floor]);
     let query = query((0.05, 0.05), (3.6, 0.1));
     let path = checked_path(&TAUT, &regions, &query).unwrap();
-    let shortest = checked_path(&Visibility, &regions, &query).unwrap();
+    let shortest = checked_path(&VISIBILITY, &regions, &query).unwrap();
     assert!((path.length() - shortest.length()).abs() < 1e-12);
     assert_eq!(path.waypoints().len(), 4, "{path:?}");
 }
@@ -303,6 +304,7 @@ fn arcs_are_bitangents_only() {
     // The eight sides of two squares, and their two outer and two inner bitangents.
     let squares = vec![rectangle((1.0, 2.0), (1.0, 2.0)), rectangle((4.0, 5.0), (1.5, 2.5))];
     let regions = window_with_holes((0.0, 6.0), (0.0, 4.0), squares);
-    let outside = run(&Visibility, &regions, &query((-1.0, 0.0), (0.5, 0.5)));
-    assert_eq!(outside.size, Size::Graph { nodes: 8, edges: 8 + 4 });
+    let map = VISIBILITY.build(&regions);
+    assert_eq!(map.corners(), 8);
+    assert_eq!(map.arcs().len(), 8 + 4);
 }

@@ -5,10 +5,10 @@ use crate::geometry::{Orientation, Point, orientation};
 /// A door as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
-    /// The end to the left.
-    pub left: Point,
-    /// The end to the right.
-    pub right: Point,
+    /// The end to the left; none if a string that turns at the ends of the other passages cannot pass beyond it.
+    pub left: Option<Point>,
+    /// The end to the right, likewise.
+    pub right: Option<Point>,
 }
 
 /// The shortest polyline from `start` to `goal` that crosses all passages in order: the string pulled taut.
@@ -23,7 +23,7 @@ pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point
     let mut funnel = Funnel { apex: start, left: None, right: None };
     let mut at = 0;
     while at <= passages.len() {
-        let passage = passages.get(at).copied().unwrap_or(Passage { left: goal, right: goal });
+        let passage = passages.get(at).copied().unwrap_or(Passage { left: Some(goal), right: Some(goal) });
         match funnel.narrow(at, passage) {
             Some(turn) => {
                 string.push(turn.at);
@@ -55,18 +55,22 @@ struct Funnel {
 impl Funnel {
     /// Narrows the funnel to the passage, or returns the point at which the string must turn to reach it.
     fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Bound> {
-        if left == self.apex || right == self.apex {
+        if [left, right].contains(&Some(self.apex)) {
             // Passed at the apex itself, in any direction.
             (self.left, self.right) = (None, None);
             return None;
         }
-        if !self.turns(self.right, right, Orientation::Clockwise) {
+        if let Some(right) = right
+            && !self.turns(self.right, right, Orientation::Clockwise)
+        {
             if self.turns(self.left, right, Orientation::CounterClockwise) {
                 return self.left;
             }
             self.right = Some(Bound { at: right, passage });
         }
-        if !self.turns(self.left, left, Orientation::CounterClockwise) {
+        if let Some(left) = left
+            && !self.turns(self.left, left, Orientation::CounterClockwise)
+        {
             if self.turns(self.right, left, Orientation::Clockwise) {
                 return self.right;
             }
@@ -86,7 +90,8 @@ mod tests {
     use super::*;
 
     fn passage(left: (f64, f64), right: (f64, f64)) -> Passage {
-        Passage { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
+        let [left, right] = [left, right].map(|(x, y)| Some(Point::new(x, y)));
+        Passage { left, right }
     }
 
     fn points(string: &[(f64, f64)]) -> Vec<Point> {

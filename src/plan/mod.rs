@@ -2,13 +2,17 @@
 
 mod attach;
 mod boundary;
+mod channel;
 mod decomposition;
 mod funnel;
 mod grid_path;
 mod harmonic;
-mod segment_grid;
+mod measure;
+mod mesh;
+mod noding;
 mod shortcut;
-mod sight;
+mod status;
+mod taut_search;
 mod terminals;
 mod trapezoid;
 mod visibility;
@@ -21,6 +25,9 @@ pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::Wavefront;
 
 use crate::space::{Configuration, Path};
+
+/// No index, in tables of indices.
+const NONE: u32 = u32::MAX;
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
 #[derive(Debug, Clone, PartialEq)]
