@@ -19,11 +19,13 @@ pub enum Orientation {
 
 /// On which side of the directed line from `a` to `b` the point `c` lies; exact.
 #[must_use]
+#[inline]
 pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
     Orientation::of(determinant(a, b, c))
 }
 
 impl Orientation {
+    #[inline]
     fn of(determinant: f64) -> Self {
         if determinant > 0.0 {
             Self::CounterClockwise
@@ -36,6 +38,7 @@ impl Orientation {
 }
 
 /// Twice the signed area of the triangle `abc`: the sign exact, the value rounded.
+#[inline]
 pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))

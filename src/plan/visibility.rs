@@ -76,27 +76,19 @@ impl VisibilityMap {
     /// All arcs between corners: the ends of each. In time proportional to the triangles that lines of sight cross.
     #[must_use]
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
-        let mut arcs = Vec::new();
-        let mut cones = Vec::new();
         let corners = self.mesh.corners();
+        let mut arcs = Vec::new();
+        let mut stack = Vec::new();
         for (number, corner) in (0..).zip(corners) {
-            let is_arc = |half_edge: &u32| {
-                let other = self.mesh.corner_at(*half_edge);
-                let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
-                other.is_some_and(|other| other > number && is_tangent(other))
+            let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
+            // Each arc is found from the end on its left: corners are numbered in that order.
+            let arc = |half_edge: u32| {
+                let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
+                Some([corner.at.coords, corners[other as usize].at.coords])
             };
-            for gaze in corner.tangents() {
-                let arc = |half_edge: u32| [corner.at.coords, self.mesh.origin(half_edge).coords];
-                for outlook in self.mesh.outlooks(corner, gaze) {
-                    arcs.extend(outlook.seen.into_iter().flatten().filter(is_arc).map(arc));
-                    cones.push(outlook.cone);
-                }
-                while let Some(cone) = cones.pop() {
-                    if let Some(crossing) = self.mesh.cross(corner.at, &cone) {
-                        arcs.extend(crossing.seen.filter(is_arc).map(arc));
-                        cones.extend(crossing.beyond.into_iter().flatten());
-                    }
-                }
+            for outlook in corner.tangents().flat_map(|gaze| self.mesh.outlooks(corner, gaze)) {
+                arcs.extend(outlook.seen.into_iter().flatten().filter_map(arc));
+                self.mesh.look_forward(corner.at, outlook.cone, &mut stack, |half_edge| arcs.extend(arc(half_edge)));
             }
         }
         arcs

@@ -58,6 +58,25 @@ pub fn convex_crowd(random: &mut Random, side: usize, corners: usize) -> Vec<Vec
     crowd
 }
 
+/// `count` disjoint star-shaped polygons of ten corners each, most of them not convex, of random sizes at random places in
+/// a window of as many unit squares: about 23 % of it is filled.
+pub fn star_crowd(random: &mut Random, count: usize) -> Regions {
+    let columns = (count as f64).sqrt().ceil() as usize;
+    let rows = count.div_ceil(columns);
+    let stars = (0..count).map(|k| {
+        let size = random.within(0.25, 0.49);
+        let [x, y] = [k % columns, k / columns].map(|k| k as f64 + random.within(size, 1.0 - size));
+        let angle = |k: usize, random: &mut Random| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
+        let corner = |k: usize| {
+            let (a, r) = (angle(k, random), size * random.within(0.55, 1.0));
+            Point::new(x + r * a.cos(), y + r * a.sin())
+        };
+        (0..10).map(corner).collect()
+    });
+    let stars = stars.collect();
+    window_with_holes((-0.25, columns as f64 + 0.25), (-0.25, rows as f64 + 0.25), stars)
+}
+
 /// The crowd as holes in a window a little larger than it.
 pub fn crowd_regions(side: usize, crowd: &[Vec<Point>]) -> Regions {
     let window = (-0.25, side as f64 + 0.25);

@@ -13,8 +13,14 @@ pub struct Bound {
 
 impl Bound {
     /// On which side of it `p` lies; exact.
+    #[inline]
     pub fn side(&self, p: Point) -> Orientation {
         orientation(self.from, self.to, p)
+    }
+
+    /// Whether it leads to a greater abscissa, or straight up.
+    fn is_forward(&self) -> bool {
+        (self.to.x, self.to.y) > (self.from.x, self.from.y)
     }
 }
 
@@ -28,6 +34,11 @@ pub struct Cone {
 }
 
 impl Cone {
+    /// Whether any ray leads to a greater abscissa, or straight up.
+    fn is_forward(&self) -> bool {
+        self.right.is_forward() || self.left.is_forward()
+    }
+
     /// Whether `p` lies on one of the rays or on the line of one before the root.
     pub fn holds(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
@@ -96,24 +107,62 @@ impl Corner {
 
 impl Mesh {
     /// Follows a cone from `root` into the next triangle; none at a wall. Exact.
+    #[inline]
     pub fn cross(&self, root: Point, cone: &Cone) -> Option<Crossing> {
         let entry = self.twin(cone.edge)?;
         let (onwards, back) = (next(entry), previous(entry));
         let corner = self.origin(back);
-        let (from_right, from_left) = (cone.right.side(corner), cone.left.side(corner));
+        let mut beyond = [None, None];
+        let from_right = cone.right.side(corner);
+        if from_right == Orientation::Clockwise {
+            beyond[1] = Some(Cone { edge: back, ..*cone });
+            return Some(Crossing { entry, seen: None, beyond });
+        }
+        let from_left = cone.left.side(corner);
+        if from_left == Orientation::CounterClockwise {
+            beyond[0] = Some(Cone { edge: onwards, ..*cone });
+            return Some(Crossing { entry, seen: None, beyond });
+        }
         let ray = Bound { from: root, to: corner };
-        let right = (from_right == Orientation::CounterClockwise).then(|| Cone {
-            edge: onwards,
-            right: cone.right,
-            left: if from_left == Orientation::Clockwise { ray } else { cone.left },
-        });
-        let left = (from_left == Orientation::Clockwise).then(|| Cone {
-            edge: back,
-            right: if from_right == Orientation::CounterClockwise { ray } else { cone.right },
-            left: cone.left,
-        });
-        let is_seen = from_right != Orientation::Clockwise && from_left != Orientation::CounterClockwise;
-        Some(Crossing { entry, seen: is_seen.then_some(back), beyond: [right, left] })
+        if from_right == Orientation::CounterClockwise {
+            beyond[0] = Some(Cone { edge: onwards, right: cone.right, left: ray });
+        }
+        if from_left == Orientation::Clockwise {
+            beyond[1] = Some(Cone { edge: back, right: ray, left: cone.left });
+        }
+        Some(Crossing { entry, seen: Some(back), beyond })
+    }
+
+    /// Everything that a root sees in a cone, but for what lies in cones that lead back: the half-edges that begin at the
+    /// corners seen, in no particular order. Time in the number of triangles crossed; exact.
+    pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {
+        stack.extend(Some(cone).filter(Cone::is_forward));
+        while let Some(mut cone) = stack.pop() {
+            while let Some(entry) = self.twin(cone.edge) {
+                let (onwards, back) = (next(entry), previous(entry));
+                let corner = self.origin(back);
+                let from_right = cone.right.side(corner);
+                if from_right == Orientation::Clockwise {
+                    cone.edge = back;
+                    continue;
+                }
+                let from_left = cone.left.side(corner);
+                if from_left == Orientation::CounterClockwise {
+                    cone.edge = onwards;
+                    continue;
+                }
+                see(back);
+                let ray = Bound { from: root, to: corner };
+                let left = Cone { edge: back, right: ray, left: cone.left };
+                if from_left == Orientation::Clockwise && !self.is_wall(back) && left.is_forward() {
+                    stack.push(left);
+                }
+                cone = Cone { edge: onwards, right: cone.right, left: ray };
+                if from_right == Orientation::Collinear || !cone.is_forward() {
+                    break;
+                }
+            }
+        }
     }
 
     /// What is seen from a corner in the triangles around it, from right to left, each end of an edge once.
