@@ -5,7 +5,7 @@ mod roadmap;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::plan::{Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
-use cplan::space::{Axis, Metric, Path, Topology};
+use cplan::space::{Axis, Configuration, Metric, Path, Topology};
 use proptest::prelude::*;
 use roadmap::*;
 use std::f64::consts::{PI, TAU};
@@ -110,6 +110,77 @@ proptest! {
     }
 
     #[test]
+    fn shortest_in_every_metric_equals_brute_force(seed: u64, side in 1usize..4, ratio in 0.2..5.0_f64) {
+        let mut random = Random(seed);
+        let crowd = convex_crowd(&mut random, side, 4);
+        let regions = crowd_regions(side, &crowd);
+        let window = (-0.25, side as f64 + 0.25);
+        let [s, g] = [0, 1].map(|_| Point::new(random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
+        let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
+        for metric in metrics(ratio) {
+            let planner = Visibility { metric };
+            let query = Query { start: s.coords, goals: goals.map(|g| g.coords).to_vec() };
+            let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
+            let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
+            prop_assert!((found - expected[0].min(expected[1])).abs() < 1e-8, "{metric:?} {found} {expected:?}");
+        }
+    }
+
+    /// Squares of one and two units that touch along sides and in corners, turned so that rounding puts corners a hair
+    /// to either side of the sides that they lie on.
+    #[test]
+    fn touching_obstacles_equal_brute_force(seed: u64, size in 2usize..6, density in 0.1..0.5, turn in 0.0..1.6_f64) {
+        let mut random = Random(seed);
+        let blocks = blocks(&mut random, size, density);
+        let (sin, cos) = turn.sin_cos();
+        let turned = |x: f64, y: f64| Point::new(x * cos - y * sin, x * sin + y * cos);
+        let block = |&(x, y, n): &(usize, usize, usize), growth: f64| {
+            let range = |k: usize| (k as f64 - growth, (k + n) as f64 + growth);
+            rectangle(range(x), range(y)).into_iter().map(|p| turned(p.x, p.y)).collect::<Vec<_>>()
+        };
+        let window = (-2.0 * size as f64, 2.0 * size as f64);
+        let growth = 1e-6;
+        let grown: Vec<_> = blocks.iter().map(|b| block(b, growth)).collect();
+        let regions = window_with_holes(window, window, blocks.iter().map(|b| block(b, 0.0)).collect());
+        for _ in 0..3 {
+            let mut place = || (random.bits() % (size as u64 + 2)) as f64 - 0.5;
+            let [p, q] = [(place(), place()), (place(), place())];
+            let is_free = |(x, y): (f64, f64)| !blocks.iter().any(|b| {
+                let within = |v: f64, k: usize| v > k as f64 && v < (k + b.2) as f64;
+                within(x, b.0) && within(y, b.1)
+            });
+            if !is_free(p) || !is_free(q) {
+                continue;
+            }
+            let [s, g] = [turned(p.0, p.1), turned(q.0, q.1)];
+            for metric in metrics(1.7) {
+                let query = query((s.x, s.y), (g.x, g.y));
+                let shortest = checked_path(&Visibility { metric }, &regions, &query);
+                let expected = brute_force(&grown, window, s, g, metric);
+                prop_assert_eq!(shortest.is_some(), expected.is_some());
+                if let (Some(path), Some(expected)) = (shortest, expected) {
+                    let found = metric.length(&path);
+                    prop_assert!(found <= expected + 1e-9 && expected <= found + 200.0 * growth, "{found} {expected}");
+                }
+            }
+            lengths(&regions, &query((s.x, s.y), (g.x, g.y)));
+        }
+    }
+
+    /// Against the definition: pairs of convex corners, tangent at both ends, that no side separates.
+    #[test]
+    fn the_whole_graph_is_that_of_the_definition(seed: u64, count in 1usize..9) {
+        let regions = star_crowd(&mut Random(seed), count);
+        let mut expected = bitangents(&regions);
+        let mut arcs = VISIBILITY.build(&regions).arcs();
+        let key = |ends: &[Configuration; 2]| ends.map(|q| (q[0], q[1]));
+        let order = |a: &[Configuration; 2], b: &[Configuration; 2]| key(a).partial_cmp(&key(b)).unwrap();
+        arcs.sort_by(order);
+        expected.sort_by(order);
+        prop_assert_eq!(arcs, expected);
+    }
+
+    #[test]
     fn boards_equal_flood_fill_and_brute_force(seed: u64, size in 2usize..7, density in 0.1..0.6) {
         let mut random = Random(seed);
         let board = Board::random(&mut random, size, density);
@@ -168,6 +239,28 @@ proptest! {
             }
         }
     }
+}
+
+/// One metric of each kind.
+fn metrics(ratio: f64) -> [Metric; 3] {
+    [Metric::Euclidean, Metric::Weighted { weights: [1.0, ratio] }, Metric::Time { speeds: [1.0, ratio] }]
+}
+
+/// Lower left corners and sizes of squares on a board, apart or touching.
+fn blocks(random: &mut Random, size: usize, density: f64) -> Vec<(usize, usize, usize)> {
+    let mut taken = vec![false; size * size];
+    let mut blocks = Vec::new();
+    for k in 0..size * size {
+        let (x, y) = (k / size, k % size);
+        let squares = |n: usize| (x..x + n).flat_map(move |i| (y..y + n).map(move |j| i * size + j));
+        let fits = |n: usize| x + n <= size && y + n <= size && squares(n).all(|s| !taken[s]);
+        if random.within(0.0, 1.0) < density && fits(1) {
+            let n = if random.bits().is_multiple_of(2) && fits(2) { 2 } else { 1 };
+            blocks.push((x, y, n));
+            squares(n).for_each(|s| taken[s] = true);
+        }
+    }
+    blocks
 }
 
 mod contract {

@@ -209,14 +209,16 @@ impl Sweep<'_> {
     /// The gaps at a cluster, from bottom to top, between sides that have an end there as given.
     fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
         let (first, last) = cluster.vertices;
+        // A side without an end here is between those that have one only where sides cross.
+        let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
         let mut gaps = Vec::new();
         let mut floor = cluster.below;
         loop {
             let ceiling = self.status.above(floor);
             if let Some(under) = floor.filter(|&side| self.cell_above[side] != NONE) {
-                let low = if floor == cluster.below { 0 } else { end(under) - first + 1 };
+                let low = if floor == cluster.below { 0 } else { rank(under) };
                 let high = match ceiling.filter(|_| ceiling != cluster.above) {
-                    Some(over) => end(over) - first + 1,
+                    Some(over) => rank(over),
                     None => last - first + 1,
                 };
                 gaps.push(Gap { cell: self.cell_above[under] as usize, low, high });

@@ -5,10 +5,10 @@ use crate::geometry::{Orientation, Point, orientation};
 /// A door as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Passage {
-    /// The end to the left; none if a string that turns at the ends of the other passages cannot pass beyond it.
-    pub left: Option<Point>,
-    /// The end to the right, likewise.
-    pub right: Option<Point>,
+    /// The end to the left.
+    pub left: Point,
+    /// The end to the right.
+    pub right: Point,
 }
 
 /// The shortest polyline from `start` to `goal` that crosses all passages in order: the string pulled taut.
@@ -19,68 +19,71 @@ pub struct Passage {
 /// quadratic at worst. Turns are decided exactly, so every piece passes its doors in exact arithmetic.
 #[must_use]
 pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
-    let mut string = vec![start];
+    let turns = turns(start, goal, passages).into_iter().map(|turn| turn.at);
+    let mut string: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
+    string.dedup();
+    string
+}
+
+/// Where the taut string turns, in order, start and goal left out.
+pub(super) fn turns(start: Point, goal: Point, passages: &[Passage]) -> Vec<Turn> {
+    let mut string = Vec::new();
     let mut funnel = Funnel { apex: start, left: None, right: None };
     let mut at = 0;
     while at <= passages.len() {
-        let passage = passages.get(at).copied().unwrap_or(Passage { left: Some(goal), right: Some(goal) });
+        let passage = passages.get(at).copied().unwrap_or(Passage { left: goal, right: goal });
         match funnel.narrow(at, passage) {
             Some(turn) => {
-                string.push(turn.at);
+                string.push(turn);
                 funnel = Funnel { apex: turn.at, left: None, right: None };
                 at = turn.passage + 1;
             }
             None => at += 1,
         }
     }
-    string.push(goal);
-    string.dedup();
     string
 }
 
-/// An end of a passage that bounds the funnel.
+/// An end of a passage that bounds the funnel, and at which the string may turn.
 #[derive(Debug, Clone, Copy)]
-struct Bound {
-    at: Point,
-    passage: usize,
+pub(super) struct Turn {
+    pub at: Point,
+    /// Which passage.
+    pub passage: usize,
 }
 
 /// Directions from the apex that cross all passages since: from `right` counter-clockwise to `left`.
 struct Funnel {
     apex: Point,
-    left: Option<Bound>,
-    right: Option<Bound>,
+    left: Option<Turn>,
+    right: Option<Turn>,
 }
 
 impl Funnel {
     /// Narrows the funnel to the passage, or returns the point at which the string must turn to reach it.
-    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Bound> {
-        if [left, right].contains(&Some(self.apex)) {
+    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Turn> {
+        if left == self.apex || right == self.apex {
             // Passed at the apex itself, in any direction.
             (self.left, self.right) = (None, None);
             return None;
         }
-        if let Some(right) = right
-            && !self.turns(self.right, right, Orientation::Clockwise)
-        {
+        if !self.turns(self.right, right, Orientation::Clockwise) {
             if self.turns(self.left, right, Orientation::CounterClockwise) {
                 return self.left;
             }
-            self.right = Some(Bound { at: right, passage });
+            self.right = Some(Turn { at: right, passage });
         }
-        if let Some(left) = left
-            && !self.turns(self.left, left, Orientation::CounterClockwise)
-        {
+        if !self.turns(self.left, left, Orientation::CounterClockwise) {
             if self.turns(self.right, left, Orientation::Clockwise) {
                 return self.right;
             }
-            self.left = Some(Bound { at: left, passage });
+            self.left = Some(Turn { at: left, passage });
         }
         None
     }
 
     /// Whether `point` lies strictly to that side of the ray from the apex through a bound.
-    fn turns(&self, bound: Option<Bound>, point: Point, side: Orientation) -> bool {
+    fn turns(&self, bound: Option<Turn>, point: Point, side: Orientation) -> bool {
         bound.is_some_and(|bound| orientation(self.apex, bound.at, point) == side)
     }
 }
@@ -90,8 +93,7 @@ mod tests {
     use super::*;
 
     fn passage(left: (f64, f64), right: (f64, f64)) -> Passage {
-        let [left, right] = [left, right].map(|(x, y)| Some(Point::new(x, y)));
-        Passage { left, right }
+        Passage { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
     }
 
     fn points(string: &[(f64, f64)]) -> Vec<Point> {

@@ -3,12 +3,13 @@
 use super::boundary::Boundary;
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
-use super::funnel::{Passage, taut_string};
+use super::funnel::{Passage, Turn, turns};
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
-use crate::geometry::Point;
+use crate::geometry::{Orientation, Point, orientation};
 use crate::space::{Configuration, Path};
+use std::ops::Range;
 
 /// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
 ///
@@ -99,15 +100,55 @@ impl TrapezoidMap {
 
     /// The shortest way within the channel.
     fn taut_path(&self, channel: &Channel) -> Vec<Point> {
-        let passage = |(&door, &cell): (&usize, &usize)| {
-            let Door { cells: [from, _], low, high, at_vertices } = self.decomposition.doors[door];
-            // An end in the middle of a side is no bound: a string that turns at vertices only, all of them on the free
-            // side of the line through that side, cannot pass beyond it; and it has been rounded.
-            let low = at_vertices[0].then_some(low);
-            let high = at_vertices[1].then_some(high);
-            if from == cell { Passage { left: high, right: low } } else { Passage { left: low, right: high } }
+        let door = |k: usize| self.decomposition.doors[channel.doors[k]];
+        let passage = |k: usize| {
+            let Door { cells: [from, _], low, high, .. } = door(k);
+            if from == channel.cells[k] {
+                Passage { left: high, right: low }
+            } else {
+                Passage { left: low, right: high }
+            }
         };
-        let passages: Vec<Passage> = channel.doors.iter().zip(&channel.cells).map(passage).collect();
-        taut_string(channel.start, channel.goal, &passages)
+        let passages: Vec<Passage> = (0..channel.doors.len()).map(passage).collect();
+        let string = turns(channel.start, channel.goal, &passages);
+        // Where a door ends in the middle of a side, its end is rounded into free space, and a string along the side
+        // turns there by a rounding error. A taut string turns at vertices only: leave such turns out.
+        let is_vertex = |turn: &Turn| {
+            let Door { low, at_vertices, .. } = door(turn.passage);
+            at_vertices[usize::from(turn.at != low)]
+        };
+        let mut waypoints = vec![channel.start];
+        // The first door after the last waypoint.
+        let mut first = 0;
+        for run in string.chunk_by(|a, b| is_vertex(a) == is_vertex(b)) {
+            let after = run[run.len() - 1].passage + 1;
+            if !is_vertex(&run[0]) {
+                let rest = string.iter().find(|turn| turn.passage >= after);
+                let (end, to) = rest.map_or((passages.len(), channel.goal), |turn| (turn.passage, turn.at));
+                if self.is_straight(channel, first..end, waypoints[waypoints.len() - 1], to) {
+                    continue;
+                }
+            }
+            waypoints.extend(run.iter().map(|turn| turn.at));
+            first = after;
+        }
+        waypoints.push(channel.goal);
+        waypoints
+    }
+
+    /// Whether one can go straight from `a` to `b` through some of the channel's doors; exact. Linear in their number.
+    ///
+    /// Vertices at the ends of the doors decide that: each side between is straight, and `a`, `b` and these vertices are
+    /// on its free side.
+    fn is_straight(&self, channel: &Channel, doors: Range<usize>, a: Point, b: Point) -> bool {
+        let mut x = a.x;
+        doors.map(|k| self.decomposition.doors[channel.doors[k]]).all(|Door { low, high, at_vertices, .. }| {
+            let onwards = if a.x <= b.x { x <= low.x && low.x <= b.x } else { x >= low.x && low.x >= b.x };
+            x = low.x;
+            let (left, right) = if a.x <= b.x { (a, b) } else { (b, a) };
+            onwards
+                && !(at_vertices[0] && orientation(left, right, low) == Orientation::CounterClockwise)
+                && !(at_vertices[1] && orientation(left, right, high) == Orientation::Clockwise)
+        })
     }
 }

@@ -65,7 +65,7 @@ fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Reje
 
 /// The channel's shortest path.
 fn taut(channel: &Channel) -> Path {
-    let passage = |[left, right]: &[Configuration; 2]| Passage { left: Some(Point::from(*left)), right: Some(Point::from(*right)) };
+    let passage = |[left, right]: &[Configuration; 2]| Passage { left: Point::from(*left), right: Point::from(*right) };
     let passages: Vec<Passage> = channel.doors().iter().map(passage).collect();
     let string = taut_string(Point::from(channel.start()), Point::from(channel.goal()), &passages);
     Path::new(string.into_iter().map(|p| p.coords).collect())
