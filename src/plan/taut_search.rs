@@ -2,7 +2,7 @@
 
 use super::NONE;
 use super::measure::Measure;
-use super::mesh::{Cone, Mesh, Tangency};
+use super::mesh::{Beyond, Cone, Crossing, Mesh, Tangency};
 use crate::geometry::{Orientation, Point, orientation};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -104,7 +104,7 @@ impl<'a> TautSearch<'a> {
             self.find_goals(0, triangle, |_| true);
             for outlook in mesh.outlooks_within(triangle, start) {
                 seen.extend(outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge)));
-                self.push_cone(0, outlook.cone);
+                self.push_cone(0, outlook.cone, self.estimate(0, &outlook.cone));
             }
         }
         // Triangles share corners.
@@ -142,30 +142,39 @@ impl<'a> TautSearch<'a> {
             self.find_goals(number, outlook.cone.edge / 3, |_| true);
             let seen = outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
             seen.for_each(|corner| self.see(number, corner));
-            self.push_cone(number, outlook.cone);
+            self.push_cone(number, outlook.cone, self.estimate(number, &outlook.cone));
         }
     }
 
-    /// Follows a cone while it does not fork.
+    /// Follows a cone while it is the best of all.
     fn follow(&mut self, mut cone: Cone, root: u32) {
         let node = self.nodes[root as usize];
         if self.is_stale(node) {
             return;
         }
-        while let Some(crossing) = self.mesh.cross(node.at, &cone) {
-            self.find_goals(root, crossing.entry / 3, |p| cone.holds(p));
-            if let Some(corner) = crossing.seen.and_then(|half_edge| self.mesh.corner_at(half_edge)) {
+        while let Some(Crossing { entry, seen, beyond }) = self.mesh.cross(node.at, &cone) {
+            self.find_goals(root, entry / 3, |p| cone.holds(p));
+            if let Some(corner) = seen.and_then(|half_edge| self.mesh.corner_at(half_edge)) {
                 self.see(root, corner);
             }
-            match crossing.beyond {
-                [Some(right), Some(left)] => {
-                    self.push_cone(root, right);
-                    self.push_cone(root, left);
-                    return;
+            cone = match beyond {
+                Beyond::Through(edge) => Cone { edge, ..cone },
+                Beyond::One(only) => only,
+                Beyond::Two(right, left) => {
+                    let estimates = [self.estimate(root, &right), self.estimate(root, &left)];
+                    let (better, best, worse, other) = if estimates[0] <= estimates[1] {
+                        (right, estimates[0], left, estimates[1])
+                    } else {
+                        (left, estimates[1], right, estimates[0])
+                    };
+                    self.push_cone(root, worse, other);
+                    if self.open.peek().is_some_and(|open| open.estimate < best) {
+                        self.push_cone(root, better, best);
+                        return;
+                    }
+                    better
                 }
-                [Some(only), None] | [None, Some(only)] => cone = only,
-                [None, None] => return,
-            }
+            };
         }
     }
 
@@ -213,19 +222,25 @@ impl<'a> TautSearch<'a> {
         self.nodes.len() as u32 - 1
     }
 
-    /// Puts a cone on the open list, unless a wall is behind its edge.
-    fn push_cone(&mut self, root: u32, cone: Cone) {
+    /// A lower bound on the way by a node and through a cone; infinite at a wall.
+    fn estimate(&self, root: u32, cone: &Cone) -> f64 {
         if self.mesh.is_wall(cone.edge) {
-            return;
+            return f64::INFINITY;
         }
         let Node { at, cost, .. } = self.nodes[root as usize];
         let [right, left] = self.mesh.ends(cone.edge);
         let right_end = meeting(cone.right.from, cone.right.to, right, left, right);
         let left_end = meeting(cone.left.from, cone.left.to, right, left, left);
         let through = |goal: &Point| self.measure.through(at, right_end, left_end, *goal);
-        let estimate = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
-        self.cones.push((cone, root));
-        self.push(estimate, Step::Look(self.cones.len() as u32 - 1));
+        cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Puts a cone on the open list, unless it ends at a wall.
+    fn push_cone(&mut self, root: u32, cone: Cone, estimate: f64) {
+        if estimate.is_finite() {
+            self.cones.push((cone, root));
+            self.push(estimate, Step::Look(self.cones.len() as u32 - 1));
+        }
     }
 
     fn push(&mut self, estimate: f64, step: Step) {

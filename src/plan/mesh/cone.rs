@@ -52,8 +52,19 @@ pub struct Crossing {
     pub entry: u32,
     /// The half-edge that begins at the corner ahead, if the root sees that.
     pub seen: Option<u32>,
-    /// Where it goes on: to the right of that corner, to the left.
-    pub beyond: [Option<Cone>; 2],
+    /// Where it goes on.
+    pub beyond: Beyond,
+}
+
+/// How a cone goes on behind a triangle.
+#[derive(Debug, Clone, Copy)]
+pub enum Beyond {
+    /// As a whole through this edge, past the corner ahead.
+    Through(u32),
+    /// On one side of the corner, which lies on one of its bounds.
+    One(Cone),
+    /// To the right of the corner and to the left of it.
+    Two(Cone, Cone),
 }
 
 /// What a root at a corner of a triangle, or within one, sees of it.
@@ -112,24 +123,22 @@ impl Mesh {
         let entry = self.twin(cone.edge)?;
         let (onwards, back) = (next(entry), previous(entry));
         let corner = self.origin(back);
-        let mut beyond = [None, None];
         let from_right = cone.right.side(corner);
         if from_right == Orientation::Clockwise {
-            beyond[1] = Some(Cone { edge: back, ..*cone });
-            return Some(Crossing { entry, seen: None, beyond });
+            return Some(Crossing { entry, seen: None, beyond: Beyond::Through(back) });
         }
         let from_left = cone.left.side(corner);
         if from_left == Orientation::CounterClockwise {
-            beyond[0] = Some(Cone { edge: onwards, ..*cone });
-            return Some(Crossing { entry, seen: None, beyond });
+            return Some(Crossing { entry, seen: None, beyond: Beyond::Through(onwards) });
         }
         let ray = Bound { from: root, to: corner };
-        if from_right == Orientation::CounterClockwise {
-            beyond[0] = Some(Cone { edge: onwards, right: cone.right, left: ray });
-        }
-        if from_left == Orientation::Clockwise {
-            beyond[1] = Some(Cone { edge: back, right: ray, left: cone.left });
-        }
+        let right = Cone { edge: onwards, right: cone.right, left: ray };
+        let left = Cone { edge: back, right: ray, left: cone.left };
+        let beyond = match (from_right, from_left) {
+            (Orientation::Collinear, _) => Beyond::One(left),
+            (_, Orientation::Collinear) => Beyond::One(right),
+            _ => Beyond::Two(right, left),
+        };
         Some(Crossing { entry, seen: Some(back), beyond })
     }
 
