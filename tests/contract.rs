@@ -139,7 +139,7 @@ fn the_trace_and_size_are_those_of_the_representation() {
     for (name, plan) in PLANNERS {
         let run = plan(&scene, &query);
         let fits = match (&run.trace, run.size) {
-            (Trace::Roadmap { edges: drawn }, Size::Graph { edges, .. }) => drawn.len() == edges,
+            (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
             (Trace::Channel { cells, channel }, Size::Graph { nodes, .. }) => {
                 cells.len() == nodes && !channel.is_empty() && channel.iter().all(|&cell| cell < nodes)
             }

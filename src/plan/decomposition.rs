@@ -147,8 +147,9 @@ impl Sweep<'_> {
             let above = self.status.above(highest.or(lowest).or(below));
             // The side below is either that below the last cluster or ends there.
             let joins = |last: &Cluster| {
-                below == last.below || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
-                    && below.is_some_and(|side| boundary.sides[side].right_end() < v)
+                below == last.below
+                    || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
+                        && below.is_some_and(|side| boundary.sides[side].right_end() < v)
             };
             match clusters.last_mut().filter(|last| joins(last)) {
                 Some(last) => (last.vertices.1, last.above) = (v + 1, above),

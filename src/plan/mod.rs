@@ -86,6 +86,8 @@ pub enum Trace {
     Roadmap {
         /// Both ends of each.
         edges: Vec<[Configuration; 2]>,
+        /// Whether they are all; otherwise they are those that the search looked at.
+        whole: bool,
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
     Channel {

@@ -49,7 +49,7 @@ impl Planner for Visibility {
             Err(reason) => {
                 return Run {
                     outcome: Outcome::GaveUp(reason),
-                    trace: Trace::Roadmap { edges: Vec::new() },
+                    trace: Trace::Roadmap { edges: Vec::new(), whole: false },
                     size: Size::Graph { nodes: 0, edges: 0 },
                     note: None,
                 };
@@ -62,7 +62,7 @@ impl Planner for Visibility {
         };
         let edges: Vec<_> = search.arcs.iter().map(|ends| ends.map(|p| p.coords)).collect();
         let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };
-        Run { outcome, trace: Trace::Roadmap { edges }, size, note: None }
+        Run { outcome, trace: Trace::Roadmap { edges, whole: false }, size, note: None }
     }
 }
 

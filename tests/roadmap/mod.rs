@@ -66,7 +66,8 @@ pub fn star_crowd(random: &mut Random, count: usize) -> Regions {
     let stars = (0..count).map(|k| {
         let size = random.within(0.25, 0.49);
         let [x, y] = [k % columns, k / columns].map(|k| k as f64 + random.within(size, 1.0 - size));
-        let angle = |k: usize, random: &mut Random| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
+        let angle =
+            |k: usize, random: &mut Random| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
         let corner = |k: usize| {
             let (a, r) = (angle(k, random), size * random.within(0.55, 1.0));
             Point::new(x + r * a.cos(), y + r * a.sin())
@@ -212,9 +213,8 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     let corners: Vec<_> = contours(regions).flat_map(|c| (0..c.len()).map(|k| neighbours(c, k))).collect();
     // Free space is to the left, so a convex corner of an obstacle is a right turn.
     let convex: Vec<_> = corners.into_iter().filter(|&(a, b, c)| turn(a, b, c) < 0.0).collect();
-    let tangent = |(a, b, c): (Point, Point, Point), p: Point| {
-        p == a || p == c || (turn(p, b, a) > 0.0) == (turn(p, b, c) > 0.0)
-    };
+    let tangent =
+        |(a, b, c): (Point, Point, Point), p: Point| p == a || p == c || (turn(p, b, a) > 0.0) == (turn(p, b, c) > 0.0);
     let mut arcs = Vec::new();
     for (i, &c) in convex.iter().enumerate() {
         for &d in &convex[..i] {

@@ -214,11 +214,8 @@ impl Mesh {
             return None;
         }
         let ends_within = left_of_y != Orientation::CounterClockwise;
-        let cone = Cone {
-            edge,
-            right: if begins_within { x } else { right },
-            left: if ends_within { y } else { left },
-        };
+        let cone =
+            Cone { edge, right: if begins_within { x } else { right }, left: if ends_within { y } else { left } };
         Some(Outlook { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })
     }
 

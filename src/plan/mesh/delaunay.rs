@@ -22,7 +22,9 @@ pub(super) fn flip(vertices: &[Point], edges: &mut HalfEdges) {
         }
         let origin = |h: u32| edges.origin[h as usize];
         let (a, b, c, d) = (origin(h), origin(g), origin(previous(h)), origin(previous(g)));
-        if !in_circle([at(a), at(b), at(c)], at(d)) || !is_triangle(at(d), at(b), at(c)) || !is_triangle(at(c), at(a), at(d))
+        if !in_circle([at(a), at(b), at(c)], at(d))
+            || !is_triangle(at(d), at(b), at(c))
+            || !is_triangle(at(c), at(a), at(d))
         {
             continue;
         }

@@ -30,8 +30,7 @@ impl Columns {
         // Vertices are in order of abscissae.
         let (left, right) = (vertices.first().map_or(0.0, |p| p.x), vertices.last().map_or(0.0, |p| p.x));
         let density = if right > left { strips / (right - left) } else { 0.0 };
-        let mut columns =
-            Self { left, density, first: vec![0; strips as usize + 1], triangles: Vec::new() };
+        let mut columns = Self { left, density, first: vec![0; strips as usize + 1], triangles: Vec::new() };
         let range = |t: usize| {
             let x = [0, 1, 2].map(|k| vertices[edges.origin[3 * t + k] as usize].x);
             columns.strip(x[0].min(x[1]).min(x[2]))..=columns.strip(x[0].max(x[1]).max(x[2]))
