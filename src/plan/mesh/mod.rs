@@ -90,3 +90,80 @@ pub(super) fn next(half_edge: u32) -> u32 {
 pub(super) fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::{Polygon, Proves, Regions};
+    use crate::geometry::{Orientation, in_circle, orientation};
+    use crate::space::{Axis, Topology};
+    use proptest::prelude::*;
+
+    /// A window of 7 x 7 squares around a board of 5 x 5, under an integer matrix of determinant 1; each blocked square is
+    /// a hole of its own, so that holes touch along sides and in corners.
+    fn board(blocked: &[bool], [a, b, c, d]: [f64; 4]) -> Regions {
+        let square = |x: f64, y: f64, size: f64| {
+            [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
+                .map(|(dx, dy)| Point::new(a * (x + dx) + b * (y + dy), c * (x + dx) + d * (y + dy)))
+                .to_vec()
+        };
+        let squares = (0..25).filter(|&k| blocked[k]).map(|k| {
+            let mut hole = square((k / 5) as f64, (k % 5) as f64, 1.0);
+            hole.reverse();
+            hole
+        });
+        let free = vec![Polygon { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
+        let window = [(-50.0, 50.0); 2];
+        let axes = window.map(|(lower, upper)| Axis::Interval { lower, upper });
+        Regions { topology: Topology { axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+    }
+
+    fn matrices() -> impl Strategy<Value = [f64; 4]> {
+        prop_oneof![
+            Just([1.0, 0.0, 0.0, 1.0]),
+            Just([0.0, -1.0, 1.0, 0.0]),
+            Just([2.0, 1.0, 1.0, 1.0]),
+            Just([1.0, 0.0, -3.0, 1.0]),
+        ]
+    }
+
+    proptest! {
+        /// By their definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are Delaunay; an
+        /// index finds those that contain a point.
+        #[test]
+        fn is_the_constrained_delaunay_triangulation(
+            blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
+        ) {
+            let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix)));
+            let corners = |t: u32| [3 * t, 3 * t + 1, 3 * t + 2].map(|h| mesh.origin(h));
+            let mut twice_area = 0.0;
+            for t in 0..mesh.triangles() as u32 {
+                let [a, b, c] = corners(t);
+                prop_assert_eq!(orientation(a, b, c), Orientation::CounterClockwise);
+                twice_area += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+                for h in 3 * t..3 * t + 3 {
+                    if let Some(twin) = mesh.twin(h) {
+                        prop_assert_eq!(mesh.twin(twin), Some(h));
+                        let [p, q] = mesh.ends(twin);
+                        prop_assert_eq!(mesh.ends(h), [q, p]);
+                        prop_assert!(!in_circle([a, b, c], mesh.origin(previous(twin))));
+                    }
+                }
+            }
+            // In integers below 2^53 sums are exact.
+            prop_assert_eq!(twice_area, 2.0 * (49.0 - blocked.iter().filter(|b| **b).count() as f64));
+            for (x, y) in (-3..=13).flat_map(|x| (-3..=13).map(move |y| (f64::from(x) / 2.0, f64::from(y) / 2.0))) {
+                let [a, b, c, d] = matrix;
+                let p = Point::new(a * x + b * y, c * x + d * y);
+                let holds = |&t: &u32| {
+                    let [a, b, c] = corners(t);
+                    [(a, b), (b, c), (c, a)].iter().all(|&(a, b)| orientation(a, b, p) != Orientation::Clockwise)
+                };
+                let expected: Vec<u32> = (0..mesh.triangles() as u32).filter(holds).collect();
+                let mut found: Vec<u32> = mesh.triangles_at(p).collect();
+                found.sort_unstable();
+                prop_assert_eq!(found, expected);
+            }
+        }
+    }
+}
