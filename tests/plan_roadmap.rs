@@ -397,6 +397,16 @@ fn between_squares_that_touch_in_a_corner_there_is_no_way() {
 }
 
 #[test]
+fn of_motions_that_take_equally_long_the_shortest_is_taken() {
+    // The first joint takes 4 s whichever way the obstacle is passed; below it the way is shorter.
+    let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
+    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] } };
+    let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
+    let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| configuration(x, y));
+    assert_eq!(path.waypoints(), corners);
+}
+
+#[test]
 fn arcs_are_bitangents_only() {
     // The eight sides of two squares, and their two outer and two inner bitangents.
     let squares = vec![rectangle((1.0, 2.0), (1.0, 2.0)), rectangle((4.0, 5.0), (1.5, 2.5))];

@@ -38,17 +38,17 @@ impl Measure {
         }
     }
 
-    /// A lower bound on the length of the ways from `root` through the segment from `right` to `left`, which has the root
-    /// to its left, to `goal`; what is bound is the shortest of them, but for [`Measure::Rectangle`] and a goal on the
-    /// root's side.
-    pub fn through(self, root: Point, right: Point, left: Point, goal: Point) -> f64 {
+    /// A lower bound on the length of the ways from `root` to `goal` through a segment, from `right` to `left` as seen from
+    /// the root; it is the length of the shortest, but for [`Measure::Rectangle`] and a goal on the root's side. The line
+    /// of the segment is given by two points farther apart, in the same direction: the segment may be a point.
+    pub fn through(self, root: Point, [right, left]: [Point; 2], line: [Point; 2], goal: Point) -> f64 {
         let mut goal = goal;
-        let edge = left - right;
-        if cross(edge, goal - right) > 0.0 {
+        let along = line[1] - line[0];
+        if cross(along, goal - line[0]) > 0.0 {
             let Self::Ellipse([u, v]) = self else { return self.norm(goal - root) };
             // There and back is as long as to the mirror image.
             let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
-            let foot = right + edge * (product(goal - right, edge) / product(edge, edge));
+            let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
             goal = foot + (foot - goal);
         }
         let via = |end: Point| self.norm(end - root) + self.norm(goal - end);
@@ -86,7 +86,7 @@ mod tests {
                     .map(|k| right + (left - right) * (f64::from(k) / 2000.0))
                     .map(|p| metric.norm(p - root) + metric.norm(goal - p))
                     .fold(f64::INFINITY, f64::min);
-                let bound = Measure::from(metric).through(root, right, left, goal);
+                let bound = Measure::from(metric).through(root, [right, left], [right, left], goal);
                 prop_assert!(bound <= least + 1e-8, "{metric:?}: {bound} > {least}");
                 let is_exact = !matches!(metric, Metric::Time { .. }) || goal.y <= 0.0;
                 prop_assert!(!is_exact || bound >= least - 1e-5, "{metric:?}: {bound} < {least}");

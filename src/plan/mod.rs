@@ -53,7 +53,7 @@ pub enum Outcome {
 /// Size of what a planner built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
-    /// A roadmap, or cells and their adjacencies.
+    /// A roadmap as far as it was looked at, or all cells and their adjacencies.
     Graph {
         /// Nodes, or cells.
         nodes: usize,
@@ -82,7 +82,7 @@ impl std::fmt::Display for Size {
 /// What a planner saw on its way, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {
-    /// Arcs of the visibility graph.
+    /// Arcs of the reduced visibility graph.
     Roadmap {
         /// Both ends of each.
         edges: Vec<[Configuration; 2]>,

@@ -2,8 +2,8 @@
 
 use super::NONE;
 use super::measure::Measure;
-use super::mesh::{Beyond, Cone, Crossing, Mesh, Tangency};
-use crate::geometry::{Orientation, Point, orientation};
+use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
+use crate::geometry::{Orientation, Point, cross, orientation};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -228,10 +228,9 @@ impl<'a> TautSearch<'a> {
             return f64::INFINITY;
         }
         let Node { at, cost, .. } = self.nodes[root as usize];
-        let [right, left] = self.mesh.ends(cone.edge);
-        let right_end = meeting(cone.right.from, cone.right.to, right, left, right);
-        let left_end = meeting(cone.left.from, cone.left.to, right, left, left);
-        let through = |goal: &Point| self.measure.through(at, right_end, left_end, *goal);
+        let line = self.mesh.ends(cone.edge);
+        let ends = [meeting(cone.right, line, line[0]), meeting(cone.left, line, line[1])];
+        let through = |goal: &Point| self.measure.through(at, ends, line, *goal);
         cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min)
     }
 
@@ -273,16 +272,14 @@ impl<'a> TautSearch<'a> {
     }
 }
 
-/// Where the line from `from` to `to` meets the segment from `a` to `b`; `fallback` if `to` is that end of it, or if
-/// they are nearly parallel.
-fn meeting(from: Point, to: Point, a: Point, b: Point, fallback: Point) -> Point {
+/// Where a ray meets the segment from `a` to `b`; `fallback` if it is drawn to that end, or nearly parallel.
+fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
     let (line, edge) = (to - from, b - a);
-    let sine = line.x * edge.y - line.y * edge.x;
+    let sine = cross(line, edge);
     if to == fallback || sine * sine <= PARALLEL * PARALLEL * line.norm_squared() * edge.norm_squared() {
         return fallback;
     }
-    let offset = from - a;
-    let t = (line.x * offset.y - line.y * offset.x) / sine;
+    let t = cross(line, from - a) / sine;
     a + edge * t.clamp(0.0, 1.0)
 }
 

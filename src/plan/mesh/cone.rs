@@ -179,7 +179,7 @@ impl Mesh {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
-        // A gaze that rounding has not made, but whose rays coincide, holds nothing that other corners do not see.
+        // Between two rays that coincide nothing is seen that is not seen from before as well.
         if let Gaze::Between(right, left) = gaze
             && !is_left_of(right, left, root)
         {
@@ -206,14 +206,14 @@ impl Mesh {
         let Gaze::Between(right, left) = gaze else {
             return Some(Outlook { cone: Cone { edge, right: x, left: y }, seen: ends.map(Some) });
         };
-        let [right_of_x, right_of_y] = [x, y].map(|ray| right.side(ray.to));
-        let [left_of_x, left_of_y] = [x, y].map(|ray| left.side(ray.to));
-        let begins_within = right_of_x != Orientation::Clockwise && left_of_x == Orientation::Clockwise;
-        let holds_right = right_of_x != Orientation::CounterClockwise && right_of_y == Orientation::CounterClockwise;
+        let [right_to_x, right_to_y] = [x, y].map(|ray| right.side(ray.to));
+        let [left_to_x, left_to_y] = [x, y].map(|ray| left.side(ray.to));
+        let begins_within = right_to_x != Orientation::Clockwise && left_to_x == Orientation::Clockwise;
+        let holds_right = right_to_x != Orientation::CounterClockwise && right_to_y == Orientation::CounterClockwise;
         if !begins_within && !holds_right {
             return None;
         }
-        let ends_within = left_of_y != Orientation::CounterClockwise;
+        let ends_within = left_to_y != Orientation::CounterClockwise;
         let cone =
             Cone { edge, right: if begins_within { x } else { right }, left: if ends_within { y } else { left } };
         Some(Outlook { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })

@@ -6,7 +6,7 @@ mod delaunay;
 mod location;
 mod triangulation;
 
-pub(super) use cone::{Beyond, Cone, Crossing};
+pub(super) use cone::{Beyond, Bound, Cone, Crossing};
 pub(super) use corners::{Corner, Tangency};
 
 use super::NONE;
