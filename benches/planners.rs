@@ -57,7 +57,7 @@ fn planners(c: &mut Criterion) {
         group.bench_function(format!("{n} x {n} cells"), |b| b.iter(|| cells(black_box(&problem), n)));
         group.finish();
         let (regions, grid) = (polygons(&problem), cells(&problem, n));
-        measure(c, name, &problem, &Visibility, &regions);
+        measure(c, name, &problem, &Visibility::default(), &regions);
         measure(c, name, &problem, &Trapezoid::default(), &regions);
         measure(c, name, &problem, &Wavefront::default(), &grid);
         measure(c, name, &problem, &Harmonic::default(), &grid);

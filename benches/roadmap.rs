@@ -1,38 +1,94 @@
-//! Build and query of the roadmap planners on crowds of disjoint convex polygons.
+//! Roadmap planners among random disjoint polygons, 23 % of the area filled: what they build, the whole visibility graph,
+//! one query; and beside it the textbook's visibility graph, every pair of corners against every side.
 
 #[path = "../tests/roadmap/mod.rs"]
 #[allow(dead_code, reason = "the judges of the test suite are not needed here")]
 mod roadmap;
 
 use cplan::cspace::Regions;
-use cplan::plan::{Planner, Query, Trapezoid, Visibility};
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use roadmap::{Random, configuration, convex_crowd, crowd_regions};
+use cplan::geometry::{Point, segments_cross};
+use cplan::plan::{Outcome, Planner, Query, Trapezoid, Visibility};
+use cplan::space::Metric;
+use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
+use roadmap::{Random, configuration, sides, star_crowd};
 use std::hint::black_box;
 
-/// Polygons along a side of the crowd, and corners of each.
-const CROWDS: [(usize, usize); 4] = [(5, 4), (5, 12), (10, 10), (10, 15)];
+/// Corners in all.
+const SIZES: [usize; 5] = [100, 1_000, 10_000, 20_000, 50_000];
 
-fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, planner: &P) {
-    let mut group = criterion.benchmark_group(P::NAME);
-    for (side, corners) in CROWDS {
-        let vertices = side * side * corners;
-        let regions = crowd_regions(side, &convex_crowd(&mut Random(1), side, corners));
-        let far = side as f64 + 0.2;
-        let query = Query { start: configuration(-0.2, -0.2), goals: vec![configuration(far, far)] };
+/// Where the naive graph is bearable.
+const NAIVE: usize = 1_000;
+
+/// Queries between free places all over the window.
+fn queries(regions: &Regions) -> Vec<Query> {
+    let (mut random, planner) = (Random(7), Trapezoid::default());
+    let map = planner.build(regions);
+    let mut place = || configuration_within(&mut random, regions);
+    let mut queries = Vec::new();
+    while queries.len() < 32 {
+        let query = Query { start: place(), goals: vec![place()] };
+        if matches!(planner.query(regions, &map, &query).outcome, Outcome::Found(_)) {
+            queries.push(query);
+        }
+    }
+    queries
+}
+
+fn configuration_within(random: &mut Random, regions: &Regions) -> cplan::space::Configuration {
+    let [x, y] = regions.window.map(|(low, high)| random.within(low, high));
+    configuration(x, y)
+}
+
+fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, name: &str, planner: &P) {
+    let mut group = criterion.benchmark_group(name);
+    group.sample_size(20);
+    for size in SIZES {
+        let regions = star_crowd(&mut Random(1), size / 10);
+        let queries = queries(&regions);
         let map = planner.build(&regions);
-        group.bench_function(BenchmarkId::new("build", vertices), |b| b.iter(|| planner.build(black_box(&regions))));
-        group.bench_function(BenchmarkId::new("query", vertices), |b| {
-            b.iter(|| planner.query(black_box(&regions), &map, &query));
+        group.bench_function(BenchmarkId::new("build", size), |b| b.iter(|| planner.build(black_box(&regions))));
+        let mut next = queries.iter().cycle();
+        group.bench_function(BenchmarkId::new("query", size), |b| {
+            b.iter_batched(
+                || next.next().expect("a cycle has no end"),
+                |query| planner.query(&regions, &map, query),
+                BatchSize::SmallInput,
+            );
         });
     }
     group.finish();
 }
 
-fn planners(criterion: &mut Criterion) {
-    measure(criterion, &Visibility);
-    measure(criterion, &Trapezoid::default());
+/// The visibility graph by definition: `O(n^3)`.
+fn naive_graph(regions: &Regions) -> usize {
+    let sides = sides(regions);
+    let corners: Vec<Point> = sides.iter().map(|side| side.0).collect();
+    let sees = |p: Point, q: Point| !sides.iter().any(|&(a, b)| segments_cross(p, q, a, b));
+    corners.iter().enumerate().map(|(i, &p)| corners[..i].iter().filter(|&&q| sees(p, q)).count()).sum()
 }
 
-criterion_group!(benches, planners);
+fn graphs(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("visibility graph");
+    group.sample_size(10);
+    for size in SIZES {
+        let regions = star_crowd(&mut Random(1), size / 10);
+        let planner = Visibility::default();
+        let whole = |regions: &Regions| planner.build(regions).arcs();
+        println!("{size} corners: {} arcs", whole(&regions).len());
+        group.bench_function(BenchmarkId::new("build and all arcs", size), |b| b.iter(|| whole(black_box(&regions))));
+        if size <= NAIVE {
+            group.bench_function(BenchmarkId::new("naive", size), |b| b.iter(|| naive_graph(black_box(&regions))));
+        }
+    }
+    group.finish();
+}
+
+fn planners(criterion: &mut Criterion) {
+    measure(criterion, "visibility", &Visibility::default());
+    let time = Visibility { metric: Metric::Time { speeds: [1.0, 1.5] } };
+    measure(criterion, "visibility, travel time", &time);
+    measure(criterion, "trapezoid", &Trapezoid::default());
+}
+
+criterion_group!(benches, planners, graphs);
 criterion_main!(benches);

@@ -42,7 +42,7 @@ fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box
         start: problem.start,
         goals: &problem.goals,
         paths: path.map(|path| (method.to_string(), path)).into_iter().collect(),
-        trace: Some(&answer.run.trace),
+        trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),
         c_obstacles: &c_obstacles(scene, tolerance, tolerance),
     };

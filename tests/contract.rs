@@ -10,15 +10,23 @@ use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::plan::{Harmonic, Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility, Wavefront};
-use cplan::space::{Axis, Configuration, Path};
+use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
 
 /// Plans in a scene, whatever representation that takes.
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 7] = [
-    (Visibility::NAME, |scene, query| answered(&Visibility, &polygons(scene, query), query)),
+const PLANNERS: [(&str, Plan); 9] = [
+    (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
+    ("visibility, weighted", |scene, query| {
+        let metric = Metric::Weighted { weights: [1.0, 0.6] };
+        answered(&Visibility { metric }, &polygons(scene, query), query)
+    }),
+    ("visibility, travel time", |scene, query| {
+        let metric = Metric::Time { speeds: [1.0, 1.5] };
+        answered(&Visibility { metric }, &polygons(scene, query), query)
+    }),
     ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
     ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
     ("wavefront, cells", |scene, query| answered(&Wavefront { shortcut: false }, &cells(scene), query)),
@@ -139,7 +147,7 @@ fn the_trace_and_size_are_those_of_the_representation() {
     for (name, plan) in PLANNERS {
         let run = plan(&scene, &query);
         let fits = match (&run.trace, run.size) {
-            (Trace::Roadmap { edges: drawn }, Size::Graph { edges, .. }) => drawn.len() == edges,
+            (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
             (Trace::Channel { cells, channel }, Size::Graph { nodes, .. }) => {
                 cells.len() == nodes && !channel.is_empty() && channel.iter().all(|&cell| cell < nodes)
             }

@@ -5,11 +5,12 @@ mod roadmap;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::plan::{Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
-use cplan::space::{Axis, Path, Topology};
+use cplan::space::{Axis, Configuration, Metric, Path, Topology};
 use proptest::prelude::*;
 use roadmap::*;
 use std::f64::consts::{PI, TAU};
 
+const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean };
 const MIDDLES: Trapezoid = Trapezoid { taut: false };
 const TAUT: Trapezoid = Trapezoid { taut: true };
 
@@ -41,7 +42,7 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
 
 /// Lengths by visibility, taut trapezoids and untaut ones, after checks of their order.
 fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
-    let shortest = checked_path(&Visibility, regions, query);
+    let shortest = checked_path(&VISIBILITY, regions, query);
     let taut = checked_path(&TAUT, regions, query);
     let middles = checked_path(&MIDDLES, regions, query);
     assert_eq!(shortest.is_some(), taut.is_some(), "planners agree on whether there is a path");
@@ -109,6 +110,81 @@ proptest! {
     }
 
     #[test]
+    fn shortest_in_every_metric_equals_brute_force(seed: u64, side in 1usize..4, ratio in 0.2..5.0_f64) {
+        let mut random = Random(seed);
+        let crowd = convex_crowd(&mut random, side, 4);
+        let regions = crowd_regions(side, &crowd);
+        let window = (-0.25, side as f64 + 0.25);
+        let [s, g] = [0, 1].map(|_| Point::new(random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
+        let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
+        for metric in metrics(ratio) {
+            let planner = Visibility { metric };
+            let query = Query { start: s.coords, goals: goals.map(|g| g.coords).to_vec() };
+            let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
+            let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
+            prop_assert!((found - expected[0].min(expected[1])).abs() < 1e-8, "{metric:?} {found} {expected:?}");
+        }
+    }
+
+    /// Squares of one and two units that touch along sides and in corners: in place or mirrored exactly, or turned so that
+    /// rounding puts corners a hair to either side of the sides that they lie on, and leaves gaps a hair wide.
+    #[test]
+    fn touching_obstacles_equal_brute_force(
+        seed: u64, size in 2usize..6, density in 0.1..0.5, turn in prop_oneof![Just(None), (0.0..1.6_f64).prop_map(Some)],
+    ) {
+        let mut random = Random(seed);
+        let blocks = blocks(&mut random, size, density);
+        let (sin, cos) = turn.unwrap_or(0.0).sin_cos();
+        let turned = |x: f64, y: f64| Point::new(x * cos - y * sin, x * sin + y * cos);
+        let block = |&(x, y, n): &(usize, usize, usize), growth: f64| {
+            let range = |k: usize| (k as f64 - growth, (k + n) as f64 + growth);
+            rectangle(range(x), range(y)).into_iter().map(|p| turned(p.x, p.y)).collect::<Vec<_>>()
+        };
+        let sized = |growth: f64| -> Vec<_> { blocks.iter().map(|b| block(b, growth)).collect() };
+        let window = (-2.0 * size as f64, 2.0 * size as f64);
+        // A gap of a hair may be a way or none.
+        let growth = 1e-6;
+        let least = if turn.is_some() { -growth } else { growth };
+        let (grown, shrunk) = (sized(growth), sized(least));
+        let regions = window_with_holes(window, window, sized(0.0));
+        for _ in 0..3 {
+            let mut place = || (random.bits() % (size as u64 + 2)) as f64 - 0.5;
+            let [p, q] = [(place(), place()), (place(), place())];
+            let is_free = |(x, y): (f64, f64)| !blocks.iter().any(|b| {
+                let within = |v: f64, k: usize| v > k as f64 && v < (k + b.2) as f64;
+                within(x, b.0) && within(y, b.1)
+            });
+            if !is_free(p) || !is_free(q) {
+                continue;
+            }
+            let [s, g] = [turned(p.0, p.1), turned(q.0, q.1)];
+            let query = query((s.x, s.y), (g.x, g.y));
+            for metric in metrics(1.7) {
+                let found = checked_path(&Visibility { metric }, &regions, &query).map(|path| metric.length(&path));
+                let most = brute_force(&grown, window, s, g, metric).unwrap_or(f64::INFINITY);
+                let least = brute_force(&shrunk, window, s, g, metric).unwrap_or(f64::INFINITY);
+                let found = found.unwrap_or(f64::INFINITY);
+                prop_assert!(found <= most + 1e-9, "{found} {most}");
+                prop_assert!(found >= least - 200.0 * growth, "{found} {least}");
+            }
+            lengths(&regions, &query);
+        }
+    }
+
+    /// Against the definition: pairs of convex corners, tangent at both ends, that no side separates.
+    #[test]
+    fn the_whole_graph_is_that_of_the_definition(seed: u64, count in 1usize..9) {
+        let regions = star_crowd(&mut Random(seed), count);
+        let mut expected = bitangents(&regions);
+        let mut arcs = VISIBILITY.build(&regions).arcs();
+        let key = |ends: &[Configuration; 2]| ends.map(|q| (q[0], q[1]));
+        let order = |a: &[Configuration; 2], b: &[Configuration; 2]| key(a).partial_cmp(&key(b)).unwrap();
+        arcs.sort_by(order);
+        expected.sort_by(order);
+        prop_assert_eq!(arcs, expected);
+    }
+
+    #[test]
     fn boards_equal_flood_fill_and_brute_force(seed: u64, size in 2usize..7, density in 0.1..0.6) {
         let mut random = Random(seed);
         let board = Board::random(&mut random, size, density);
@@ -158,7 +234,7 @@ proptest! {
             let [s, g] = [p, q].map(|p| mapped(map, f64::from(p[0]) / 2.0, f64::from(p[1]) / 2.0));
             let query = query((s.x, s.y), (g.x, g.y));
             if from.is_empty() || to.is_empty() {
-                for outcome in [run(&Visibility, &regions, &query).outcome, run(&TAUT, &regions, &query).outcome] {
+                for outcome in [run(&VISIBILITY, &regions, &query).outcome, run(&TAUT, &regions, &query).outcome] {
                     prop_assert!(matches!(outcome, Outcome::GaveUp(_)));
                 }
             } else {
@@ -169,11 +245,33 @@ proptest! {
     }
 }
 
+/// One metric of each kind.
+fn metrics(ratio: f64) -> [Metric; 3] {
+    [Metric::Euclidean, Metric::Weighted { weights: [1.0, ratio] }, Metric::Time { speeds: [1.0, ratio] }]
+}
+
+/// Lower left corners and sizes of squares on a board, apart or touching.
+fn blocks(random: &mut Random, size: usize, density: f64) -> Vec<(usize, usize, usize)> {
+    let mut taken = vec![false; size * size];
+    let mut blocks = Vec::new();
+    for k in 0..size * size {
+        let (x, y) = (k / size, k % size);
+        let squares = |n: usize| (x..x + n).flat_map(move |i| (y..y + n).map(move |j| i * size + j));
+        let fits = |n: usize| x + n <= size && y + n <= size && squares(n).all(|s| !taken[s]);
+        if random.within(0.0, 1.0) < density && fits(1) {
+            let n = if random.bits().is_multiple_of(2) && fits(2) { 2 } else { 1 };
+            blocks.push((x, y, n));
+            squares(n).for_each(|s| taken[s] = true);
+        }
+    }
+    blocks
+}
+
 mod contract {
     use super::*;
 
     fn both(test: impl Fn(&dyn Fn(&Regions, &Query) -> Outcome)) {
-        test(&|regions, query| run(&Visibility, regions, query).outcome);
+        test(&|regions, query| run(&VISIBILITY, regions, query).outcome);
         test(&|regions, query| run(&TAUT, regions, query).outcome);
         test(&|regions, query| run(&MIDDLES, regions, query).outcome);
     }
@@ -273,7 +371,7 @@ fn a_taut_string_along_a_slanted_side_has_no_corners_between() {
     let regions = regions([(0.0, 4.0), (0.0, 3.0)], vec![floor]);
     let query = query((0.05, 0.05), (3.6, 0.1));
     let path = checked_path(&TAUT, &regions, &query).unwrap();
-    let shortest = checked_path(&Visibility, &regions, &query).unwrap();
+    let shortest = checked_path(&VISIBILITY, &regions, &query).unwrap();
     assert!((path.length() - shortest.length()).abs() < 1e-12);
     assert_eq!(path.waypoints().len(), 4, "{path:?}");
 }
@@ -299,10 +397,21 @@ fn between_squares_that_touch_in_a_corner_there_is_no_way() {
 }
 
 #[test]
+fn of_motions_that_take_equally_long_the_shortest_is_taken() {
+    // The first joint takes 4 s whichever way the obstacle is passed; below it the way is shorter.
+    let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
+    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] } };
+    let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
+    let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| configuration(x, y));
+    assert_eq!(path.waypoints(), corners);
+}
+
+#[test]
 fn arcs_are_bitangents_only() {
     // The eight sides of two squares, and their two outer and two inner bitangents.
     let squares = vec![rectangle((1.0, 2.0), (1.0, 2.0)), rectangle((4.0, 5.0), (1.5, 2.5))];
     let regions = window_with_holes((0.0, 6.0), (0.0, 4.0), squares);
-    let outside = run(&Visibility, &regions, &query((-1.0, 0.0), (0.5, 0.5)));
-    assert_eq!(outside.size, Size::Graph { nodes: 8, edges: 8 + 4 });
+    let map = VISIBILITY.build(&regions);
+    assert_eq!(map.corners(), 8);
+    assert_eq!(map.arcs().len(), 8 + 4);
 }

@@ -122,7 +122,7 @@ pub fn write_picture(
         start: problem.start,
         goals: &problem.goals,
         paths: found.map(|path| (answer.method.to_string(), path)).into_iter().collect(),
-        trace: Some(&answer.run.trace),
+        trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),
         c_obstacles: &contours,
     };

@@ -45,7 +45,7 @@ pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
 #[must_use]
 pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window) -> Vec<Item> {
     match trace {
-        Trace::Roadmap { edges } => {
+        Trace::Roadmap { edges, .. } => {
             let pieces = edges.iter().flat_map(|edge| window.pieces(edge));
             let steps = pieces.flat_map(|p| chain(p.iter().map(|q| frame.at(q[0], q[1])), false)).collect();
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))]
@@ -67,7 +67,10 @@ pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window)
 pub fn keys(trace: &Trace) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
     match trace {
-        Trace::Roadmap { .. } => vec![(line(EDGE), "visibility graph".to_owned())],
+        Trace::Roadmap { whole, .. } => {
+            let extent = if *whole { "" } else { ", as far as searched" };
+            vec![(line(EDGE), format!("visibility graph{extent}"))]
+        }
         Trace::Channel { channel, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
             [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()

@@ -27,7 +27,7 @@ pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };
 pub use polygon::{PolygonDefect, SimplePolygon};
-pub use predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
+pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use separation::{Separation, separation};
 
 /// A point of the plane, metres.

@@ -19,11 +19,13 @@ pub enum Orientation {
 
 /// On which side of the directed line from `a` to `b` the point `c` lies; exact.
 #[must_use]
+#[inline]
 pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
     Orientation::of(determinant(a, b, c))
 }
 
 impl Orientation {
+    #[inline]
     fn of(determinant: f64) -> Self {
         if determinant > 0.0 {
             Self::CounterClockwise
@@ -36,9 +38,17 @@ impl Orientation {
 }
 
 /// Twice the signed area of the triangle `abc`: the sign exact, the value rounded.
+#[inline]
 pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::orient2d(coord(a), coord(b), coord(c))
+}
+
+/// Whether `p` lies strictly inside the circle through the corners of a counter-clockwise triangle; exact.
+#[must_use]
+pub fn in_circle([a, b, c]: [Point; 3], p: Point) -> bool {
+    let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
+    robust::incircle(coord(a), coord(b), coord(c), coord(p)) > 0.0
 }
 
 /// Which way the direction of the segment `s` turns into that of the segment `t`; exact.
@@ -131,6 +141,14 @@ mod tests {
         t(a).min(t(b)) <= t(c).max(t(d)) && t(c).min(t(d)) <= t(a).max(t(b))
     }
 
+    /// The determinant of lifted points in integers.
+    fn in_circle_by_determinant(corners: [(i64, i64); 3], p: (i64, i64)) -> bool {
+        let [a, b, c] = corners.map(|q| (q.0 - p.0, q.1 - p.1));
+        let lift = |q: (i64, i64)| q.0 * q.0 + q.1 * q.1;
+        let cross = |q: (i64, i64), r: (i64, i64)| q.0 * r.1 - q.1 * r.0;
+        lift(a) * cross(b, c) + lift(b) * cross(c, a) + lift(c) * cross(a, b) > 0
+    }
+
     fn point(p: (i64, i64)) -> Point {
         Point::new(p.0 as f64, p.1 as f64)
     }
@@ -148,6 +166,9 @@ mod tests {
             let [p, q, r, s] = [a, b, c, d].map(point);
             prop_assert_eq!(segments_meet(p, q, r, s), meet);
             prop_assert_eq!(point_on_segment(p, r, s), meet_by_parameters(a, a, c, d));
+            if side(a, b, c) > 0 {
+                prop_assert_eq!(in_circle([p, q, r], s), in_circle_by_determinant([a, b, c], d));
+            }
             let crossing = side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
             prop_assert_eq!(segments_cross(p, q, r, s), crossing);
         }

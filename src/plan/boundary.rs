@@ -1,29 +1,27 @@
-//! The boundary of free space as roadmap planners see it: distinct vertices, directed sides, free sectors.
+//! The boundary of free space as roadmap planners see it: distinct vertices and directed sides that meet in vertices.
 
-use super::segment_grid::SegmentGrid;
+use super::{NONE, noding};
 use crate::cspace::Regions;
 use crate::geometry::{Orientation, Point, orientation};
 use std::cmp::Ordering;
-use std::ops::ControlFlow;
+use std::ops::Range;
 
-/// A side of the boundary, by vertex index; free space lies to the left of its direction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A side of the boundary, by vertex number; free space lies to the left of its direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Side {
-    pub from: usize,
-    pub to: usize,
-    /// The polygon of [`Regions::free`] that it bounds.
-    pub polygon: usize,
+    pub from: u32,
+    pub to: u32,
 }
 
 impl Side {
     /// End with the lesser abscissa (on a vertical side the lower one): vertices are numbered in that order.
     pub fn left_end(self) -> usize {
-        self.from.min(self.to)
+        self.from.min(self.to) as usize
     }
 
     /// The other end.
     pub fn right_end(self) -> usize {
-        self.from.max(self.to)
+        self.from.max(self.to) as usize
     }
 
     /// Whether it is directed to the right, so that free space lies above.
@@ -32,112 +30,123 @@ impl Side {
     }
 }
 
-/// Directions at a vertex that lead into free space: counter-clockwise from the side towards `right` to the side
-/// towards `left`, both included. Where obstacles touch in a corner a vertex has several.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sector {
-    pub right: Point,
-    pub left: Point,
-    /// The polygon of [`Regions::free`] that it belongs to.
-    pub polygon: usize,
-}
-
-impl Sector {
-    /// Whether the angle at `apex` exceeds a half turn: a convex corner of an obstacle.
-    pub fn is_reflex(&self, apex: Point) -> bool {
-        orientation(apex, self.right, self.left) == Orientation::Clockwise
-    }
-
-    /// Whether the direction from `apex` to `target` (another point) belongs to the closed sector.
-    pub fn contains(&self, apex: Point, target: Point) -> bool {
-        let from_right = orientation(apex, self.right, target);
-        let from_left = orientation(apex, self.left, target);
-        match orientation(apex, self.right, self.left) {
-            Orientation::CounterClockwise => {
-                from_right != Orientation::Clockwise && from_left != Orientation::CounterClockwise
-            }
-            Orientation::Clockwise => {
-                from_right != Orientation::Clockwise || from_left != Orientation::CounterClockwise
-            }
-            Orientation::Collinear if is_between(apex, self.right, self.left) => from_right != Orientation::Clockwise,
-            Orientation::Collinear => from_right == Orientation::Collinear && !is_between(apex, self.right, target),
-        }
-    }
-}
-
-/// Distinct vertices in lexicographic order, directed sides that meet in vertices only, free sectors by vertex.
+/// Distinct vertices in lexicographic order, directed sides that meet in vertices only.
 ///
 /// Contours that touch (in a shared corner, or a corner on a side) are cut there, so that what is free around a point
-/// can be read off its sectors whichever way the contours were traced. Sides must not cross or overlap each other,
-/// which holds for the result of any polygon union.
+/// is told by the sides that end there, whichever way the contours were traced. Sides must not cross or overlap each
+/// other, which holds for the result of any polygon union; where the rounding of its corners has made them cross by a
+/// hair, they are cut and joined at the corner next to the crossing. Two coincident sides, where obstacles touch along
+/// a side, are allowed.
 #[derive(Debug, Clone)]
 pub(super) struct Boundary {
     pub vertices: Vec<Point>,
+    /// By left end, and of one left end from bottom to top.
     pub sides: Vec<Side>,
-    sectors: Vec<Sector>,
-    /// Sectors of vertex `v` are `first_sector[v]..first_sector[v + 1]`.
-    first_sector: Vec<usize>,
+    /// The sides that begin at vertex `v` are `first[v]..first[v + 1]`.
+    first: Vec<u32>,
+    /// Sides by right end, of one right end from bottom to top: those of `v` are `last[v]..last[v + 1]` of them.
+    by_right_end: Vec<u32>,
+    last: Vec<u32>,
+    /// For every vertex the side straight below that does not end there, or `NONE`.
+    below: Vec<u32>,
 }
 
 impl Boundary {
     /// From the polygons of free space, `O(n log n)` for `n` corners.
     pub fn new(regions: &Regions) -> Self {
-        let contours = || {
-            let polygons = regions.free.iter().enumerate();
-            polygons.flat_map(|(k, p)| std::iter::once(&p.outer).chain(&p.holes).map(move |contour| (k, contour)))
-        };
-        let mut vertices: Vec<Point> =
-            contours().flat_map(|(_, contour)| contour).copied().map(unsigned_zero).collect();
-        vertices.sort_by(|a, b| lexicographic(*a, *b));
-        vertices.dedup();
-
-        let mut sides = Vec::with_capacity(vertices.len());
-        for (polygon, contour) in contours() {
-            let index = |p: &Point| vertices.partition_point(|v| lexicographic(*v, unsigned_zero(*p)).is_lt());
-            let next = contour.iter().cycle().skip(1);
-            let ends = contour.iter().zip(next).map(|(a, b)| (index(a), index(b)));
-            sides.extend(ends.filter(|(a, b)| a != b).map(|(from, to)| Side { from, to, polygon }));
+        let contours = || regions.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
+        let mut order: Vec<(Point, u32)> =
+            contours().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
+        order.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
+        let mut vertices: Vec<Point> = Vec::with_capacity(order.len());
+        let mut number = vec![0; order.len()];
+        for (p, index) in order {
+            if vertices.last() != Some(&p) {
+                vertices.push(p);
+            }
+            number[index as usize] = vertices.len() as u32 - 1;
         }
-        let sides = cut_at_touching_vertices(&vertices, sides);
-        let (sectors, first_sector) = free_sectors(&vertices, &sides);
-        Self { vertices, sides, sectors, first_sector }
+        let mut sides = Vec::with_capacity(number.len());
+        let mut begin = 0;
+        for contour in contours() {
+            let numbers = &number[begin..begin + contour.len()];
+            let next = numbers.iter().cycle().skip(1);
+            sides.extend(numbers.iter().zip(next).filter(|(a, b)| a != b).map(|(&from, &to)| Side { from, to }));
+            begin += contour.len();
+        }
+        noding::planar(Self { vertices, sides, first: vec![], by_right_end: vec![], last: vec![], below: vec![] })
+    }
+
+    /// Puts the sides in order and sets up the lists by vertex.
+    pub fn arrange(&mut self) {
+        let point = |v: usize| self.vertices[v];
+        self.sides.sort_unstable_by(|a, b| {
+            let slopes = || below_at(point(a.left_end()), point(a.right_end()), point(b.right_end()));
+            a.left_end().cmp(&b.left_end()).then_with(slopes).then(a.right_end().cmp(&b.right_end())).then(a.cmp(b))
+        });
+        self.sides.dedup();
+        self.first = starts(self.vertices.len(), self.sides.iter().map(|side| side.left_end()));
+        self.last = starts(self.vertices.len(), self.sides.iter().map(|side| side.right_end()));
+        let mut place = self.last.clone();
+        self.by_right_end = vec![0; self.sides.len()];
+        for (k, side) in self.sides.iter().enumerate() {
+            let slot = &mut place[side.right_end()];
+            self.by_right_end[*slot as usize] = k as u32;
+            *slot += 1;
+        }
+        for v in 0..self.vertices.len() {
+            let group = &mut self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize];
+            if group.len() > 1 {
+                let left = |k: u32| self.vertices[self.sides[k as usize].left_end()];
+                // Seen from the right end the lower side is the one counter-clockwise of the other.
+                group.sort_by(|&a, &b| below_at(self.vertices[v], left(b), left(a)).then(a.cmp(&b)));
+            }
+        }
+    }
+
+    /// Sides that begin at vertex `v`, going to the right, from bottom to top.
+    pub fn beginning(&self, v: usize) -> Range<usize> {
+        self.first[v] as usize..self.first[v + 1] as usize
+    }
+
+    /// Sides that end at vertex `v`, coming from the left, from bottom to top.
+    pub fn ending(&self, v: usize) -> impl DoubleEndedIterator<Item = usize> + Clone + '_ {
+        self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize].iter().map(|&side| side as usize)
+    }
+
+    /// The side straight below vertex `v` that does not end there.
+    pub fn below(&self, v: usize) -> Option<usize> {
+        (self.below[v] != NONE).then_some(self.below[v] as usize)
+    }
+
+    /// Sets what [`Boundary::below`] tells.
+    pub fn set_below(&mut self, below: Vec<u32>) {
+        self.below = below;
     }
 
     /// Ends of a side.
-    pub fn ends(&self, side: Side) -> (Point, Point) {
-        (self.vertices[side.from], self.vertices[side.to])
+    pub fn ends(&self, side: usize) -> (Point, Point) {
+        (self.vertices[self.sides[side].from as usize], self.vertices[self.sides[side].to as usize])
     }
 
-    /// The vertex at exactly `p`, if there is one.
-    pub fn vertex_at(&self, p: Point) -> Option<usize> {
-        self.vertices.binary_search_by(|v| lexicographic(*v, unsigned_zero(p))).ok()
+    /// On which side of the line through a side, directed to the right, `p` lies: counter-clockwise means above.
+    pub fn place(&self, side: usize, p: Point) -> Orientation {
+        let side = self.sides[side];
+        orientation(self.vertices[side.left_end()], self.vertices[side.right_end()], p)
     }
 
-    /// Free sectors at vertex `v`.
-    pub fn sectors(&self, v: usize) -> &[Sector] {
-        &self.sectors[self.first_sector[v]..self.first_sector[v + 1]]
-    }
-
-    /// Whether closed free space contains `p`, exactly; `O(n)`.
-    pub fn contains(&self, p: Point) -> bool {
-        let mut inside = false;
-        for &side in &self.sides {
-            let (from, to) = self.ends(side);
-            // Half-open in y, so that a ray through a vertex counts it once.
-            let (low, high) = if from.y <= to.y { (from, to) } else { (to, from) };
-            let place = orientation(low, high, p);
-            if place == Orientation::Collinear && is_within(p, from, to) {
-                return true;
-            }
-            inside ^= low.y <= p.y && p.y < high.y && place == Orientation::CounterClockwise;
-        }
-        inside
+    /// Whether a side is vertical.
+    pub fn is_vertical(&self, side: usize) -> bool {
+        let (from, to) = self.ends(side);
+        from.x == to.x
     }
 
     /// The ordinate at which a side that is not vertical meets the abscissa `x` within its range, rounded *into* free
     /// space: the point `(x, y)` is on the side or on its free side, exactly.
-    pub fn ordinate(&self, side: Side, x: f64) -> f64 {
-        let (a, b) = (self.vertices[side.left_end()], self.vertices[side.right_end()]);
+    pub fn ordinate(&self, side: usize, x: f64) -> f64 {
+        let is_floor = self.sides[side].is_floor();
+        let (from, to) = self.ends(side);
+        let (a, b) = if is_floor { (from, to) } else { (to, from) };
         if x <= a.x {
             return a.y;
         }
@@ -146,11 +155,10 @@ impl Boundary {
         }
         let (low, high) = (a.y.min(b.y), a.y.max(b.y));
         let mut y = (a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))).clamp(low, high);
-        let (from, to) = self.ends(side);
         // Doubling the step from the rounding error's size on reaches the far end, which is free, in any case.
         let mut step = f64::EPSILON * low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
         while orientation(from, to, Point::new(x, y)) == Orientation::Clockwise {
-            y = if side.is_floor() { (y + step).min(high) } else { (y - step).max(low) };
+            y = if is_floor { (y + step).min(high) } else { (y - step).max(low) };
             step *= 2.0;
         }
         y
@@ -158,19 +166,8 @@ impl Boundary {
 }
 
 /// By abscissa, then ordinate.
-pub(super) fn lexicographic(a: Point, b: Point) -> Ordering {
+fn lexicographic(a: Point, b: Point) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
-}
-
-/// Whether `p`, known to be collinear with `a` and `b`, lies strictly between them.
-pub(super) fn is_between(p: Point, a: Point, b: Point) -> bool {
-    let (from_a, to_b) = ((p.x, p.y).partial_cmp(&(a.x, a.y)), (b.x, b.y).partial_cmp(&(p.x, p.y)));
-    from_a == to_b && from_a.is_some_and(Ordering::is_ne)
-}
-
-/// Whether `p`, known to be collinear with `a` and `b`, lies between them or is one of them.
-fn is_within(p: Point, a: Point, b: Point) -> bool {
-    p == a || p == b || is_between(p, a, b)
 }
 
 /// The same point with `0.0` for `-0.0`, which sort apart.
@@ -178,85 +175,23 @@ fn unsigned_zero(p: Point) -> Point {
     Point::new(p.x + 0.0, p.y + 0.0)
 }
 
-/// Cuts each side at the vertices of other contours that lie on it exactly.
-fn cut_at_touching_vertices(vertices: &[Point], mut sides: Vec<Side>) -> Vec<Side> {
-    let grid = SegmentGrid::new(sides.iter().map(|s| (vertices[s.from], vertices[s.to])));
-    let mut cuts: Vec<(usize, usize)> = Vec::new();
-    for (v, &p) in vertices.iter().enumerate() {
-        let _ = grid.along(p, p, |k| {
-            let (a, b) = (vertices[sides[k].from], vertices[sides[k].to]);
-            if is_between(p, a, b) && orientation(a, b, p) == Orientation::Collinear {
-                cuts.push((k, v));
-            }
-            ControlFlow::Continue::<()>(())
-        });
-    }
-    // Along a line, the order of vertex numbers is the order of the points.
-    cuts.sort_unstable();
-    for on_side in cuts.chunk_by(|a, b| a.0 == b.0) {
-        let whole = sides[on_side[0].0];
-        let mut stops: Vec<usize> = on_side.iter().map(|c| c.1).collect();
-        if !whole.is_floor() {
-            stops.reverse();
-        }
-        sides[on_side[0].0].to = stops[0];
-        stops.push(whole.to);
-        sides.extend(stops.windows(2).map(|w| Side { from: w[0], to: w[1], ..whole }));
-    }
-    sides
-}
-
-/// One end of a side, seen from the vertex there.
-#[derive(Clone, Copy)]
-struct Arm {
-    vertex: usize,
-    other: usize,
-    outgoing: bool,
-    polygon: usize,
-}
-
-/// The free sectors of all vertices and where those of each begin: between an outgoing side and the incoming one that
-/// is next counter-clockwise.
-fn free_sectors(vertices: &[Point], sides: &[Side]) -> (Vec<Sector>, Vec<usize>) {
-    let mut arms: Vec<Arm> = sides
-        .iter()
-        .flat_map(|s| {
-            let polygon = s.polygon;
-            [
-                Arm { vertex: s.from, other: s.to, outgoing: true, polygon },
-                Arm { vertex: s.to, other: s.from, outgoing: false, polygon },
-            ]
-        })
-        .collect();
-    arms.sort_by_key(|arm| arm.vertex);
-    let mut sectors = Vec::with_capacity(vertices.len());
-    let mut first = vec![0; vertices.len() + 1];
-    for group in arms.chunk_by_mut(|a, b| a.vertex == b.vertex) {
-        let vertex = group[0].vertex;
-        let apex = vertices[vertex];
-        group.sort_by(|a, b| counter_clockwise(apex, vertices[a.other], vertices[b.other]));
-        for (k, arm) in group.iter().enumerate() {
-            let next = group[(k + 1) % group.len()];
-            if arm.outgoing && !next.outgoing {
-                let (right, left) = (vertices[arm.other], vertices[next.other]);
-                sectors.push(Sector { right, left, polygon: arm.polygon });
-            }
-        }
-        first[vertex + 1] = sectors.len();
-    }
-    // A contour of a single point leaves a vertex without sides.
-    for v in 0..vertices.len() {
-        first[v + 1] = first[v + 1].max(first[v]);
-    }
-    (sectors, first)
-}
-
-/// Order of two directions from `apex` by angle in `[0, 2 pi)`.
-fn counter_clockwise(apex: Point, a: Point, b: Point) -> Ordering {
-    let lower_half = |p: Point| p.y < apex.y || (p.y == apex.y && p.x < apex.x);
-    lower_half(a).cmp(&lower_half(b)).then_with(|| match orientation(apex, a, b) {
+/// Order of two segments that begin at `apex` by slope, both to the right of it.
+fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
+    match orientation(apex, a, b) {
         Orientation::CounterClockwise => Ordering::Less,
         Orientation::Collinear => Ordering::Equal,
         Orientation::Clockwise => Ordering::Greater,
-    })
+    }
+}
+
+/// How many of the `keys` are less than each number up to `count`.
+fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
+    let mut starts = vec![0; count + 1];
+    for key in keys {
+        starts[key + 1] += 1;
+    }
+    for k in 0..count {
+        starts[k + 1] += starts[k];
+    }
+    starts
 }

@@ -1,6 +1,8 @@
 //! Trapezoidal decomposition of polygonal free space.
 
+use super::NONE;
 use super::boundary::Boundary;
+use super::status::Status;
 use crate::geometry::{Orientation, Point, orientation};
 
 /// A trapezoid or triangle of free space between two sides and two verticals.
@@ -18,7 +20,7 @@ impl Cell {
     /// Whether the closed cell contains `p`; exact.
     pub fn contains(&self, boundary: &Boundary, p: Point) -> bool {
         let is_free = |side: usize| {
-            let (from, to) = boundary.ends(boundary.sides[side]);
+            let (from, to) = boundary.ends(side);
             orientation(from, to, p) != Orientation::Clockwise
         };
         self.left <= p.x && p.x <= self.right && is_free(self.floor) && is_free(self.ceiling)
@@ -26,7 +28,7 @@ impl Cell {
 
     /// Ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
     pub fn span(&self, boundary: &Boundary, x: f64) -> (f64, f64) {
-        let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(boundary.sides[side], x));
+        let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(side, x));
         (floor, ceiling)
     }
 
@@ -67,6 +69,8 @@ pub(super) struct Door {
     /// Lower and upper end, in closed free space exactly.
     pub low: Point,
     pub high: Point,
+    /// Whether the ends are vertices, not places on a side.
+    pub at_vertices: [bool; 2],
 }
 
 /// Cells that do not overlap and cover closed free space, and the doors between them.
@@ -77,14 +81,15 @@ pub(super) struct Decomposition {
 }
 
 impl Decomposition {
-    /// Sweeps a vertical line over free space from left to right.
+    /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
     ///
     /// All vertices of one abscissa are one event, so verticals through several vertices and vertical sides need no
     /// special case: which door joins which cells follows from the order of the vertices on the line alone, which is
-    /// exact. `n` vertices and at most `k` sides over any abscissa take `O(n (log n + k))`: the sides under the line
-    /// are a sorted array, whose insertions cost less than a tree's up to some thousand sides.
+    /// exact.
     pub fn new(boundary: &Boundary) -> Self {
-        let mut sweep = Sweep::new(boundary);
+        let sides = boundary.sides.len();
+        let (status, cell_above) = (Status::new(sides), vec![NONE; sides]);
+        let mut sweep = Sweep { boundary, status, cell_above, result: Decomposition::default() };
         let mut begin = 0;
         for event in boundary.vertices.chunk_by(|a, b| a.x == b.x) {
             sweep.pass(begin, event.len());
@@ -92,23 +97,20 @@ impl Decomposition {
         }
         sweep.result
     }
+
+    /// The cells that contain `p`, borders included. Exact; linear.
+    pub fn cells_at<'a>(&'a self, boundary: &'a Boundary, p: Point) -> impl Iterator<Item = usize> + 'a {
+        (0..self.cells.len()).filter(move |&cell| self.cells[cell].contains(boundary, p))
+    }
 }
 
-/// A side that meets the sweep line.
-#[derive(Debug, Clone, Copy)]
-struct Active {
-    side: usize,
-    /// The unfinished cell above it, if free space lies there.
-    cell: Option<usize>,
-}
-
-/// Neighbouring vertices on the sweep line with no side between them that goes on, and the sides `begin..end` of the
-/// status that end there.
+/// Neighbouring vertices on the sweep line, and the sides next to them that go on: between those only sides lie that end
+/// at one of the vertices, or begin there.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
     vertices: (usize, usize),
-    begin: usize,
-    end: usize,
+    below: Option<usize>,
+    above: Option<usize>,
 }
 
 /// Free space between two neighbours in the status, ending or beginning at a cluster. Its ends on the line are given
@@ -122,104 +124,111 @@ struct Gap {
 
 struct Sweep<'a> {
     boundary: &'a Boundary,
-    /// Sides that begin at each vertex, in order of slope, as `beginning[first[v]..first[v + 1]]`.
-    beginning: Vec<usize>,
-    first: Vec<usize>,
-    /// Sides that meet the line, from bottom to top.
-    status: Vec<Active>,
+    /// Sides that meet the line; none is vertical.
+    status: Status,
+    /// The unfinished cell above each of them, if free space lies there.
+    cell_above: Vec<u32>,
     result: Decomposition,
 }
 
-impl<'a> Sweep<'a> {
-    fn new(boundary: &'a Boundary) -> Self {
-        let point = |v: usize| boundary.vertices[v];
-        let is_vertical = |k: usize| point(boundary.sides[k].from).x == point(boundary.sides[k].to).x;
-        let mut beginning: Vec<usize> = (0..boundary.sides.len()).filter(|&k| !is_vertical(k)).collect();
-        beginning.sort_by(|&a, &b| {
-            let (a, b) = (boundary.sides[a], boundary.sides[b]);
-            a.left_end().cmp(&b.left_end()).then_with(|| {
-                match orientation(point(a.left_end()), point(a.right_end()), point(b.right_end())) {
-                    Orientation::CounterClockwise => std::cmp::Ordering::Less,
-                    Orientation::Collinear => std::cmp::Ordering::Equal,
-                    Orientation::Clockwise => std::cmp::Ordering::Greater,
-                }
-            })
-        });
-        let starts_before = |v: usize| beginning.partition_point(|&k| boundary.sides[k].left_end() < v);
-        let first = (0..=boundary.vertices.len()).map(starts_before).collect();
-        Self { boundary, beginning, first, status: Vec::new(), result: Decomposition::default() }
-    }
-
+impl Sweep<'_> {
     /// Passes the vertical with vertices `begin..begin + count`.
     fn pass(&mut self, begin: usize, count: usize) {
+        let boundary = self.boundary;
         let mut clusters: Vec<Cluster> = Vec::new();
         for v in begin..begin + count {
-            let below = self.status.partition_point(|active| self.is_below(active.side, v));
-            let ending =
-                self.status[below..].iter().take_while(|a| self.boundary.sides[a.side].right_end() == v).count();
-            match clusters.last_mut() {
-                Some(last) if below <= last.end => {
-                    last.vertices.1 = v + 1;
-                    last.end = last.end.max(below + ending);
-                }
-                _ => clusters.push(Cluster { vertices: (v, v + 1), begin: below, end: below + ending }),
+            let at = boundary.vertices[v];
+            let mut ending = boundary.ending(v).filter(|&side| !boundary.is_vertical(side));
+            let (lowest, highest) = (ending.next(), ending.next_back());
+            let below = match lowest {
+                Some(lowest) => self.status.below(lowest),
+                None => self.status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
+            };
+            let above = self.status.above(highest.or(lowest).or(below));
+            // The side below is either that below the last cluster or ends there.
+            let joins = |last: &Cluster| {
+                below == last.below
+                    || below.is_some_and(|side| boundary.sides[side].right_end() >= last.vertices.0)
+                        && below.is_some_and(|side| boundary.sides[side].right_end() < v)
+            };
+            match clusters.last_mut().filter(|last| joins(last)) {
+                Some(last) => (last.vertices.1, last.above) = (v + 1, above),
+                None => clusters.push(Cluster { vertices: (v, v + 1), below, above }),
             }
         }
-        // From the top, so that places in the status below remain.
-        for cluster in clusters.into_iter().rev() {
+        for cluster in clusters {
             self.replace(cluster);
         }
-    }
-
-    /// Whether vertex `v`, which is on the sweep line, is strictly above a side in the status.
-    fn is_below(&self, side: usize, v: usize) -> bool {
-        let (vertices, side) = (&self.boundary.vertices, self.boundary.sides[side]);
-        let (left, right) = (vertices[side.left_end()], vertices[side.right_end()]);
-        orientation(left, right, vertices[v]) == Orientation::CounterClockwise
     }
 
     /// Ends the cells left of a cluster, replaces the sides that end there by those that begin, starts the cells to
     /// the right and joins them by doors.
     fn replace(&mut self, cluster: Cluster) {
-        let (begin, end) = (cluster.begin, cluster.end);
         let (first, last) = cluster.vertices;
         let x = self.boundary.vertices[first].x;
-        let top = last - first + 1;
-
-        let rank_of = |v: usize| if (first..last).contains(&v) { v - first + 1 } else { 0 };
-        let mut left = Vec::new();
-        for above in begin..=end.min(self.status.len().saturating_sub(1)) {
-            let Some(Active { side, cell: Some(cell) }) = above.checked_sub(1).map(|below| self.status[below]) else {
-                continue;
-            };
-            self.result.cells[cell].right = x;
-            let rank = |k: usize| rank_of(self.boundary.sides[k].right_end());
-            let low = if above == begin { 0 } else { rank(side) };
-            let high = if above == end { top } else { rank(self.status[above].side) };
-            left.push(Gap { cell, low, high });
+        let left = self.gaps(cluster, |side| self.boundary.sides[side].right_end());
+        for gap in &left {
+            self.result.cells[gap.cell].right = x;
         }
-
-        let fresh: Vec<Active> = self.beginning[self.first[first]..self.first[last]]
-            .iter()
-            .map(|&side| Active { side, cell: None })
-            .collect();
-        let fresh_end = begin + fresh.len();
-        self.status.splice(begin..end, fresh);
-        let mut right = Vec::new();
-        for above in begin.max(1)..=fresh_end.min(self.status.len().saturating_sub(1)) {
-            let (floor, ceiling) = (self.status[above - 1].side, self.status[above].side);
-            let sides = &self.boundary.sides;
-            if !sides[floor].is_floor() || sides[ceiling].is_floor() {
-                continue;
+        for v in first..last {
+            for side in self.boundary.ending(v).filter(|&side| !self.boundary.is_vertical(side)) {
+                self.status.remove(side);
             }
-            let cell = self.result.cells.len();
-            self.result.cells.push(Cell { left: x, right: x, floor, ceiling });
-            self.status[above - 1].cell = Some(cell);
-            let low = if above == begin { 0 } else { rank_of(sides[floor].left_end()) };
-            let high = if above == fresh_end { top } else { rank_of(sides[ceiling].left_end()) };
-            right.push(Gap { cell, low, high });
         }
+        let mut at = cluster.below;
+        for side in (first..last).flat_map(|v| self.boundary.beginning(v)) {
+            if !self.boundary.is_vertical(side) {
+                self.status.insert_above(at, side);
+                at = Some(side);
+            }
+        }
+        let mut floor = cluster.below;
+        loop {
+            let ceiling = self.status.above(floor);
+            if let Some(floor) = floor {
+                self.cell_above[floor] = ceiling.map_or(NONE, |ceiling| self.begin(floor, ceiling, x));
+            }
+            if ceiling.is_none() || ceiling == cluster.above {
+                break;
+            }
+            floor = ceiling;
+        }
+        let right = self.gaps(cluster, |side| self.boundary.sides[side].left_end());
         self.join(cluster, &left, &right);
+    }
+
+    /// A new cell between two sides; none where that is an obstacle.
+    fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
+        let sides = &self.boundary.sides;
+        if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
+            return NONE;
+        }
+        self.result.cells.push(Cell { left: x, right: x, floor, ceiling });
+        self.result.cells.len() as u32 - 1
+    }
+
+    /// The gaps at a cluster, from bottom to top, between sides that have an end there as given.
+    fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
+        let (first, last) = cluster.vertices;
+        // A side without an end here is between those that have one only where sides cross.
+        let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
+        let mut gaps = Vec::new();
+        let mut floor = cluster.below;
+        loop {
+            let ceiling = self.status.above(floor);
+            if let Some(under) = floor.filter(|&side| self.cell_above[side] != NONE) {
+                let low = if floor == cluster.below { 0 } else { rank(under) };
+                let high = match ceiling.filter(|_| ceiling != cluster.above) {
+                    Some(over) => rank(over),
+                    None => last - first + 1,
+                };
+                gaps.push(Gap { cell: self.cell_above[under] as usize, low, high });
+            }
+            if ceiling.is_none() || ceiling == cluster.above {
+                return gaps;
+            }
+            floor = ceiling;
+        }
     }
 
     /// A door wherever a gap on the left and one on the right, both in ascending order, overlap.
@@ -229,9 +238,8 @@ impl<'a> Sweep<'a> {
             let (a, b) = (left[i], right[j]);
             let (low, high) = (a.low.max(b.low), a.high.min(b.high));
             if low < high {
-                let sides = &self.result.cells[a.cell];
-                let (low, high) = self.door_ends(cluster, (low, sides.floor), (high, sides.ceiling));
-                self.result.doors.push(Door { cells: [a.cell, b.cell], low, high });
+                let door = self.door(cluster, [a.cell, b.cell], low, high);
+                self.result.doors.push(door);
             }
             if a.high <= b.high {
                 i += 1;
@@ -241,19 +249,28 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// The points at two ranks; those of the outermost ranks lie on the given sides.
-    fn door_ends(&self, cluster: Cluster, low: (usize, usize), high: (usize, usize)) -> (Point, Point) {
+    /// The door between two cells from one rank to another.
+    fn door(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> Door {
         let (first, last) = cluster.vertices;
         let vertices = &self.boundary.vertices;
         let x = vertices[first].x;
-        let on_side = |k: usize| Point::new(x, self.boundary.ordinate(self.boundary.sides[k], x));
+        let Cell { floor, ceiling, .. } = self.result.cells[cells[0]];
+        let on_side = |side: usize| Point::new(x, self.boundary.ordinate(side, x));
         let vertex = |rank: usize| (1..=last - first).contains(&rank).then(|| vertices[first + rank - 1]);
+        let ends = (vertex(low), vertex(high));
         // Rounding may put a point on a side beyond a vertex that is within rounding of it.
-        match (vertex(low.0), vertex(high.0)) {
+        let (low, high) = match ends {
             (Some(a), Some(b)) => (a, b),
-            (Some(a), None) => (a, Point::new(x, on_side(high.1).y.max(a.y))),
-            (None, Some(b)) => (Point::new(x, on_side(low.1).y.min(b.y)), b),
-            (None, None) => (on_side(low.1), on_side(high.1)),
-        }
+            (Some(a), None) => (a, Point::new(x, on_side(ceiling).y.max(a.y))),
+            (None, Some(b)) => (Point::new(x, on_side(floor).y.min(b.y)), b),
+            (None, None) => (on_side(floor), on_side(ceiling)),
+        };
+        Door { cells, low, high, at_vertices: [ends.0.is_some(), ends.1.is_some()] }
     }
+}
+
+/// Whether two sides coincide, so that nothing lies between them.
+fn is_slit(boundary: &Boundary, floor: usize, ceiling: usize) -> bool {
+    let (floor, ceiling) = (boundary.sides[floor], boundary.sides[ceiling]);
+    (floor.from, floor.to) == (ceiling.to, ceiling.from)
 }

@@ -19,42 +19,49 @@ pub struct Passage {
 /// quadratic at worst. Turns are decided exactly, so every piece passes its doors in exact arithmetic.
 #[must_use]
 pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
-    let mut string = vec![start];
+    let turns = turns(start, goal, passages).into_iter().map(|turn| turn.at);
+    let mut string: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
+    string.dedup();
+    string
+}
+
+/// Where the taut string turns, in order, start and goal left out.
+pub(super) fn turns(start: Point, goal: Point, passages: &[Passage]) -> Vec<Turn> {
+    let mut string = Vec::new();
     let mut funnel = Funnel { apex: start, left: None, right: None };
     let mut at = 0;
     while at <= passages.len() {
         let passage = passages.get(at).copied().unwrap_or(Passage { left: goal, right: goal });
         match funnel.narrow(at, passage) {
             Some(turn) => {
-                string.push(turn.at);
+                string.push(turn);
                 funnel = Funnel { apex: turn.at, left: None, right: None };
                 at = turn.passage + 1;
             }
             None => at += 1,
         }
     }
-    string.push(goal);
-    string.dedup();
     string
 }
 
-/// An end of a passage that bounds the funnel.
+/// An end of a passage that bounds the funnel, and at which the string may turn.
 #[derive(Debug, Clone, Copy)]
-struct Bound {
-    at: Point,
-    passage: usize,
+pub(super) struct Turn {
+    pub at: Point,
+    /// Which passage.
+    pub passage: usize,
 }
 
 /// Directions from the apex that cross all passages since: from `right` counter-clockwise to `left`.
 struct Funnel {
     apex: Point,
-    left: Option<Bound>,
-    right: Option<Bound>,
+    left: Option<Turn>,
+    right: Option<Turn>,
 }
 
 impl Funnel {
     /// Narrows the funnel to the passage, or returns the point at which the string must turn to reach it.
-    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Bound> {
+    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Turn> {
         if left == self.apex || right == self.apex {
             // Passed at the apex itself, in any direction.
             (self.left, self.right) = (None, None);
@@ -64,19 +71,19 @@ impl Funnel {
             if self.turns(self.left, right, Orientation::CounterClockwise) {
                 return self.left;
             }
-            self.right = Some(Bound { at: right, passage });
+            self.right = Some(Turn { at: right, passage });
         }
         if !self.turns(self.left, left, Orientation::CounterClockwise) {
             if self.turns(self.right, left, Orientation::Clockwise) {
                 return self.right;
             }
-            self.left = Some(Bound { at: left, passage });
+            self.left = Some(Turn { at: left, passage });
         }
         None
     }
 
     /// Whether `point` lies strictly to that side of the ray from the apex through a bound.
-    fn turns(&self, bound: Option<Bound>, point: Point, side: Orientation) -> bool {
+    fn turns(&self, bound: Option<Turn>, point: Point, side: Orientation) -> bool {
         bound.is_some_and(|bound| orientation(self.apex, bound.at, point) == side)
     }
 }

@@ -2,13 +2,17 @@
 
 mod attach;
 mod boundary;
+mod channel;
 mod decomposition;
 mod funnel;
 mod grid_path;
 mod harmonic;
-mod segment_grid;
+mod measure;
+mod mesh;
+mod noding;
 mod shortcut;
-mod sight;
+mod status;
+mod taut_search;
 mod terminals;
 mod trapezoid;
 mod visibility;
@@ -21,6 +25,9 @@ pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::Wavefront;
 
 use crate::space::{Configuration, Path};
+
+/// No index, in tables of indices.
+const NONE: u32 = u32::MAX;
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +53,7 @@ pub enum Outcome {
 /// Size of what a planner built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
-    /// A roadmap, or cells and their adjacencies.
+    /// A roadmap as far as it was looked at, or all cells and their adjacencies.
     Graph {
         /// Nodes, or cells.
         nodes: usize,
@@ -75,10 +82,12 @@ impl std::fmt::Display for Size {
 /// What a planner saw on its way, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Trace {
-    /// Arcs of the visibility graph.
+    /// Arcs of the reduced visibility graph.
     Roadmap {
         /// Both ends of each.
         edges: Vec<[Configuration; 2]>,
+        /// Whether they are all; otherwise they are those that the search looked at.
+        whole: bool,
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
     Channel {

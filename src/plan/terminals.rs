@@ -1,7 +1,6 @@
 //! Where a path over polygonal regions begins and may end.
 
 use super::Query;
-use super::boundary::Boundary;
 use crate::cspace::Regions;
 use crate::geometry::Point;
 
@@ -14,17 +13,17 @@ pub(super) struct Terminals {
 }
 
 impl Terminals {
-    /// The ends for a query, or in words why there are none.
-    pub fn new(regions: &Regions, boundary: &Boundary, query: &Query) -> Result<Self, String> {
+    /// The ends for a query, or in words why there are none. `is_free` says whether closed free space contains a point.
+    pub fn new(regions: &Regions, query: &Query, is_free: impl Fn(Point) -> bool) -> Result<Self, String> {
         let start = Point::from(query.start);
-        if !boundary.contains(start) {
+        if !is_free(start) {
             return Err(format!("the start {} is not in the free space of the representation", shown(start)));
         }
         let (Some(first), goals) = (query.goals.first(), &query.goals) else {
             return Err("the query has no goal".to_owned());
         };
         let mut copies: Vec<Point> = goals.iter().flat_map(|goal| window_copies(regions, Point::from(*goal))).collect();
-        copies.retain(|copy| boundary.contains(*copy));
+        copies.retain(|copy| is_free(*copy));
         if copies.is_empty() {
             let goal = shown(Point::from(*first));
             let others = if goals.len() > 1 { format!(" (nor {} others)", goals.len() - 1) } else { String::new() };

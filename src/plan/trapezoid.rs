@@ -1,17 +1,15 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a taut string.
 
 use super::boundary::Boundary;
+use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
-use super::funnel::{Passage, taut_string};
-use super::sight::Sight;
+use super::funnel::{Passage, Turn, turns};
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
-use crate::geometry::Point;
+use crate::geometry::{Orientation, Point, orientation};
 use crate::space::{Configuration, Path};
-use petgraph::algo::astar;
-use petgraph::graph::{NodeIndex, UnGraph};
-use petgraph::visit::EdgeRef;
+use std::ops::Range;
 
 /// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
 ///
@@ -35,24 +33,11 @@ impl Default for Trapezoid {
 /// A decomposition and the adjacency of its cells.
 #[derive(Debug, Clone)]
 pub struct TrapezoidMap {
-    sight: Sight,
+    boundary: Boundary,
     decomposition: Decomposition,
     /// Corners of the cells.
     corners: Vec<Vec<Configuration>>,
-    /// Middles of the doors.
-    middles: Vec<Point>,
-    /// Nodes are numbered like the cells, arcs like the doors.
-    graph: CellGraph,
-}
-
-/// Arcs carry the door that they pass; those between terminals of one cell pass none.
-type CellGraph = UnGraph<Stop, Option<usize>>;
-
-/// A place in a cell: its centre, or a start or goal in it.
-#[derive(Debug, Clone, Copy)]
-struct Stop {
-    cell: usize,
-    at: Point,
+    adjacency: Adjacency,
 }
 
 impl Planner for Trapezoid {
@@ -63,31 +48,31 @@ impl Planner for Trapezoid {
     fn build(&self, space: &Regions) -> TrapezoidMap {
         let boundary = Boundary::new(space);
         let decomposition = Decomposition::new(&boundary);
-        let mut graph = CellGraph::default();
-        for (cell, shape) in decomposition.cells.iter().enumerate() {
-            graph.add_node(Stop { cell, at: shape.centroid(&boundary) });
-        }
-        for (k, door) in decomposition.doors.iter().enumerate() {
-            let [left, right] = door.cells.map(NodeIndex::new);
-            graph.add_edge(left, right, Some(k));
-        }
         let corners_of = |points: Vec<Point>| points.into_iter().map(|p| p.coords).collect();
         let corners = decomposition.cells.iter().map(|cell| corners_of(cell.corners(&boundary))).collect();
-        let middles = decomposition.doors.iter().map(|door| nalgebra::center(&door.low, &door.high)).collect();
-        TrapezoidMap { sight: Sight::new(boundary), decomposition, corners, middles, graph }
+        let centers = decomposition.cells.iter().map(|cell| cell.centroid(&boundary)).collect();
+        let adjacency = Adjacency::new(&decomposition, centers);
+        TrapezoidMap { boundary, decomposition, corners, adjacency }
     }
 
     fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
-        let (outcome, channel) = match Terminals::new(space, map.sight.boundary(), query) {
+        let cells_at = |p| map.decomposition.cells_at(&map.boundary, p);
+        let (outcome, channel) = match Terminals::new(space, query, |p| cells_at(p).next().is_some()) {
             Err(reason) => (Outcome::GaveUp(reason), Vec::new()),
-            Ok(terminals) => match map.channel(&terminals) {
-                None => (Outcome::NoPath, Vec::new()),
-                Some(channel) => {
-                    let waypoints = if self.taut { map.taut_path(&channel) } else { map.middle_path(&channel) };
-                    let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
-                    (Outcome::Found(path), channel.cells)
+            Ok(terminals) => {
+                let start_cells: Vec<usize> = cells_at(terminals.start).collect();
+                let goal_cells: Vec<(usize, Point)> =
+                    terminals.goals.iter().flat_map(|&goal| cells_at(goal).map(move |cell| (cell, goal))).collect();
+                let doors = &map.decomposition.doors;
+                match map.adjacency.channel(doors, &terminals, &start_cells, &goal_cells) {
+                    None => (Outcome::NoPath, Vec::new()),
+                    Some(channel) => {
+                        let waypoints = if self.taut { map.taut_path(&channel) } else { map.middle_path(&channel) };
+                        let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
+                        (Outcome::Found(path), channel.cells)
+                    }
                 }
-            },
+            }
         };
         Run {
             outcome,
@@ -98,82 +83,14 @@ impl Planner for Trapezoid {
     }
 }
 
-/// Cells to pass, with the doors between them: one less than cells.
-struct Channel {
-    start: Point,
-    goal: Point,
-    cells: Vec<usize>,
-    doors: Vec<usize>,
-}
-
 impl TrapezoidMap {
-    /// The cheapest channel from the start to any goal.
-    fn channel(&self, terminals: &Terminals) -> Option<Channel> {
-        let mut graph = self.graph.clone();
-        let starts = self.connect(&mut graph, terminals.start);
-        let first_goal = graph.node_count();
-        for &goal in &terminals.goals {
-            for node in self.connect(&mut graph, goal) {
-                for &start in &starts {
-                    self.join_terminals(&mut graph, start, node);
-                }
-            }
-        }
-        // A start on a vertical is in several cells, which are alternatives: a root with free arcs to all of them.
-        let root = graph.add_node(graph[*starts.first()?]);
-        for &start in &starts {
-            graph.add_edge(root, start, None);
-        }
-        let cost = |from: Point, to: Point, door: Option<usize>| match door {
-            Some(door) => (self.middles[door] - from).norm() + (to - self.middles[door]).norm(),
-            None => (to - from).norm(),
-        };
-        let (_, nodes) = astar(
-            &graph,
-            root,
-            |node| (first_goal..root.index()).contains(&node.index()),
-            |arc| cost(graph[arc.source()].at, graph[arc.target()].at, *arc.weight()),
-            |node| terminals.straight_distance(graph[node].at),
-        )?;
-        let goal = graph[*nodes.last()?].at;
-        let mut cells: Vec<usize> = nodes.iter().skip(1).map(|&node| graph[node].cell).collect();
-        cells.dedup();
-        let doors = nodes.windows(2).filter_map(|pair| graph[graph.find_edge(pair[0], pair[1])?]).collect();
-        Some(Channel { start: terminals.start, goal, cells, doors })
-    }
-
-    /// Adds a stop at `p` in each cell that contains it, joined to the cells next to that.
-    fn connect(&self, graph: &mut CellGraph, p: Point) -> Vec<NodeIndex> {
-        let cells = self.decomposition.cells.iter().enumerate();
-        let around = cells.filter(|(_, shape)| shape.contains(self.sight.boundary(), p)).map(|(cell, _)| cell);
-        around
-            .map(|cell| {
-                let node = graph.add_node(Stop { cell, at: p });
-                for arc in self.graph.edges(NodeIndex::new(cell)) {
-                    graph.add_edge(node, arc.target(), *arc.weight());
-                }
-                node
-            })
-            .collect()
-    }
-
-    /// Joins a start and a goal in the same cell or in neighbouring cells.
-    fn join_terminals(&self, graph: &mut CellGraph, start: NodeIndex, goal: NodeIndex) {
-        let (from, to) = (graph[start].cell, graph[goal].cell);
-        if from == to {
-            graph.add_edge(start, goal, None);
-        } else if let Some(arc) = self.graph.find_edge(NodeIndex::new(from), NodeIndex::new(to)) {
-            graph.add_edge(start, goal, self.graph[arc]);
-        }
-    }
-
     /// Through the middles of the doors, and the centre of a cell that is left on the vertical on which it was entered.
     fn middle_path(&self, channel: &Channel) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &door) in channel.doors.iter().enumerate() {
-            let middle = self.middles[door];
-            if k > 0 && self.middles[channel.doors[k - 1]].x == middle.x {
-                waypoints.push(self.graph[NodeIndex::new(channel.cells[k])].at);
+            let middle = self.adjacency.middles[door];
+            if k > 0 && self.adjacency.middles[channel.doors[k - 1]].x == middle.x {
+                waypoints.push(self.adjacency.centers[channel.cells[k]]);
             }
             waypoints.push(middle);
         }
@@ -183,26 +100,55 @@ impl TrapezoidMap {
 
     /// The shortest way within the channel.
     fn taut_path(&self, channel: &Channel) -> Vec<Point> {
-        let passages: Vec<Passage> = channel
-            .doors
-            .iter()
-            .zip(&channel.cells)
-            .map(|(&door, &cell)| {
-                let Door { cells: [from, _], low, high } = self.decomposition.doors[door];
-                if from == cell { Passage { left: high, right: low } } else { Passage { left: low, right: high } }
-            })
-            .collect();
-        let string = taut_string(channel.start, channel.goal, &passages);
+        let door = |k: usize| self.decomposition.doors[channel.doors[k]];
+        let passage = |k: usize| {
+            let Door { cells: [from, _], low, high, .. } = door(k);
+            if from == channel.cells[k] {
+                Passage { left: high, right: low }
+            } else {
+                Passage { left: low, right: high }
+            }
+        };
+        let passages: Vec<Passage> = (0..channel.doors.len()).map(passage).collect();
+        let string = turns(channel.start, channel.goal, &passages);
         // Where a door ends in the middle of a side, its end is rounded into free space, and a string along the side
         // turns there by a rounding error. A taut string turns at vertices only: leave such turns out.
+        let is_vertex = |turn: &Turn| {
+            let Door { low, at_vertices, .. } = door(turn.passage);
+            at_vertices[usize::from(turn.at != low)]
+        };
         let mut waypoints = vec![channel.start];
-        for turn in string.windows(3) {
-            let is_vertex = self.sight.boundary().vertex_at(turn[1]).is_some();
-            if is_vertex || !self.sight.sees(waypoints[waypoints.len() - 1], turn[2]) {
-                waypoints.push(turn[1]);
+        // The first door after the last waypoint.
+        let mut first = 0;
+        for run in string.chunk_by(|a, b| is_vertex(a) == is_vertex(b)) {
+            let after = run[run.len() - 1].passage + 1;
+            if !is_vertex(&run[0]) {
+                let rest = string.iter().find(|turn| turn.passage >= after);
+                let (end, to) = rest.map_or((passages.len(), channel.goal), |turn| (turn.passage, turn.at));
+                if self.is_straight(channel, first..end, waypoints[waypoints.len() - 1], to) {
+                    continue;
+                }
             }
+            waypoints.extend(run.iter().map(|turn| turn.at));
+            first = after;
         }
         waypoints.push(channel.goal);
         waypoints
+    }
+
+    /// Whether one can go straight from `a` to `b` through some of the channel's doors; exact. Linear in their number.
+    ///
+    /// Vertices at the ends of the doors decide that: each side between is straight, and `a`, `b` and these vertices are
+    /// on its free side.
+    fn is_straight(&self, channel: &Channel, doors: Range<usize>, a: Point, b: Point) -> bool {
+        let mut x = a.x;
+        doors.map(|k| self.decomposition.doors[channel.doors[k]]).all(|Door { low, high, at_vertices, .. }| {
+            let onwards = if a.x <= b.x { x <= low.x && low.x <= b.x } else { x >= low.x && low.x >= b.x };
+            x = low.x;
+            let (left, right) = if a.x <= b.x { (a, b) } else { (b, a) };
+            onwards
+                && !(at_vertices[0] && orientation(left, right, low) == Orientation::CounterClockwise)
+                && !(at_vertices[1] && orientation(left, right, high) == Orientation::Clockwise)
+        })
     }
 }

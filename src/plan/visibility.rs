@@ -1,13 +1,13 @@
 //! Shortest paths by visibility graph and A*.
 
-use super::boundary::{Boundary, Sector};
-use super::sight::Sight;
+use super::boundary::Boundary;
+use super::measure::Measure;
+use super::mesh::{Mesh, Tangency};
+use super::taut_search::TautSearch;
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
-use crate::geometry::{Orientation, Point, orientation};
-use crate::space::Path;
-use petgraph::graph::{NodeIndex, UnGraph};
+use crate::space::{Configuration, Metric, Path};
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
 ///
@@ -17,36 +17,19 @@ use petgraph::graph::{NodeIndex, UnGraph};
 /// 4.1). A path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of
 /// paths in the interior of free space.
 ///
-/// Of `n` nodes every pair is looked at, `O(n^2)` cheap tangency tests; the few pairs that pass are tested for
-/// visibility through a grid over the boundary. Signs are exact, lengths rounded.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Visibility;
+/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). What a corner
+/// sees is found by following its lines of sight from triangle to triangle, in time proportional to the triangles
+/// crossed; a query does so only as far as the estimate of A* asks for. Signs are exact, lengths rounded.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Visibility {
+    /// What is shortest. Of motions that take equally long, the one that is shortest in Euclid's sense.
+    pub metric: Metric,
+}
 
-/// A visibility graph without start and goals.
+/// Triangulated free space, from which the visibility graph is read.
 #[derive(Debug, Clone)]
 pub struct VisibilityMap {
-    sight: Sight,
-    corners: Vec<Corner>,
-    /// Nodes are numbered like `corners`; arcs carry their length.
-    graph: UnGraph<Point, f64>,
-}
-
-/// A convex corner of an obstacle, seen from free space.
-#[derive(Debug, Clone, Copy)]
-struct Corner {
-    at: Point,
-    free: Sector,
-}
-
-impl Corner {
-    /// Whether the line to `p` does not enter the obstacle at the corner: both sides there lie on one side of it.
-    fn is_tangent(&self, p: Point) -> bool {
-        let right = orientation(self.at, p, self.free.right);
-        right == Orientation::Collinear || {
-            let left = orientation(self.at, p, self.free.left);
-            left == right || left == Orientation::Collinear
-        }
-    }
+    mesh: Mesh,
 }
 
 impl Planner for Visibility {
@@ -55,75 +38,59 @@ impl Planner for Visibility {
     type Map = VisibilityMap;
 
     fn build(&self, space: &Regions) -> VisibilityMap {
-        let boundary = Boundary::new(space);
-        let mut corners = Vec::new();
-        for (v, &at) in boundary.vertices.iter().enumerate() {
-            let reflex = boundary.sectors(v).iter().filter(|sector| sector.is_reflex(at));
-            corners.extend(reflex.map(|&free| Corner { at, free }));
-        }
-        let sight = Sight::new(boundary);
-        let mut graph = UnGraph::default();
-        for (j, c) in corners.iter().enumerate() {
-            let node = graph.add_node(c.at);
-            for (i, d) in corners[..j].iter().enumerate() {
-                let tangent = c.free.polygon == d.free.polygon && c.is_tangent(d.at) && d.is_tangent(c.at);
-                if tangent && sight.is_unobstructed(c.at, d.at) {
-                    graph.add_edge(node, NodeIndex::new(i), (c.at - d.at).norm());
-                }
-            }
-        }
-        VisibilityMap { sight, corners, graph }
+        VisibilityMap { mesh: Mesh::new(Boundary::new(space)) }
     }
 
+    /// The trace and the size are those of the part of the graph that the search looked at.
     fn query(&self, space: &Regions, map: &VisibilityMap, query: &Query) -> Run {
-        let mut graph = map.graph.clone();
-        let outcome = match Terminals::new(space, map.sight.boundary(), query) {
-            Ok(terminals) => map.search(&mut graph, &terminals),
-            Err(reason) => Outcome::GaveUp(reason),
+        let is_free = |p| map.mesh.triangles_at(p).next().is_some();
+        let terminals = match Terminals::new(space, query, is_free) {
+            Ok(terminals) => terminals,
+            Err(reason) => {
+                return Run {
+                    outcome: Outcome::GaveUp(reason),
+                    trace: Trace::Roadmap { edges: Vec::new(), whole: false },
+                    size: Size::Graph { nodes: 0, edges: 0 },
+                    note: None,
+                };
+            }
         };
-        let ends = |e| graph.edge_endpoints(e).map(|(a, b)| [graph[a].coords, graph[b].coords]);
-        let edges = graph.edge_indices().filter_map(ends).collect();
-        Run {
-            outcome,
-            trace: Trace::Roadmap { edges },
-            size: Size::Graph { nodes: graph.node_count(), edges: graph.edge_count() },
-            note: None,
-        }
+        let mut search = TautSearch::new(&map.mesh, Measure::from(self.metric), &terminals.goals);
+        let outcome = match search.path(terminals.start) {
+            Some(waypoints) => Outcome::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
+            None => Outcome::NoPath,
+        };
+        let edges: Vec<_> = search.arcs.iter().map(|ends| ends.map(|p| p.coords)).collect();
+        let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };
+        Run { outcome, trace: Trace::Roadmap { edges, whole: false }, size, note: None }
     }
 }
 
 impl VisibilityMap {
-    /// Adds start and goals to a copy of the graph and finds the shortest path.
-    fn search(&self, graph: &mut UnGraph<Point, f64>, terminals: &Terminals) -> Outcome {
-        let start = self.connect(graph, terminals.start);
-        let first_goal = graph.node_count();
-        for &goal in &terminals.goals {
-            let node = self.connect(graph, goal);
-            if self.sight.sees(terminals.start, goal) {
-                graph.add_edge(start, node, (goal - terminals.start).norm());
-            }
-        }
-        let shortest = petgraph::algo::astar(
-            &*graph,
-            start,
-            |node| node.index() >= first_goal,
-            |arc| *arc.weight(),
-            |node| terminals.straight_distance(graph[node]),
-        );
-        match shortest {
-            Some((_, nodes)) => Outcome::Found(Path::new(nodes.into_iter().map(|n| graph[n].coords).collect())),
-            None => Outcome::NoPath,
-        }
+    /// Number of convex corners.
+    #[must_use]
+    pub fn corners(&self) -> usize {
+        self.mesh.corners().len()
     }
 
-    /// Adds a node at `p` with arcs to all corners that it sees.
-    fn connect(&self, graph: &mut UnGraph<Point, f64>, p: Point) -> NodeIndex {
-        let node = graph.add_node(p);
-        for (i, corner) in self.corners.iter().enumerate() {
-            if corner.at != p && corner.is_tangent(p) && self.sight.sees(p, corner.at) {
-                graph.add_edge(node, NodeIndex::new(i), (corner.at - p).norm());
+    /// All arcs between corners: the ends of each. In time proportional to the triangles that lines of sight cross.
+    #[must_use]
+    pub fn arcs(&self) -> Vec<[Configuration; 2]> {
+        let corners = self.mesh.corners();
+        let mut arcs = Vec::new();
+        let mut stack = Vec::new();
+        for (number, corner) in (0..).zip(corners) {
+            let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
+            // Each arc is found from the end on its left: corners are numbered in that order.
+            let arc = |half_edge: u32| {
+                let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
+                Some([corner.at.coords, corners[other as usize].at.coords])
+            };
+            for outlook in corner.tangents().flat_map(|gaze| self.mesh.outlooks(corner, gaze)) {
+                arcs.extend(outlook.seen.into_iter().flatten().filter_map(arc));
+                self.mesh.look_forward(corner.at, outlook.cone, &mut stack, |half_edge| arcs.extend(arc(half_edge)));
             }
         }
-        node
+        arcs
     }
 }

@@ -42,7 +42,7 @@ const PERIODS: usize = 1;
 #[must_use]
 pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     match method {
-        Method::Visibility => climb(problem, method, effort, progress, &Visibility, polygons),
+        Method::Visibility => climb(problem, method, effort, progress, &Visibility::default(), polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
         Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),

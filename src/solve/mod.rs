@@ -14,7 +14,10 @@ pub use method::Method;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
-use crate::plan::Run;
+use crate::plan::{Planner, Run, Trace, Visibility};
+use crate::space::Configuration;
+use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::time::Duration;
 
 /// The answer to a problem.
@@ -60,6 +63,9 @@ pub struct Stages {
     pub prove: Duration,
 }
 
+/// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.
+const MOST_CORNERS: usize = 5_000;
+
 /// A verdict and how it came about.
 #[derive(Debug, Clone)]
 pub struct Answer {
@@ -75,4 +81,24 @@ pub struct Answer {
     pub space: Space,
     /// Where the time went.
     pub stages: Stages,
+}
+
+impl Answer {
+    /// What to draw of the planner's work: its trace, but of a visibility graph the whole.
+    #[must_use]
+    pub fn drawn(&self) -> Cow<'_, Trace> {
+        if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
+            let map = Visibility::default().build(regions);
+            if map.corners() <= MOST_CORNERS {
+                // Those that were searched end at start and goals too, and may be directed the other way.
+                let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
+                let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };
+                let mut arcs: Vec<_> = map.arcs().into_iter().chain(edges.iter().copied()).map(directed).collect();
+                arcs.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal));
+                arcs.dedup();
+                return Cow::Owned(Trace::Roadmap { edges: arcs, whole: true });
+            }
+        }
+        Cow::Borrowed(&self.run.trace)
+    }
 }

@@ -167,7 +167,7 @@ fn a_roadmap_on_an_interval_longer_than_a_turn() {
     planned("polar_roadmap", &polar(), [at(-3.5, 0.3), at(3.0, 0.1)], 120, |cells, labels, _, _| {
         let free: Vec<usize> = (0..labels.len()).filter(|k| labels[*k] != u32::MAX).step_by(97).collect();
         let edges = free.windows(3).flat_map(|w| [[w[0], w[1]], [w[0], w[2]]]);
-        Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect() }
+        Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect(), whole: true }
     });
 }
 
@@ -268,7 +268,7 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
     let path = Path::new(vec![at(0.0, 0.0)]);
     let goals = [at(0.0, 0.0)];
     for trace in [
-        Trace::Roadmap { edges: Vec::new() },
+        Trace::Roadmap { edges: Vec::new(), whole: true },
         Trace::Channel { cells: Vec::new(), channel: Vec::new() },
         Trace::Wavefront { cells: [1, 1], labels: vec![0] },
         Trace::Wavefront { cells: [0, 0], labels: Vec::new() },

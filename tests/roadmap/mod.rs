@@ -2,7 +2,7 @@
 
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
-use cplan::space::{Axis, Configuration, Path, Topology};
+use cplan::space::{Axis, Configuration, Metric, Path, Topology};
 
 /// A small deterministic generator (SplitMix64): scenes depend on their seed alone.
 pub struct Random(pub u64);
@@ -56,6 +56,26 @@ pub fn convex_crowd(random: &mut Random, side: usize, corners: usize) -> Vec<Vec
         }
     }
     crowd
+}
+
+/// `count` disjoint star-shaped polygons of ten corners each, most of them not convex, of random sizes at random places in
+/// a window of as many unit squares: about 23 % of it is filled.
+pub fn star_crowd(random: &mut Random, count: usize) -> Regions {
+    let columns = (count as f64).sqrt().ceil() as usize;
+    let rows = count.div_ceil(columns);
+    let stars = (0..count).map(|k| {
+        let size = random.within(0.25, 0.49);
+        let [x, y] = [k % columns, k / columns].map(|k| k as f64 + random.within(size, 1.0 - size));
+        let angle =
+            |k: usize, random: &mut Random| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
+        let corner = |k: usize| {
+            let (a, r) = (angle(k, random), size * random.within(0.55, 1.0));
+            Point::new(x + r * a.cos(), y + r * a.sin())
+        };
+        (0..10).map(corner).collect()
+    });
+    let stars = stars.collect();
+    window_with_holes((-0.25, columns as f64 + 0.25), (-0.25, rows as f64 + 0.25), stars)
 }
 
 /// The crowd as holes in a window a little larger than it.
@@ -185,6 +205,34 @@ pub fn area(contours: impl IntoIterator<Item = Vec<Point>>) -> f64 {
     contours.into_iter().map(|c| twice(&c) / 2.0).sum()
 }
 
+/// All arcs of the reduced visibility graph of obstacles in general position, left end first, by plain arithmetic.
+pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
+    let turn = |a: Point, b: Point, c: Point| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    let sides = sides(regions);
+    let neighbours = |c: &Vec<Point>, k: usize| (c[(k + c.len() - 1) % c.len()], c[k], c[(k + 1) % c.len()]);
+    let corners: Vec<_> = contours(regions).flat_map(|c| (0..c.len()).map(|k| neighbours(c, k))).collect();
+    // Free space is to the left, so a convex corner of an obstacle is a right turn.
+    let convex: Vec<_> = corners.into_iter().filter(|&(a, b, c)| turn(a, b, c) < 0.0).collect();
+    let tangent =
+        |(a, b, c): (Point, Point, Point), p: Point| p == a || p == c || (turn(p, b, a) > 0.0) == (turn(p, b, c) > 0.0);
+    let mut arcs = Vec::new();
+    for (i, &c) in convex.iter().enumerate() {
+        for &d in &convex[..i] {
+            let apart = |&(a, b): &(Point, Point)| {
+                let ends = [a, b].map(|end| end == c.1 || end == d.1);
+                let crosses = (turn(a, b, c.1) > 0.0) != (turn(a, b, d.1) > 0.0)
+                    && (turn(c.1, d.1, a) > 0.0) != (turn(c.1, d.1, b) > 0.0);
+                ends.contains(&true) || !crosses
+            };
+            if tangent(c, d.1) && tangent(d, c.1) && sides.iter().all(apart) {
+                let ends = if (c.1.x, c.1.y) < (d.1.x, d.1.y) { [c.1, d.1] } else { [d.1, c.1] };
+                arcs.push(ends.map(|p| p.coords));
+            }
+        }
+    }
+    arcs
+}
+
 /// Whether `p` is in free space or within 1e-9 of it: winding angles and distances, all in plain floats.
 pub fn is_nearly_free(sides: &[(Point, Point)], p: Point) -> bool {
     let winding: f64 = sides
@@ -223,6 +271,17 @@ pub fn assert_free(regions: &Regions, path: &Path) {
 /// Length of the shortest path among open convex obstacles (counter-clockwise) within a window, by brute force: all
 /// pairs of all corners are clipped against all obstacles; then Dijkstra's algorithm on the full matrix.
 pub fn brute_force_length(obstacles: &[Vec<Point>], window: (f64, f64), start: Point, goal: Point) -> Option<f64> {
+    brute_force(obstacles, window, start, goal, Metric::Euclidean)
+}
+
+/// The same in any metric.
+pub fn brute_force(
+    obstacles: &[Vec<Point>],
+    window: (f64, f64),
+    start: Point,
+    goal: Point,
+    metric: Metric,
+) -> Option<f64> {
     let inside_window = |p: &Point| p.iter().all(|v| (window.0..=window.1).contains(v));
     let mut nodes = vec![start, goal];
     nodes.extend(obstacles.iter().flatten().copied().filter(inside_window));
@@ -235,7 +294,7 @@ pub fn brute_force_length(obstacles: &[Vec<Point>], window: (f64, f64), start: P
         }
         done[i] = true;
         for j in 0..nodes.len() {
-            let through = length[i] + (nodes[j] - nodes[i]).norm();
+            let through = length[i] + metric.norm(nodes[j] - nodes[i]);
             if through < length[j] && !obstacles.iter().any(|o| enters(o, nodes[i], nodes[j])) {
                 length[j] = through;
             }

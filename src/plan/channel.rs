@@ -1,0 +1,204 @@
+//! A* over the cells of a decomposition.
+
+use super::NONE;
+use super::decomposition::{Decomposition, Door};
+use super::terminals::Terminals;
+use crate::geometry::Point;
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Cells to pass, with the doors between them: one less than cells.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Channel {
+    pub start: Point,
+    pub goal: Point,
+    pub cells: Vec<usize>,
+    pub doors: Vec<usize>,
+}
+
+/// Which doors each cell has, and what ways through them cost.
+#[derive(Debug, Clone)]
+pub(super) struct Adjacency {
+    /// The doors of cell `c` are `doors[first[c]..first[c + 1]]`.
+    first: Vec<u32>,
+    doors: Vec<u32>,
+    /// Centres of the cells.
+    pub centers: Vec<Point>,
+    /// Middles of the doors.
+    pub middles: Vec<Point>,
+}
+
+impl Adjacency {
+    /// Linear.
+    pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
+        let mut first = vec![0; centers.len() + 1];
+        for cell in decomposition.doors.iter().flat_map(|door| door.cells) {
+            first[cell + 1] += 1;
+        }
+        for k in 1..first.len() {
+            first[k] += first[k - 1];
+        }
+        let mut place = first.clone();
+        let mut doors = vec![0; 2 * decomposition.doors.len()];
+        for (door, number) in decomposition.doors.iter().zip(0..) {
+            for cell in door.cells {
+                doors[place[cell] as usize] = number;
+                place[cell] += 1;
+            }
+        }
+        let middles = decomposition.doors.iter().map(|door| nalgebra::center(&door.low, &door.high)).collect();
+        Self { first, doors, centers, middles }
+    }
+
+    /// The cheapest channel from the start to any goal, given the cells that contain them: passing from a cell to the
+    /// next costs the way from the one's centre over the door's middle to the other's, with start and goal for the
+    /// centres of the end cells. `O(n log n)` for `n` cells.
+    pub fn channel(
+        &self,
+        doors: &[Door],
+        terminals: &Terminals,
+        start_cells: &[usize],
+        goal_cells: &[(usize, Point)],
+    ) -> Option<Channel> {
+        let mut search = Search {
+            adjacency: self,
+            doors,
+            terminals,
+            goal_cells,
+            nodes: vec![Node { cost: f64::INFINITY, ..Node::START }; self.centers.len() + goal_cells.len()],
+            is_goal: vec![false; self.centers.len()],
+            open: BinaryHeap::new(),
+        };
+        goal_cells.iter().for_each(|&(cell, _)| search.is_goal[cell] = true);
+        for &cell in start_cells {
+            search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
+        }
+        while let Some(Open { node, cost, .. }) = search.open.pop() {
+            if cost > search.nodes[node as usize].cost {
+                continue;
+            }
+            if let Some(goal) = (node as usize).checked_sub(self.centers.len()) {
+                return Some(search.channel(node, goal_cells[goal].1));
+            }
+            let from = Node { before: node, door: NONE, cost, cell: node };
+            search.leave(node as usize, self.centers[node as usize], from);
+        }
+        None
+    }
+}
+
+/// How a cell, or a goal in a cell, is reached.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    cost: f64,
+    /// The cell before, `NONE` from the start.
+    before: u32,
+    /// The door passed, `NONE` from the start to a goal in its cell.
+    door: u32,
+    /// The cell left.
+    cell: u32,
+}
+
+impl Node {
+    const START: Self = Self { cost: 0.0, before: NONE, door: NONE, cell: NONE };
+}
+
+/// An entry of the open list; nodes beyond the cells are goals.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    estimate: f64,
+    cost: f64,
+    node: u32,
+}
+
+struct Search<'a> {
+    adjacency: &'a Adjacency,
+    doors: &'a [Door],
+    terminals: &'a Terminals,
+    goal_cells: &'a [(usize, Point)],
+    nodes: Vec<Node>,
+    is_goal: Vec<bool>,
+    open: BinaryHeap<Open>,
+}
+
+impl Search<'_> {
+    /// Reaches what lies in a cell, which is left from `at`, and beyond its doors.
+    fn leave(&mut self, cell: usize, at: Point, from: Node) {
+        let Adjacency { first, doors, centers, middles } = self.adjacency;
+        if from.before == NONE {
+            self.reach_goals(cell, from, |goal| (goal - at).norm());
+        }
+        for &door in &doors[first[cell] as usize..first[cell + 1] as usize] {
+            let [left, right] = self.doors[door as usize].cells;
+            let other = if left == cell { right } else { left };
+            let middle = middles[door as usize];
+            let way = |to: Point| (middle - at).norm() + (to - middle).norm();
+            let through = Node { door, ..from };
+            self.reach(other, centers[other], Node { cost: from.cost + way(centers[other]), ..through });
+            self.reach_goals(other, through, way);
+        }
+    }
+
+    fn reach_goals(&mut self, cell: usize, from: Node, way: impl Fn(Point) -> f64) {
+        if self.is_goal[cell] {
+            for (k, &(_, goal)) in self.goal_cells.iter().enumerate().filter(|(_, of)| of.0 == cell) {
+                self.reach(self.adjacency.centers.len() + k, goal, Node { cost: from.cost + way(goal), ..from });
+            }
+        }
+    }
+
+    fn reach(&mut self, node: usize, at: Point, by: Node) {
+        if by.cost < self.nodes[node].cost {
+            self.nodes[node] = by;
+            let estimate = by.cost + self.terminals.straight_distance(at);
+            self.open.push(Open { estimate, cost: by.cost, node: node as u32 });
+        }
+    }
+
+    /// The way to a goal, backwards.
+    fn channel(&self, last: u32, goal: Point) -> Channel {
+        let last = self.nodes[last as usize];
+        let goal_cell = if last.door == NONE { last.cell } else { self.beyond(last.door, last.cell) };
+        let (mut cells, mut doors) = (vec![goal_cell as usize], Vec::new());
+        let mut node = last;
+        while node.door != NONE {
+            doors.push(node.door as usize);
+            cells.push(node.cell as usize);
+            if node.before == NONE {
+                break;
+            }
+            node = self.nodes[node.before as usize];
+        }
+        cells.reverse();
+        doors.reverse();
+        Channel { start: self.terminals.start, goal, cells, doors }
+    }
+
+    /// The other cell of a door.
+    fn beyond(&self, door: u32, cell: u32) -> u32 {
+        let [left, right] = self.doors[door as usize].cells;
+        (if left == cell as usize { right } else { left }) as u32
+    }
+}
+
+impl Ord for Open {
+    /// The least estimate is the greatest; of equal ones the least node, so that the order is that of the input.
+    fn cmp(&self, other: &Self) -> Ordering {
+        let by_estimate = other.estimate.total_cmp(&self.estimate);
+        by_estimate.then(other.node.cmp(&self.node)).then(other.cost.total_cmp(&self.cost))
+    }
+}
+
+impl PartialOrd for Open {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Open {}

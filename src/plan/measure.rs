@@ -1,0 +1,96 @@
+//! A metric as shortest path searches use it.
+
+use crate::geometry::{Point, Vector, cross};
+use crate::space::Metric;
+
+/// Weight of the Euclidean length beside travel time. Among motions that take equally long it prefers the shortest; no
+/// path that it chooses takes longer than the quickest by more than this part of its Euclidean length at the higher of
+/// the top speeds. Far above the rounding of sums of lengths.
+const TIE: f64 = 1e-10;
+
+/// A norm whose balls have no flat sides, so that pulling a path taut makes it shorter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Measure {
+    /// Euclidean length after both coordinates have been multiplied by weights.
+    Ellipse([f64; 2]),
+    /// The greater of both coordinates multiplied by weights, and a little of the Euclidean length.
+    Rectangle([f64; 2]),
+}
+
+impl From<Metric> for Measure {
+    fn from(metric: Metric) -> Self {
+        match metric {
+            Metric::Euclidean => Self::Ellipse([1.0; 2]),
+            Metric::Weighted { weights } => Self::Ellipse(weights),
+            Metric::Time { speeds } => Self::Rectangle(speeds.map(|speed| 1.0 / speed)),
+        }
+    }
+}
+
+impl Measure {
+    /// Length of a displacement.
+    pub fn norm(self, d: Vector) -> f64 {
+        match self {
+            Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
+            Self::Rectangle([u, v]) => {
+                (u * d.x.abs()).max(v * d.y.abs()) + TIE * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
+            }
+        }
+    }
+
+    /// A lower bound on the length of the ways from `root` to `goal` through a segment, from `right` to `left` as seen from
+    /// the root; it is the length of the shortest, but for [`Measure::Rectangle`] and a goal on the root's side. The line
+    /// of the segment is given by two points farther apart, in the same direction: the segment may be a point.
+    pub fn through(self, root: Point, [right, left]: [Point; 2], line: [Point; 2], goal: Point) -> f64 {
+        let mut goal = goal;
+        let along = line[1] - line[0];
+        if cross(along, goal - line[0]) > 0.0 {
+            let Self::Ellipse([u, v]) = self else { return self.norm(goal - root) };
+            // There and back is as long as to the mirror image.
+            let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
+            let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
+            goal = foot + (foot - goal);
+        }
+        let via = |end: Point| self.norm(end - root) + self.norm(goal - end);
+        if cross(right - root, goal - root) < 0.0 {
+            via(right)
+        } else if cross(left - root, goal - root) > 0.0 {
+            via(left)
+        } else {
+            self.norm(goal - root)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against the least over many points of the segment.
+        #[test]
+        fn bounds_are_the_least_way_through(
+            root in (-3.0..3.0, 0.1..2.0f64), goal in (-3.0..3.0, -2.0..2.0f64), ends in (-2.0..1.9f64, 0.05..2.0f64),
+        ) {
+            // The root lies above the axis and looks down through a piece of it.
+            let (root, goal) = (Point::new(root.0, root.1), Point::new(goal.0, goal.1));
+            let (right, left) = (Point::new(ends.0, 0.0), Point::new(ends.0 + ends.1, 0.0));
+            let metrics = [
+                Metric::Euclidean,
+                Metric::Weighted { weights: [2.0, 0.5] },
+                Metric::Time { speeds: [0.7, 2.0] },
+            ];
+            for metric in metrics {
+                let least = (0..=2000)
+                    .map(|k| right + (left - right) * (f64::from(k) / 2000.0))
+                    .map(|p| metric.norm(p - root) + metric.norm(goal - p))
+                    .fold(f64::INFINITY, f64::min);
+                let bound = Measure::from(metric).through(root, [right, left], [right, left], goal);
+                prop_assert!(bound <= least + 1e-8, "{metric:?}: {bound} > {least}");
+                let is_exact = !matches!(metric, Metric::Time { .. }) || goal.y <= 0.0;
+                prop_assert!(!is_exact || bound >= least - 1e-5, "{metric:?}: {bound} < {least}");
+            }
+        }
+    }
+}

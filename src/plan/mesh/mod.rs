@@ -1,0 +1,169 @@
+//! Free space as triangles, to be walked through along lines of sight.
+
+mod cone;
+mod corners;
+mod delaunay;
+mod location;
+mod triangulation;
+
+pub(super) use cone::{Beyond, Bound, Cone, Crossing};
+pub(super) use corners::{Corner, Tangency};
+
+use super::NONE;
+use super::boundary::Boundary;
+use crate::geometry::Point;
+use corners::Corners;
+use location::Columns;
+use triangulation::HalfEdges;
+
+/// The constrained Delaunay triangulation of free space, its convex corners, and an index of its triangles.
+///
+/// Triangles are neighbours only through free space, so what touches in a corner only is apart here.
+#[derive(Debug, Clone)]
+pub(super) struct Mesh {
+    vertices: Vec<Point>,
+    edges: HalfEdges,
+    corners: Corners,
+    columns: Columns,
+}
+
+impl Mesh {
+    /// Triangulates, `O(n log n)` for `n` vertices.
+    pub fn new(boundary: Boundary) -> Self {
+        let mut edges = triangulation::triangulate(&boundary);
+        let vertices = boundary.vertices;
+        delaunay::flip(&vertices, &mut edges);
+        let corners = Corners::new(&vertices, &edges);
+        let columns = Columns::new(&vertices, &edges);
+        Self { vertices, edges, corners, columns }
+    }
+
+    /// Number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.edges.origin.len() / 3
+    }
+
+    /// Convex corners of obstacles.
+    pub fn corners(&self) -> &[Corner] {
+        &self.corners.list
+    }
+
+    /// Triangles that contain `p`, borders included; none outside of free space. Exact; `O(sqrt n)` among triangles of
+    /// even size.
+    pub fn triangles_at(&self, p: Point) -> impl Iterator<Item = u32> + '_ {
+        self.columns.triangles_at(&self.vertices, &self.edges, p)
+    }
+
+    /// The point at which a half-edge begins.
+    pub fn origin(&self, half_edge: u32) -> Point {
+        self.vertices[self.edges.origin[half_edge as usize] as usize]
+    }
+
+    /// The corner in the sector of free space at the origin of a half-edge, if that is convex for the obstacle.
+    pub fn corner_at(&self, half_edge: u32) -> Option<u32> {
+        let corner = self.corners.of_half_edge[half_edge as usize];
+        (corner != NONE).then_some(corner)
+    }
+
+    /// The right and the left end of a half-edge, as seen from within its triangle.
+    pub fn ends(&self, half_edge: u32) -> [Point; 2] {
+        [self.origin(half_edge), self.origin(next(half_edge))]
+    }
+
+    /// Whether a half-edge is part of the boundary.
+    pub fn is_wall(&self, half_edge: u32) -> bool {
+        self.twin(half_edge).is_none()
+    }
+
+    fn twin(&self, half_edge: u32) -> Option<u32> {
+        let twin = self.edges.twin[half_edge as usize];
+        (twin != NONE).then_some(twin)
+    }
+}
+
+/// The half-edge that follows in the same triangle.
+pub(super) fn next(half_edge: u32) -> u32 {
+    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
+}
+
+/// The half-edge before in the same triangle.
+pub(super) fn previous(half_edge: u32) -> u32 {
+    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cspace::{Polygon, Proves, Regions};
+    use crate::geometry::{Orientation, in_circle, orientation};
+    use crate::space::{Axis, Topology};
+    use proptest::prelude::*;
+
+    /// A window of 7 x 7 squares around a board of 5 x 5, under an integer matrix of determinant 1; each blocked square is
+    /// a hole of its own, so that holes touch along sides and in corners.
+    fn board(blocked: &[bool], [a, b, c, d]: [f64; 4]) -> Regions {
+        let square = |x: f64, y: f64, size: f64| {
+            [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
+                .map(|(dx, dy)| Point::new(a * (x + dx) + b * (y + dy), c * (x + dx) + d * (y + dy)))
+                .to_vec()
+        };
+        let squares = (0..25).filter(|&k| blocked[k]).map(|k| {
+            let mut hole = square((k / 5) as f64, (k % 5) as f64, 1.0);
+            hole.reverse();
+            hole
+        });
+        let free = vec![Polygon { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
+        let window = [(-50.0, 50.0); 2];
+        let axes = window.map(|(lower, upper)| Axis::Interval { lower, upper });
+        Regions { topology: Topology { axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+    }
+
+    fn matrices() -> impl Strategy<Value = [f64; 4]> {
+        prop_oneof![
+            Just([1.0, 0.0, 0.0, 1.0]),
+            Just([0.0, -1.0, 1.0, 0.0]),
+            Just([2.0, 1.0, 1.0, 1.0]),
+            Just([1.0, 0.0, -3.0, 1.0]),
+        ]
+    }
+
+    proptest! {
+        /// By their definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are Delaunay; an
+        /// index finds those that contain a point.
+        #[test]
+        fn is_the_constrained_delaunay_triangulation(
+            blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
+        ) {
+            let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix)));
+            let corners = |t: u32| [3 * t, 3 * t + 1, 3 * t + 2].map(|h| mesh.origin(h));
+            let mut twice_area = 0.0;
+            for t in 0..mesh.triangles() as u32 {
+                let [a, b, c] = corners(t);
+                prop_assert_eq!(orientation(a, b, c), Orientation::CounterClockwise);
+                twice_area += (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+                for h in 3 * t..3 * t + 3 {
+                    if let Some(twin) = mesh.twin(h) {
+                        prop_assert_eq!(mesh.twin(twin), Some(h));
+                        let [p, q] = mesh.ends(twin);
+                        prop_assert_eq!(mesh.ends(h), [q, p]);
+                        prop_assert!(!in_circle([a, b, c], mesh.origin(previous(twin))));
+                    }
+                }
+            }
+            // In integers below 2^53 sums are exact.
+            prop_assert_eq!(twice_area, 2.0 * (49.0 - blocked.iter().filter(|b| **b).count() as f64));
+            for (x, y) in (-3..=13).flat_map(|x| (-3..=13).map(move |y| (f64::from(x) / 2.0, f64::from(y) / 2.0))) {
+                let [a, b, c, d] = matrix;
+                let p = Point::new(a * x + b * y, c * x + d * y);
+                let holds = |&t: &u32| {
+                    let [a, b, c] = corners(t);
+                    [(a, b), (b, c), (c, a)].iter().all(|&(a, b)| orientation(a, b, p) != Orientation::Clockwise)
+                };
+                let expected: Vec<u32> = (0..mesh.triangles() as u32).filter(holds).collect();
+                let mut found: Vec<u32> = mesh.triangles_at(p).collect();
+                found.sort_unstable();
+                prop_assert_eq!(found, expected);
+            }
+        }
+    }
+}
