@@ -384,3 +384,21 @@ fn corners_of_inner_contours_grow_like_the_root_of_the_tolerance() {
         assert!(growth < 4.0, "{counts:?}");
     }
 }
+
+/// Found by `inner_contours_leave_little_out`: a small disc that passes along a thin wall.
+#[test]
+fn a_disc_along_a_wall_from_the_inside() {
+    let direction = Vector::new(-0.16074327844641478, -0.98699625046618);
+    let first = joint("first", Motion::Prismatic { direction }, Axis::Interval { lower: -0.7, upper: 1.1 });
+    let second = joint("second", Motion::Revolute { sign: 1.0 }, Axis::Circle);
+    let disc = Convex::new(vec![Point::new(-0.06518476647611784, 0.38137150456138297)], 0.013172312377092998);
+    let wall = Convex::segment(
+        Point::new(0.5408834402218011, 0.5468133482052561),
+        Point::new(0.5219073817180337, 0.4486303089181083),
+    );
+    let scene = scene([first, second], Vector::new(0.46, 0.0), [vec![], vec![disc]], vec![wall], 0.021270843950263067);
+    let mut inner = InnerObstacles::new(1e-3);
+    let contours = inner.contours(&scene, 0).to_vec();
+    let q = Configuration::new(-0.09097174376678621, -0.16956917948226133);
+    assert!(inside_any(&contours, q), "{contours:?}");
+}

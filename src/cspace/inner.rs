@@ -125,6 +125,8 @@ struct InnerCurves<'a> {
     overlaps: Overlaps<'a>,
     smaller: &'a Smaller,
     min_width: f64,
+    /// Depth that the middle of a link's side may have, at the most.
+    deepest: f64,
 }
 
 impl<'a> InnerCurves<'a> {
@@ -135,7 +137,7 @@ impl<'a> InnerCurves<'a> {
         let spare = if smaller.solid { SPARE * depth } else { 0.0 };
         let overlaps = Overlaps::new(&scene.arm, part, piece, radius - spare);
         let min_width = NARROWEST * depth / overlaps.speed().max(f64::MIN_POSITIVE);
-        Self { rows, overlaps, smaller, min_width }
+        Self { rows, overlaps, smaller, min_width, deepest: 2.0 * depth }
     }
 
     fn contours(&self) -> Vec<Vec<Point>> {
@@ -171,7 +173,8 @@ impl Source for &InnerCurves<'_> {
     }
 
     fn links(&self, from: &[Configuration; 2], to: &[Configuration; 2]) -> bool {
-        self.overlaps.everywhere(&[*from, *to])
+        (0..2).all(|side| self.overlaps.depth((from[side] + to[side]) / 2.0) <= self.deepest)
+            && self.overlaps.everywhere(&[*from, *to])
     }
 
     /// A line may not stand alone: what is blocked is proven for whole quadrilaterals.

@@ -52,14 +52,15 @@ impl<'a> Overlaps<'a> {
                 let below = [[quad[0][0], middle[0]], [quad[1][0], middle[1]]];
                 let above = [[middle[0], quad[0][1]], [middle[1], quad[1][1]]];
                 // Where the middle is free no halving will help.
-                self.overlap_at((middle[0] + middle[1]) / 2.0)
+                self.depth((middle[0] + middle[1]) / 2.0) >= 0.0
                     && self.halved(&below, halvings - 1)
                     && self.halved(&above, halvings - 1)
             }
     }
 
-    fn overlap_at(&self, q: Configuration) -> bool {
-        self.motion.separation(q).distance + self.part.radius() + self.piece.radius() <= self.radius
+    /// How much farther apart the cores may be at `q`.
+    pub fn depth(&self, q: Configuration) -> f64 {
+        self.radius - self.motion.separation(q).distance - self.part.radius() - self.piece.radius()
     }
 
     /// Whether one point or one crossing stands for the whole quadrilateral.
