@@ -56,7 +56,7 @@ fn cells(regions: &Regions) -> (Vec<Vec<Point>>, usize) {
     let run = run(&TAUT, regions, &query((1e9, 1e9), (1e9, 1e9)));
     let (Trace::Channel { cells, .. }, Size::Graph { nodes, edges }) = (run.trace, run.size) else { panic!() };
     assert_eq!(nodes, cells.len());
-    (cells.into_iter().map(|cell| cell.into_iter().map(Point::from).collect()).collect(), edges)
+    (cells.iter().map(|cell| cell.iter().copied().map(Point::from).collect()).collect(), edges)
 }
 
 /// Cells are convex, cover free space without overlap (their areas add up and their middles are free), and are joined

@@ -236,7 +236,7 @@ mod tests {
     #[test]
     fn a_channel_is_explained_only_where_there_is_one() {
         let names = |channel: Vec<usize>| -> Vec<String> {
-            keys(&Trace::Channel { cells: Vec::new(), channel }).into_iter().map(|key| key.1).collect()
+            keys(&Trace::Channel { cells: [].into(), channel }).into_iter().map(|key| key.1).collect()
         };
         assert_eq!(names(vec![0]), ["cells", "channel"]);
         assert_eq!(names(Vec::new()), ["cells"]);

@@ -25,6 +25,7 @@ pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::Wavefront;
 
 use crate::space::{Configuration, Path};
+use std::sync::Arc;
 
 /// No index, in tables of indices.
 const NONE: u32 = u32::MAX;
@@ -86,13 +87,13 @@ pub enum Trace {
     Roadmap {
         /// Both ends of each.
         edges: Vec<[Configuration; 2]>,
-        /// Whether they are all; otherwise they are those that the search looked at.
+        /// Whether all arcs between corners are among them; otherwise they are those that the search looked at.
         whole: bool,
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
     Channel {
-        /// Corners of each cell.
-        cells: Vec<Vec<Configuration>>,
+        /// Corners of each cell; shared with the planner's map.
+        cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
     },

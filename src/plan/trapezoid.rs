@@ -10,6 +10,7 @@ use crate::cspace::Regions;
 use crate::geometry::{Orientation, Point, orientation};
 use crate::space::{Configuration, Path};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
 ///
@@ -36,7 +37,7 @@ pub struct TrapezoidMap {
     boundary: Boundary,
     decomposition: Decomposition,
     /// Corners of the cells.
-    corners: Vec<Vec<Configuration>>,
+    corners: Arc<[Vec<Configuration>]>,
     adjacency: Adjacency,
 }
 
@@ -76,7 +77,7 @@ impl Planner for Trapezoid {
         };
         Run {
             outcome,
-            trace: Trace::Channel { cells: map.corners.clone(), channel },
+            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel },
             size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.doors.len() },
             note: None,
         }

@@ -84,7 +84,8 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// What to draw of the planner's work: its trace, but of a visibility graph the whole.
+    /// What to draw of the planner's work: its trace; to that of a visibility graph all arcs between corners are added, which
+    /// takes the time to find them.
     #[must_use]
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
