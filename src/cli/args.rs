@@ -2,8 +2,9 @@
 
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
+use crate::space::Metric;
 use crate::trajectory::SHORTEST_INTERVAL;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
@@ -109,6 +110,70 @@ impl EffortArgs {
     }
 }
 
+/// What makes a path short.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MetricName {
+    /// Square root of the sum of squares, radians and metres as they come.
+    Euclidean,
+    /// The same with the joints' values multiplied by --weights.
+    Weighted,
+    /// Seconds at the joints' top speeds.
+    Time,
+}
+
+/// What to optimise, and how well.
+#[derive(Debug, Args)]
+pub struct OptimumArgs {
+    /// What makes a path short (planner visibility).
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
+    pub metric: MetricName,
+    /// Weights of the joints, such as 1,0.5, for --metric weighted.
+    #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
+    pub weights: Option<Weights>,
+    /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001
+    /// (planner visibility).
+    #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
+    pub gap: Option<f64>,
+}
+
+/// Two positive numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights(pub [f64; 2]);
+
+impl OptimumArgs {
+    /// The metric, for an arm whose joints have these top speeds.
+    pub fn metric(&self, speeds: [f64; 2]) -> Metric {
+        match (self.metric, self.weights) {
+            (MetricName::Weighted, Some(Weights(weights))) => Metric::Weighted { weights },
+            (MetricName::Time, _) => Metric::Time { speeds },
+            _ => Metric::Euclidean,
+        }
+    }
+
+    /// What of it the planner cannot do, if there is something.
+    pub fn conflict(&self, planner: Method) -> Option<String> {
+        if self.weights.is_some() && self.metric != MetricName::Weighted {
+            return Some("--weights are for --metric weighted".into());
+        }
+        let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
+        let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
+        (optimises && planner != Method::Visibility)
+            .then(|| format!("{asked} needs --planner visibility: {planner} does not look for the shortest path"))
+    }
+}
+
+fn weights(text: &str) -> Result<Weights, String> {
+    let values: Vec<f64> = text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect();
+    match values[..] {
+        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok(Weights([a, b])),
+        _ => Err("must be two positive numbers, such as 1,0.5".into()),
+    }
+}
+
+fn gap(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
+}
+
 fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if allowed(value) => Ok(value),
@@ -139,6 +204,8 @@ pub struct PlanArgs {
     pub query: QueryArgs,
     #[command(flatten)]
     pub effort: EffortArgs,
+    #[command(flatten)]
+    pub optimum: OptimumArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,

@@ -9,8 +9,9 @@ use crate::certify::ProofBox;
 use crate::input;
 use crate::model::Problem;
 use crate::plan::Size;
-use crate::solve::{Answer, Verdict, solve};
-use crate::trajectory::{Report, time};
+use crate::solve::{Answer, Bound, Effort, Verdict, percent, solve};
+use crate::space::Metric;
+use crate::trajectory::{Optimum, Report, time};
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -18,7 +19,9 @@ use crate::trajectory::{Report, time};
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
-    let effort = args.effort.effort();
+    if let Some(conflict) = args.optimum.conflict(args.planner) {
+        return Err(Failure::Usage(conflict));
+    }
     let mut clock = Clock::start();
     let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
@@ -29,8 +32,21 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
+    let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
+    let effort = Effort { metric, gap: args.optimum.gap, ..args.effort.effort() };
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
+    if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
+        && bound.gap() > gap
+    {
+        say(&format!(
+            "warning: the gap of {} asked for is not reached: {} is proven at the finest level ({}); more --levels or a \
+             smaller --margin may do",
+            percent(gap),
+            percent(bound.gap()),
+            effort.levels
+        ));
+    }
     let mut report = report(problem, &answer, args.effort.period)?;
     clock.stage("trajectory");
     if args.timings {
@@ -63,6 +79,7 @@ fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Fai
         Verdict::Found(certified) => {
             let trajectory = time(certified, joints, period)?;
             let mut report = Report::found(planner, joints, certified, trajectory);
+            report.optimum = answer.bound.map(Optimum::from);
             report.closest = certified.nearest().map(|n| problem.scene.describe(n.contact.pair));
             report
         }
@@ -81,4 +98,16 @@ fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Fai
         Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
     };
     Ok(report)
+}
+
+impl From<Bound> for Optimum {
+    fn from(bound: Bound) -> Self {
+        let (metric, weights) = match bound.metric {
+            Metric::Euclidean => ("euclidean", None),
+            Metric::Weighted { weights } => ("weighted", Some(weights)),
+            Metric::Time { .. } => ("time", None),
+        };
+        let gap = Some(bound.gap()).filter(|gap| gap.is_finite());
+        Self { metric, weights, length: bound.upper, lower_bound: bound.lower, gap }
+    }
 }

@@ -3,8 +3,8 @@
 use super::output::Sink;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint};
-use crate::solve::{Answer, Stages, Verdict};
-use crate::space::{Axis, Configuration};
+use crate::solve::{Answer, Bound, Stages, Verdict, percent};
+use crate::space::{Axis, Configuration, Metric};
 use crate::trajectory::Report;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -28,8 +28,10 @@ impl Clock {
 
     /// The solver's own stages.
     pub fn stages(&mut self, stages: &Stages) {
-        let Stages { build, query, certify, prove } = *stages;
-        for (name, time) in [("build", build), ("query", query), ("certify", certify), ("prove", prove)] {
+        let Stages { build, query, certify, prove, bound } = *stages;
+        for (name, time) in
+            [("build", build), ("query", query), ("certify", certify), ("prove", prove), ("bound", bound)]
+        {
             if !time.is_zero() {
                 self.stages.push((name.into(), time));
             }
@@ -96,6 +98,9 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
                 "result",
                 format!("found and certified: {segments} straight pieces, length {:.4}", path.length()),
             ));
+            if let Some(bound) = &answer.bound {
+                lines.push(("optimum", optimum(bound)));
+            }
             lines.push((
                 "clearance",
                 match certified.nearest() {
@@ -132,6 +137,17 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
         before = key;
     }
     text
+}
+
+/// How near the path is to the optimum.
+fn optimum(bound: &Bound) -> String {
+    let Bound { metric, lower, upper } = *bound;
+    let measure = match metric {
+        Metric::Euclidean => format!("length {upper:.4}"),
+        Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
+        Metric::Time { .. } => format!("{upper:.4} s at top speed"),
+    };
+    format!("{measure}; proven: none below {lower:.4}, so at most {} longer than the shortest", percent(bound.gap()))
 }
 
 fn non_empty(name: &str) -> &str {

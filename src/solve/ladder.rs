@@ -1,11 +1,13 @@
 //! The ladder of refinement.
 
 use super::admission::{Admit, Ends};
+use super::bound::{Bound, bound, percent};
 use super::{Answer, Method, Space, Stages, Verdict, subdivision};
 use crate::certify::{Connectivity, Rejection, certify, connectivity};
 use crate::cspace::{Grid, Regions, outer_grid, regions};
 use crate::model::{Problem, Scene};
 use crate::plan::{Harmonic, Outcome, Planner, Run, Trapezoid, Visibility, Wavefront};
+use crate::space::Metric;
 use std::time::Instant;
 
 /// How much to try before the answer is unknown.
@@ -19,12 +21,17 @@ pub struct Effort {
     pub cells: usize,
     /// Boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
+    /// What makes a path short, for the visibility planner and for bounds.
+    pub metric: Metric,
+    /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
+    /// planner only).
+    pub gap: Option<f64>,
 }
 
 impl Default for Effort {
     /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
     fn default() -> Self {
-        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000 }
+        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None }
     }
 }
 
@@ -42,7 +49,7 @@ const PERIODS: usize = 1;
 #[must_use]
 pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     match method {
-        Method::Visibility => climb(problem, method, effort, progress, &Visibility::default(), polygons),
+        Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
         Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
@@ -69,6 +76,7 @@ where
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut verdict = None;
+    let mut best: Option<Bound> = None;
     for level in 0..effort.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(problem, effort, level) else { break };
@@ -87,8 +95,22 @@ where
                 stages.certify += clock.elapsed();
                 match certified {
                     Ok(path) => {
-                        verdict = Some(Verdict::Found(path));
-                        String::new()
+                        let bounded = (method == Method::Visibility).then(|| {
+                            let clock = Instant::now();
+                            let bound = bound(problem, path.path(), effort.metric, margin(problem, effort, level));
+                            stages.bound += clock.elapsed();
+                            bound
+                        });
+                        let lower = best.map_or(0.0, |b| b.lower);
+                        if best.zip(bounded).is_none_or(|(best, new)| new.upper < best.upper) {
+                            verdict = Some(Verdict::Found(path));
+                            best = bounded;
+                        }
+                        best = best
+                            .map(|b| Bound { lower: b.lower.max(lower).max(bounded.map_or(0.0, |b| b.lower)), ..b });
+                        best.map_or_else(String::new, |bound| {
+                            format!("its path is longer than the bound by {}", percent(bound.gap()))
+                        })
                     }
                     Err(rejection) => format!("its path is not certified: {}", explain(&problem.scene, rejection)),
                 }
@@ -98,12 +120,13 @@ where
         };
         let failure = format!("{}: {failure}", space.describe());
         last = Some((run, space));
-        if verdict.is_some() {
+        let goes_on = best.zip(effort.gap).is_some_and(|(bound, gap)| bound.gap() > gap);
+        if verdict.is_some() && !goes_on {
             break;
         }
         progress(&format!("{method}: {failure}"));
         history.push(failure);
-        if level == 0 {
+        if level == 0 && verdict.is_none() {
             verdict = prove(problem, effort.boxes.min(FIRST_BOXES), &mut stages);
             if verdict.is_some() {
                 break;
@@ -119,7 +142,7 @@ where
         let why = history.last().cloned().unwrap_or_default();
         Verdict::Unknown(format!("{method} found no certified path at its finest resolution ({why})"))
     });
-    Answer { method, verdict, history, run, space: space.into(), stages }
+    Answer { method, verdict, bound: best, history, run, space: space.into(), stages }
 }
 
 fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
@@ -138,8 +161,12 @@ fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict
 
 /// Polygons grown by the level's margin.
 fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
-    let margin = effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level as i32);
-    Some(regions(&problem.scene, margin, problem.start, PERIODS))
+    Some(regions(&problem.scene, margin(problem, effort, level), problem.start, PERIODS))
+}
+
+/// The level's margin, metres.
+fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
+    effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level as i32)
 }
 
 /// Cells of the level's size.

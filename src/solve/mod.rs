@@ -5,10 +5,12 @@
 //! found has passed [`crate::certify`], what leaves it as infeasible is proven there.
 
 mod admission;
+mod bound;
 mod ladder;
 mod method;
 mod subdivision;
 
+pub use bound::{Bound, bound, percent};
 pub use ladder::{Effort, solve};
 pub use method::Method;
 
@@ -61,6 +63,8 @@ pub struct Stages {
     pub certify: Duration,
     /// Looking for a proof that there is no path.
     pub prove: Duration,
+    /// Bounding the optimum from below.
+    pub bound: Duration,
 }
 
 /// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.
@@ -73,6 +77,8 @@ pub struct Answer {
     pub method: Method,
     /// The result.
     pub verdict: Verdict,
+    /// How far the path is from the optimum at the most; of visibility planners that found one.
+    pub bound: Option<Bound>,
     /// What became of each attempt before the last, coarse to fine, in words.
     pub history: Vec<String>,
     /// The planner's last run.

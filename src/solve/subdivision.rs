@@ -53,7 +53,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
         progress(&format!("{}: {reason}", Method::Subdivision));
     }
     let run = Run { outcome, trace, size, note: None };
-    Answer { method: Method::Subdivision, verdict, history: Vec::new(), run, space: Space::Scene, stages }
+    Answer { method: Method::Subdivision, verdict, bound: None, history: Vec::new(), run, space: Space::Scene, stages }
 }
 
 /// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the

@@ -25,6 +25,22 @@ pub enum Status {
     Unknown,
 }
 
+/// A path's place between a proven lower bound on the length of every free motion and its own length.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Optimum {
+    /// How lengths are measured: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
+    pub metric: &'static str,
+    /// Weights of the joints, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weights: Option<[f64; 2]>,
+    /// Length of the path in this metric.
+    pub length: f64,
+    /// No motion to any of the goals is shorter: proven.
+    pub lower_bound: f64,
+    /// `length / lower_bound - 1`; none where the bound is 0 and the length is not.
+    pub gap: Option<f64>,
+}
+
 /// The result of a run. [`Report::json`] writes the fields in this order. Those that a
 /// script relies on are always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the others
 /// are left out when `None` or empty.
@@ -53,6 +69,9 @@ pub struct Report {
     pub path: Option<Vec<[f64; 2]>>,
     /// Euclidean length of the path in joint space.
     pub length: Option<f64>,
+    /// How far the path is from the optimum at the most, if the planner tells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub optimum: Option<Optimum>,
     /// Whether the whole continuous motion was shown free of collision; false without a path.
     pub certified: bool,
     /// Proven lower bound on the distance between arm and obstacles along the path, metres. None without a path, and
@@ -119,6 +138,7 @@ impl Report {
             proof: None,
             path: None,
             length: None,
+            optimum: None,
             certified: false,
             clearance: None,
             closest: None,
