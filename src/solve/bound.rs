@@ -1,6 +1,7 @@
 //! How far a path is from the optimum, at the most.
 
 use crate::cspace::{InnerObstacles, Proves, Regions, inner_regions};
+use crate::geometry::separation;
 use crate::model::{Problem, Scene};
 use crate::plan::{Outcome, Planner, Query, Visibility};
 use crate::space::{Axis, Configuration, Metric, Path};
@@ -37,7 +38,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Distance of the configurations, radians or metres, at which a path is looked at for obstacles to add. Only how many
 /// are found at once depends on it.
-const STEP: f64 = 0.02;
+const STEP: f64 = 0.05;
 
 /// Times that obstacles are added.
 const ROUNDS: usize = 32;
@@ -102,17 +103,24 @@ fn shortest(
 
 /// The pairs, not yet `known`, that a path leads through.
 fn run_into(scene: &Scene, path: &Path, known: &[usize]) -> Vec<usize> {
-    let mut met = vec![false; scene.pairs().len()];
+    let mut unmet: Vec<usize> = (0..scene.pairs().len()).filter(|index| !known.contains(index)).collect();
+    let mut met = Vec::new();
     for (from, to) in path.segments() {
         let steps = ((to - from).norm() / STEP).ceil().max(1.0) as usize;
         for i in 0..=steps {
-            let q = from + (to - from) * (i as f64 / steps as f64);
-            for (met, contact) in met.iter_mut().zip(scene.separations(q)) {
-                *met |= contact.separation.distance < scene.workspace.clearance;
-            }
+            let poses = scene.arm.poses(from + (to - from) * (i as f64 / steps as f64));
+            unmet.retain(|&index| {
+                let pair = scene.pairs()[index];
+                let apart = separation(&scene.part(pair).at(&poses[pair.link]), scene.piece(pair)).distance;
+                let hit = apart < scene.workspace.clearance;
+                if hit {
+                    met.push(index);
+                }
+                !hit
+            });
         }
     }
-    (0..met.len()).filter(|&index| met[index] && !known.contains(&index)).collect()
+    met
 }
 
 /// A lower bound on the length of motions that leave the window: on one axis they go to its end, and from there to a
