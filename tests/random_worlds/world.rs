@@ -47,8 +47,7 @@ pub fn world(kind: &str, seed: u64) -> Option<Problem> {
     let arm = arm(&mut dice, kind);
     let clearance = if dice.chance(0.25) { dice.range(0.0, 0.05) } else { 0.0 };
     let reach = arm.reach() + 0.3;
-    let most = if dice.chance(0.5) { 6 } else { 30 };
-    let count = 1 + dice.below(most);
+    let count = 5 + dice.below(26);
     let mut obstacles = Vec::new();
     while obstacles.len() < count as usize {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
