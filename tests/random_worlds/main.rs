@@ -114,7 +114,7 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let mut counts = [Count::default(); PLANNERS];
     for (i, method) in Method::ALL.into_iter().enumerate() {
         let always = matches!(method, Method::Visibility | Method::Subdivision);
-        if !always && seed % run.share != 0 {
+        if !always && !seed.is_multiple_of(run.share) {
             continue;
         }
         let clock = Instant::now();

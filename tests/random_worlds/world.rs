@@ -163,7 +163,10 @@ fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
             // Two walls that leave a passage.
             let gap = dice.range(0.0, 0.15);
             let [x, y] = [center.x, center.y];
-            vec![rectangle(x, x + size, y + gap, y + gap + size, 0.0), rectangle(x, x + size, y - size, y - gap, 0.0)]
+            vec![
+                rectangle(x, x + size, y + gap, y + gap + size, 0.0),
+                rectangle(x, x + size, y - gap - size, y - gap, 0.0),
+            ]
         }
         _ => {
             // Lattice squares that share a side and a corner.
