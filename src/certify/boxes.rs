@@ -104,7 +104,8 @@ pub(super) enum State {
     Stuck(Pair),
     /// These pairs are undecided; no other pair comes too near.
     Mixed(Vec<Pair>),
-    /// Undecided, and too small for halves to tell more: link 1 alone is open in it, or it is of the finest size.
+    /// Undecided, and too small for halves to tell more: link 1 alone is open in a finest column, or it is of the finest
+    /// size.
     Finest,
     /// Replaced by two halves: the node of this index and the next.
     Split(u32),
@@ -141,9 +142,10 @@ const FIRST: usize = 8;
 /// fine ones cost nothing, and a thin wall of link 1 (a corner that just reaches an obstacle) needs fine ones.
 const FINEST_COLUMN: f64 = 1e-8;
 
-/// Columns of one width are halved only if there are no more of them. The ends of contacts leave a few open ones each; far
-/// more of them mean that link 1 slides along an obstacle at the very distance to keep, and halves would tell nothing.
-const MOST_OPEN_COLUMNS: usize = 2048;
+/// Columns of one width are halved beforehand only if there are no more of them. The ends of contacts leave a few open ones
+/// each; far more of them mean that link 1 slides along an obstacle at the very distance to keep, and halves would tell
+/// nothing. Such columns are left to the search, which halves boxes where it matters.
+const MOST_OPEN_COLUMNS: usize = 512;
 
 /// Boxes of link 2 are decided down to this share of the domain along each axis. Finer ones are no wider than what
 /// rounding leaves uncertain in a clearance, and a start or goal without any room would never be done with.
@@ -233,8 +235,9 @@ impl<'a> Subdivision<'a> {
     /// Replaces a mixed box by two halves, or takes note that they would tell no more. Whether it did.
     pub fn split(&mut self, index: u32) -> bool {
         let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
-        let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0);
         let cell = self.nodes[index as usize].cell;
+        let narrow = cell.upper[0] - cell.lower[0] <= FINEST_COLUMN * self.topology.axes[0].extent();
+        let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0 && narrow);
         let axis = self.longer(&cell, &open);
         let wide = |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.axes[axis].extent();
         let Some(halves) = axis.filter(wide).map(|axis| cell.halves(axis)) else {

@@ -237,6 +237,18 @@ fn print(kind: &str, tally: &Tally) {
     }
 }
 
+/// Worlds in which something went wrong once: link 1 touches an obstacle wherever it slides, which filled the memory with
+/// columns, or left the start in one that was not looked into.
+#[test]
+fn remembered_worlds_are_decided() {
+    let run = Run { effort: Effort::default(), lattice: 512, share: u64::MAX, long: false };
+    for (kind, seed) in [("PP", 2471), ("PP", 2434), ("PR", 54)] {
+        let tally = look_at_all(kind, seed..seed + 1, &run, 1);
+        assert_eq!((tally.worlds, tally.lies.len()), (1, 0), "{kind} {seed}");
+        assert!(tally.planners.iter().all(|count| count.unknown == 0), "{kind} {seed}: {:?}", tally.planners);
+    }
+}
+
 #[test]
 fn answers_agree_with_brute_force_and_each_other() {
     let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
