@@ -6,4 +6,5 @@ mod exact;
 mod lattice;
 mod lattice_shapes;
 mod mixed;
+mod polygons;
 mod shapes;
