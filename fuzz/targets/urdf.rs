@@ -17,7 +17,11 @@ fuzz_target!(|bytes: &[u8]| {
     let inspection = inspect(&robot, Some(&world));
     match load_scene(&robot, &world) {
         Ok(loaded) => {
-            assert!(inspection.is_plannable(), "loads, yet the inspection says that it does not: {:?}", inspection.errors);
+            assert!(
+                inspection.is_plannable(),
+                "loads, yet the inspection says that it does not: {:?}",
+                inspection.errors
+            );
             assert!(loaded.scene.arm.reach() > 0.0);
             for part in loaded.scene.arm.links.iter().flat_map(|l| &l.parts) {
                 assert!(!part.shape.core().is_empty() && part.shape.radius().is_finite());

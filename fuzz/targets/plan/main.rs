@@ -40,9 +40,8 @@ fn frames(scene: &Scene, q: Configuration) -> [(f64, Vector); 2] {
     let arm = &scene.arm;
     let mut angle = 0.0_f64;
     let mut place = Vector::new(arm.base.x, arm.base.y);
-    let turned = |angle: f64, x: f64, y: f64| {
-        Vector::new(angle.cos() * x - angle.sin() * y, angle.sin() * x + angle.cos() * y)
-    };
+    let turned =
+        |angle: f64, x: f64, y: f64| Vector::new(angle.cos() * x - angle.sin() * y, angle.sin() * x + angle.cos() * y);
     [0, 1].map(|k| {
         if k == 1 {
             place += turned(angle, arm.offset.x, arm.offset.y);
@@ -59,14 +58,20 @@ fn check_sample(scene: &Scene, q: Configuration, promised: f64) {
     let frames = frames(scene, q);
     for (link, (angle, place)) in scene.arm.links.iter().zip(frames) {
         for part in &link.parts {
-            let Some((p, a)) = core(&part.shape, angle, place) else { continue };
+            let Some((p, a)) = core(&part.shape, angle, place) else {
+                continue;
+            };
             for obstacle in &scene.workspace.obstacles {
                 if !part.heights.meet(obstacle.heights) {
                     continue;
                 }
                 for piece in &obstacle.pieces {
-                    let Some((r, b)) = core(piece, 0.0, Vector::new(0.0, 0.0)) else { continue };
-                    let Ok(found) = query::distance(&p, a.as_ref(), &r, b.as_ref()) else { continue };
+                    let Some((r, b)) = core(piece, 0.0, Vector::new(0.0, 0.0)) else {
+                        continue;
+                    };
+                    let Ok(found) = query::distance(&p, a.as_ref(), &r, b.as_ref()) else {
+                        continue;
+                    };
                     let distance = found.distance - part.shape.radius() - piece.radius();
                     assert!(distance > promised - PARRY, "{distance} at {q}, promised {promised}");
                 }
