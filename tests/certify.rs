@@ -2,13 +2,13 @@
 
 mod common;
 
-use common::{Benchmark, all_kinds, benchmark, clutter, q, rectangle, rr, scene};
+use common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, q, rectangle, rr, scene};
 use cplan::certify::{
     CertifiedPath, Connectivity, Deviation, Occupancy, Posture, ProofDefect, Rejection, StuckBox, certify,
     connectivity, explore, recheck,
 };
-use cplan::geometry::{Convex, Point};
-use cplan::model::Scene;
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Motion, Scene};
 use cplan::space::{Axis, Configuration, Path};
 use proptest::prelude::*;
 
@@ -288,4 +288,20 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
             assert!(held, "kind {kind}: no box holds {at:?}");
         }
     }
+}
+
+/// The bridge of a gantry slides along a wall that it touches all the way: no column of it can be told free or stuck, and
+/// halving them to the last would fill the memory.
+#[test]
+fn link_1_sliding_along_a_wall_leaves_few_boxes() {
+    let slide = |x: f64, y: f64| Motion::Prismatic { direction: Vector::new(x, y) };
+    let range = Axis::Interval { lower: 0.0, upper: 2.0 };
+    let bridge = link("bridge", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
+    let head = link("head", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
+    let joints = [joint("x", slide(1.0, 0.0), range), joint("y", slide(0.0, 1.0), range)];
+    let arm = arm(joints, [bridge, head], Vector::zeros(), Point::origin());
+    let scene = scene(arm, vec![rectangle(0.0, 4.0, -0.5, 0.0)]);
+    let exploration = explore(&scene, q(0.5, 0.5), &[q(1.5, 0.5)], 0.0, 1000);
+    assert!(matches!(exploration.answer, Connectivity::Undecided { .. }));
+    assert!(exploration.boxes.len() < 100_000, "{}", exploration.boxes.len());
 }

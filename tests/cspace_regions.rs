@@ -153,27 +153,33 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
     })
 }
 
+/// Free in the regions is free in truth, and what keeps three times the margin is free in them.
+fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
+    let keep = scene.workspace.clearance;
+    let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
+    prop_assert_eq!(regions.proves, Proves::Outer { margin });
+    for q in lattice(regions.window, 60) {
+        let clearance = scene.clearance(q);
+        let free = is_free(&regions, q);
+        prop_assert!(!free || clearance > keep, "{q} is free at {clearance}");
+        prop_assert!(free || clearance <= keep + 3.0 * margin, "{q} is blocked at {clearance}");
+    }
+    // On the boundary, where a mistake shows first, the proven distance is kept.
+    for (a, b) in regions.free.iter().flat_map(points) {
+        for t in [0.0, 0.21, 0.5, 0.83] {
+            let q = a.coords + (b - a) * t;
+            prop_assert!(scene.clearance(q) >= keep + 0.25 * margin - 1e-9, "{} at {q}", scene.clearance(q));
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
     fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {
-        let keep = scene.workspace.clearance;
-        let regions = regions(&scene, margin, Configuration::new(0.3, -0.8), 1);
-        prop_assert_eq!(regions.proves, Proves::Outer { margin });
-        for q in lattice(regions.window, 60) {
-            let clearance = scene.clearance(q);
-            let free = is_free(&regions, q);
-            prop_assert!(!free || clearance > keep, "{q} is free at {clearance}");
-            prop_assert!(free || clearance <= keep + 3.0 * margin, "{q} is blocked at {clearance}");
-        }
-        // On the boundary, where a mistake shows first, the proven distance is kept.
-        for (a, b) in regions.free.iter().flat_map(points) {
-            for t in [0.0, 0.21, 0.5, 0.83] {
-                let q = a.coords + (b - a) * t;
-                prop_assert!(scene.clearance(q) >= keep + 0.25 * margin - 1e-9, "{} at {q}", scene.clearance(q));
-            }
-        }
+        keeps_its_margin(&scene, margin)?;
     }
 
     #[test]
@@ -187,6 +193,19 @@ proptest! {
             prop_assert!(area(&obstacle.contour) > 0.0 && is_simple(&obstacle.contour), "{:?}", obstacle.contour);
         }
     }
+}
+
+/// Found by the property tests: all that can hit is a thin wall across link 2 and a point, which the wall's ends touch
+/// and leave at the same place.
+#[test]
+fn a_wall_that_meets_a_point_keeps_its_margin() {
+    let turning = |name| joint(name, Motion::Revolute { sign: 1.0 }, Axis::Circle);
+    let wall = polygon(&[(0.4081276797182928, 0.3016264095245186), (-0.4081276797182928, 0.30162640952451863)]);
+    let point = polygon(&[(0.05, 0.4365861856598767)]);
+    let offset = Vector::new(0.0, 0.044567284175443776);
+    let joints = [turning("first"), turning("second")];
+    let scene = scene(joints, offset, [vec![], vec![wall]], vec![point], 0.023837485419749088);
+    keeps_its_margin(&scene, 0.01).unwrap_or_else(|e| panic!("{e}"));
 }
 
 #[test]

@@ -281,3 +281,25 @@ fn the_picture_shows_the_frames() {
     assert_eq!(code, 1);
     assert!(stderr.contains("no planar arm to draw"), "{stderr}");
 }
+
+/// Found by fuzzing: a joint that is held for want of a pair, with limits in the wrong order or one of them left out.
+#[test]
+fn reversed_limits_of_a_held_joint_are_reported_and_no_more() {
+    let wrist = |limit: &str| {
+        let joint = format!(
+            "<joint name=\"j3\" type=\"revolute\"><parent link=\"tool\"/><child link=\"hand\"/><axis xyz=\"0 0 1\"/>\
+             <limit {limit} effort=\"1\" velocity=\"2\"/></joint><link name=\"hand\"/><transmission name=\"t\"/>"
+        );
+        let found = with("<transmission name=\"t\"/>", &joint);
+        let text = messages(&found);
+        assert_eq!(text.matches("reversed").count(), 1, "{text}");
+        text
+    };
+    assert!(wrist("lower=\"2.5\" upper=\"-2.5\"").contains("lower 2.5 is above upper -2.5"));
+    let text = wrist("lower=\"2.5\"");
+    assert!(text.contains("lower 2.5 is above upper 0 (no upper is given)") && text.contains("give upper"), "{text}");
+    assert!(wrist("upper=\"-1\"").contains("lower 0 is above upper -1 (no lower is given)"));
+    let soft = "soft_lower_limit=\"4\" soft_upper_limit=\"-2\"";
+    let text = messages(&with("soft_lower_limit=\"-2\" soft_upper_limit=\"4\"", soft));
+    assert_eq!(text.matches("soft limits").count(), 1, "{text}");
+}

@@ -136,6 +136,31 @@ fn run(is_wavefront: bool, grid: &Grid, query: &Query, shortcut: bool) -> Run {
     }
 }
 
+/// Both planners' plain paths visit free cells, each a neighbour of the one before; the wavefront's is a shortest one.
+fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), TestCaseError> {
+    let reached = all_steps(grid)[goal][start];
+    let step = grid.step();
+    for planner in BOTH {
+        let run = run(planner, grid, &query(grid, start, goal), false);
+        if reached == u32::MAX {
+            prop_assert_eq!(run.outcome, Outcome::NoPath);
+            continue;
+        }
+        let path = found(&run);
+        prop_assert_eq!(path.start(), grid.center(start));
+        prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-12);
+        prop_assert!(path.waypoints().iter().all(|&q| !grid.blocked[grid.locate(q)]));
+        for (a, b) in path.segments() {
+            let d = [(b - a)[0] / step[0], (b - a)[1] / step[1]].map(f64::abs);
+            prop_assert!((d[0] + d[1] - 1.0).abs() < 1e-9 && d[0].min(d[1]) < 1e-9, "not one cell: {d:?}");
+        }
+        if planner {
+            prop_assert_eq!(path.segments().count() as u32, reached);
+        }
+    }
+    Ok(())
+}
+
 /// The table of Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3): the blanks are obstacles.
 #[test]
 fn the_published_8_by_8_wavefront() {
@@ -227,26 +252,7 @@ proptest! {
     #[test]
     fn plain_paths_visit_neighboring_free_cells((grid, start, goal) in random_problem()) {
         prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
-        let reached = all_steps(&grid)[goal][start];
-        let step = grid.step();
-        for planner in BOTH {
-            let run = run(planner, &grid, &query(&grid, start, goal), false);
-            if reached == u32::MAX {
-                prop_assert_eq!(run.outcome, Outcome::NoPath);
-                continue;
-            }
-            let path = found(&run);
-            prop_assert_eq!(path.start(), grid.center(start));
-            prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-12);
-            prop_assert!(path.waypoints().iter().all(|&q| !grid.blocked[grid.locate(q)]));
-            for (a, b) in path.segments() {
-                let d = [(b - a)[0] / step[0], (b - a)[1] / step[1]].map(f64::abs);
-                prop_assert!((d[0] + d[1] - 1.0).abs() < 1e-9 && d[0].min(d[1]) < 1e-9, "not one cell: {d:?}");
-            }
-            if planner {
-                prop_assert_eq!(path.segments().count() as u32, reached);
-            }
-        }
+        goes_from_cell_to_cell(&grid, start, goal)?;
     }
 
     #[test]
@@ -293,6 +299,14 @@ fn a_long_spiral_is_no_flat_field() {
     // A corridor one cell wide: each cell has 2 - sqrt 3 of the one before, but for the few at its closed end.
     let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
     assert!((potential[outer] - expected).abs() < 0.1, "{} instead of {expected}", potential[outer]);
+}
+
+/// Found by the property tests: a ring of three cells, where the goal is one step away either way round.
+#[test]
+fn paths_on_a_ring_of_three_cells_go_the_short_way() {
+    let grid = grid([3, 8], [true, false], vec![false; 24]);
+    assert_eq!(all_steps(&grid)[16][0], 1);
+    goes_from_cell_to_cell(&grid, 0, 16).unwrap_or_else(|e| panic!("{e}"));
 }
 
 /// Found by the property tests: without walls the harmonic function is constant, so a relaxed field goes flat.

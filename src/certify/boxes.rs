@@ -104,7 +104,8 @@ pub(super) enum State {
     Stuck(Pair),
     /// These pairs are undecided; no other pair comes too near.
     Mixed(Vec<Pair>),
-    /// Undecided, and too small for halves to tell more: link 1 alone is open in it, or it is of the finest size.
+    /// Undecided, and too small for halves to tell more: link 1 alone is open in a finest column, or it is of the finest
+    /// size.
     Finest,
     /// Replaced by two halves: the node of this index and the next.
     Split(u32),
@@ -140,6 +141,11 @@ const FIRST: usize = 8;
 /// Link 1 alone is decided on intervals of `q1`, down to this share of the domain: they are as tall as the domain, so
 /// fine ones cost nothing, and a thin wall of link 1 (a corner that just reaches an obstacle) needs fine ones.
 const FINEST_COLUMN: f64 = 1e-8;
+
+/// Columns of one width are halved beforehand only if there are no more of them. The ends of contacts leave a few open ones
+/// each; far more of them mean that link 1 slides along an obstacle at the very distance to keep, and halves would tell
+/// nothing. Such columns are left to the search, which halves boxes where it matters.
+const MOST_OPEN_COLUMNS: usize = 512;
 
 /// Boxes of link 2 are decided down to this share of the domain along each axis. Finer ones are no wider than what
 /// rounding leaves uncertain in a clearance, and a start or goal without any room would never be done with.
@@ -181,26 +187,28 @@ impl<'a> Subdivision<'a> {
         this
     }
 
-    /// The domain of `q1` as intervals on which link 1 is free, stuck, or (below the finest width) mixed.
+    /// The domain of `q1` as intervals, ascending, on which link 1 is free, stuck, or (at the end of halving) mixed.
     fn columns(&self) -> Vec<(f64, f64, State)> {
         let (lower, upper) = self.topology.axes[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
         let at = |i: usize| if i == FIRST { upper } else { lower + (upper - lower) * i as f64 / FIRST as f64 };
-        let mut open: Vec<(f64, f64, Vec<Pair>)> =
-            (0..FIRST).rev().map(|i| (at(i), at(i + 1), first.clone())).collect();
+        let mut open: Vec<(f64, f64, Vec<Pair>)> = (0..FIRST).map(|i| (at(i), at(i + 1), first.clone())).collect();
         let mut columns = Vec::new();
         let middle = self.topology.axes[1].domain().0;
-        while let Some((from, to, pairs)) = open.pop() {
-            let cell = Cell { lower: [from, middle], upper: [to, middle] };
-            match judge(self.scene, self.clearance, &cell, &pairs, &[]) {
-                State::Mixed(pairs) if to - from > FINEST_COLUMN * (upper - lower) => {
-                    let half = (from + to) / 2.0;
-                    open.push((half, to, pairs.clone()));
-                    open.push((from, half, pairs));
+        while !open.is_empty() {
+            let few = open.len() <= MOST_OPEN_COLUMNS;
+            for (from, to, pairs) in std::mem::take(&mut open) {
+                let cell = Cell { lower: [from, middle], upper: [to, middle] };
+                match judge(self.scene, self.clearance, &cell, &pairs, &[]) {
+                    State::Mixed(pairs) if few && to - from > FINEST_COLUMN * (upper - lower) => {
+                        let half = (from + to) / 2.0;
+                        open.extend([(from, half, pairs.clone()), (half, to, pairs)]);
+                    }
+                    state => columns.push((from, to, state)),
                 }
-                state => columns.push((from, to, state)),
             }
         }
+        columns.sort_by(|a, b| a.0.total_cmp(&b.0));
         columns
     }
 
@@ -227,8 +235,9 @@ impl<'a> Subdivision<'a> {
     /// Replaces a mixed box by two halves, or takes note that they would tell no more. Whether it did.
     pub fn split(&mut self, index: u32) -> bool {
         let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
-        let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0);
         let cell = self.nodes[index as usize].cell;
+        let narrow = cell.upper[0] - cell.lower[0] <= FINEST_COLUMN * self.topology.axes[0].extent();
+        let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0 && narrow);
         let axis = self.longer(&cell, &open);
         let wide = |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.axes[axis].extent();
         let Some(halves) = axis.filter(wide).map(|axis| cell.halves(axis)) else {

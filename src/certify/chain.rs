@@ -10,26 +10,49 @@ const NONE: u32 = u32::MAX;
 /// The chain of adjacent open boxes from `from` to one of `ends` with the fewest undecided ones, those of the finest
 /// size only if `finest`: breadth-first search in which free boxes cost nothing. `O(boxes + adjacencies)`.
 pub(super) fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
-    let cost_of = |index: u32| match boxes.nodes[index as usize].state {
+    let (_, parent, last) = search(boxes, &[from], ends, finest);
+    last.map(|last| back(&parent, last))
+}
+
+/// All undecided boxes, ascending, that lie on any of the chains with the fewest of them: two such searches.
+pub(super) fn all_of_fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest: bool) -> Vec<u32> {
+    let (here, ..) = search(boxes, &[from], &[], finest);
+    let (there, ..) = search(boxes, ends, &[], finest);
+    let cost = |index: usize| Some(here[index].checked_add(there[index])? - cost_of(boxes, index as u32, finest)?);
+    let fewest = (0..here.len()).filter_map(cost).min();
+    let mixed = |index: &usize| cost_of(boxes, *index as u32, finest) == Some(1);
+    (0..here.len()).filter(mixed).filter(|&index| cost(index) == fewest).map(|index| index as u32).collect()
+}
+
+/// What it costs to pass a box: nothing if it is free; none if it cannot be passed.
+fn cost_of(boxes: &Subdivision, index: u32, finest: bool) -> Option<u32> {
+    match boxes.nodes[index as usize].state {
         State::Free => Some(0),
         State::Mixed(_) => Some(1),
         State::Finest if finest => Some(1),
         _ => None,
-    };
-    cost_of(from)?;
+    }
+}
+
+/// Costs of reaching each box from `starts`, their own included, and the box before it, until one of `ends` is reached.
+fn search(boxes: &Subdivision, starts: &[u32], ends: &[u32], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.nodes.len()];
     let mut parent = vec![NONE; boxes.nodes.len()];
-    let mut queue = VecDeque::from([(0, from)]);
-    cost[from as usize] = 0;
+    let mut queue = VecDeque::new();
+    for &start in starts {
+        let Some(own) = cost_of(boxes, start, finest) else { continue };
+        cost[start as usize] = own;
+        if own == 0 { queue.push_front((0, start)) } else { queue.push_back((own, start)) }
+    }
     while let Some((so_far, index)) = queue.pop_front() {
         if so_far > cost[index as usize] {
             continue;
         }
         if ends.contains(&index) {
-            return Some(back(&parent, index));
+            return (cost, parent, Some(index));
         }
         for &next in &boxes.nodes[index as usize].neighbors {
-            let Some(step) = cost_of(next) else { continue };
+            let Some(step) = cost_of(boxes, next, finest) else { continue };
             if so_far + step < cost[next as usize] {
                 cost[next as usize] = so_far + step;
                 parent[next as usize] = index;
@@ -37,7 +60,7 @@ pub(super) fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest:
             }
         }
     }
-    None
+    (cost, parent, None)
 }
 
 /// A length in a queue.

@@ -1,7 +1,7 @@
 //! Is there a path at all? Proof that there is none, or a path, by subdivision.
 
 use super::boxes::{Cell, State, Subdivision};
-use super::chain::{fewest_mixed, shortest};
+use super::chain::{all_of_fewest_mixed, fewest_mixed, shortest};
 use super::channel::Channel;
 use super::disconnection::Disconnection;
 use crate::model::Scene;
@@ -89,12 +89,18 @@ pub fn explore(
     }
 }
 
+/// While there are fewer boxes a search costs little beside what it spares: only the boxes of one chain are halved before
+/// the next. With more, all chains with the fewest mixed boxes are refined at once, or else a way that is closed along a
+/// curve which boxes cannot prove would take a search for every few boxes along it: quadratic time.
+const ONE_BY_ONE: usize = 5000;
+
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration], max_boxes: usize) -> Connectivity {
     loop {
         let ends: Vec<u32> = goals.iter().filter_map(|&g| boxes.locate(g)).collect();
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
         // Boxes at the finest size are hopeless: only where nothing else connects do they stand in the way of a proof.
-        let Some(chain) = fewest_mixed(boxes, from, &ends, false).or_else(|| fewest_mixed(boxes, from, &ends, true))
+        let chain = fewest_mixed(boxes, from, &ends, false).map(|chain| (chain, false));
+        let Some((chain, finest)) = chain.or_else(|| fewest_mixed(boxes, from, &ends, true).map(|chain| (chain, true)))
         else {
             return disconnected(boxes, start, goals);
         };
@@ -103,6 +109,8 @@ fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration]
             let chain = shortest(boxes, start, from, goals);
             return Connectivity::Connected(Channel::new(boxes, &chain, start, goals));
         }
+        let chain =
+            if boxes.nodes.len() < ONE_BY_ONE { chain } else { all_of_fewest_mixed(boxes, from, &ends, finest) };
         let mixed: Vec<u32> = chain.into_iter().filter(|&b| matches!(state(b), State::Mixed(_))).collect();
         if mixed.is_empty() || boxes.nodes.len() > max_boxes {
             return Connectivity::Undecided { boxes: boxes.nodes.len() };

@@ -16,6 +16,10 @@ use crate::space::Configuration;
 /// 1.1e-16 each); bounds are weakened by it, so that they hold in floating point too.
 const ROUNDING: f64 = 1e-13;
 
+/// The same where shapes are to be stuck: more than the independent check demands ([`super::recheck`], 1e-12), so that it
+/// accepts what is claimed.
+const STUCK_ROUNDING: f64 = 2e-12;
+
 /// A set of deviations from a configuration, symmetric about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deviation {
@@ -100,7 +104,8 @@ impl<'a> Posture<'a> {
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
         let part = local.at(&self.poses[pair.link]);
-        separation(&part, piece).distance + self.farthest_motion(pair, deviation) + ROUNDING * self.scale(&part, piece)
+        let room = separation(&part, piece).distance + self.farthest_motion(pair, deviation);
+        room + STUCK_ROUNDING * self.scale(&part, piece)
     }
 
     /// Magnitude of the coordinates that enter a distance.

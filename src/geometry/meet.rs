@@ -32,7 +32,13 @@ pub(super) fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> {
     (0..count).map(move |i| (core[i], core[(i + 1) % n]))
 }
 
-/// Whether a closed convex counter-clockwise polygon contains `p`; never for points and segments.
+/// Whether a convex counter-clockwise polygon contains `p`, in its interior or on its boundary; never if it has no area.
 fn polygon_contains(polygon: &[Point], p: Point) -> bool {
-    polygon.len() > 2 && sides(polygon).all(|(a, b)| orientation(a, b, p) != Orientation::Clockwise)
+    let mut strictly = false;
+    let left_of_all = sides(polygon).all(|(a, b)| {
+        let side = orientation(a, b, p);
+        strictly |= side == Orientation::CounterClockwise;
+        side != Orientation::Clockwise
+    });
+    polygon.len() > 2 && left_of_all && strictly
 }

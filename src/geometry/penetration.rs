@@ -43,11 +43,14 @@ pub struct PointPenetration {
     pub location: Location,
 }
 
-/// Penetration of `point` in a convex counter-clockwise polygon, which may be a segment or a point. `O(n)`.
+/// Penetration of `point` in a convex counter-clockwise polygon. `O(n)`.
+///
+/// The polygon may be a segment or a point, and may have corners within its sides and corners that coincide (the
+/// distance to a side without length is NaN, and counts for nothing).
 #[must_use]
 pub fn point_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
     let n = polygon.len();
-    if n < 2 || (n == 2 && polygon[0] == polygon[1]) {
+    if polygon.iter().all(|c| *c == polygon[0]) {
         let distance = polygon.first().map_or(f64::INFINITY, |c| (point - c).norm());
         let location = if polygon.first() == Some(&point) { Location::Boundary } else { Location::Outside };
         return PointPenetration { distances: Vec::new(), depth: -distance, side: None, location };
@@ -55,9 +58,13 @@ pub fn point_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
     let distances: Vec<f64> = (0..n).map(|i| signed_distance(point, polygon[i], polygon[(i + 1) % n])).collect();
     let (side, depth) =
         distances.iter().copied().enumerate().fold((0, f64::INFINITY), |best, d| if d.1 < best.1 { d } else { best });
+    // On the line of a side and to the right of none the point is on the boundary, unless it is on the line of all: then
+    // the polygon has no area, and ends somewhere on that line.
+    let on_boundary =
+        || distances.iter().any(|&d| d > 0.0) || sides(polygon).any(|(a, b)| point_on_segment(point, a, b));
     let location = if depth > 0.0 {
         Location::Inside
-    } else if depth == 0.0 && (n > 2 || point_on_segment(point, polygon[0], polygon[1])) {
+    } else if depth == 0.0 && on_boundary() {
         Location::Boundary
     } else {
         Location::Outside

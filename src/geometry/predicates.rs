@@ -2,7 +2,10 @@
 //!
 //! All rest on the orientation of three points, computed with adaptive exact arithmetic (J. R. Shewchuk, *Adaptive
 //! Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997). It is exact while no product of
-//! two coordinate differences over- or underflows: for coordinates of magnitude 1e-140 to 1e+140, or 0.
+//! two coordinate differences over- or underflows: for coordinates of magnitude 1e-140 to 1e+140, or 0, in any mixture
+//! (such coordinates are multiples of 2^-518, so that all parts of a product are multiples of 2^-1036, which doubles can
+//! hold). Signs of distances, as in [`super::point_penetration`], are exact from 1e-90 to 1e+90: the quotient by a length
+//! must not underflow either.
 
 use super::Point;
 

@@ -47,8 +47,7 @@ pub fn world(kind: &str, seed: u64) -> Option<Problem> {
     let arm = arm(&mut dice, kind);
     let clearance = if dice.chance(0.25) { dice.range(0.0, 0.05) } else { 0.0 };
     let reach = arm.reach() + 0.3;
-    let most = if dice.chance(0.5) { 6 } else { 30 };
-    let count = 1 + dice.below(most);
+    let count = 5 + dice.below(26);
     let mut obstacles = Vec::new();
     while obstacles.len() < count as usize {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
@@ -164,7 +163,10 @@ fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
             // Two walls that leave a passage.
             let gap = dice.range(0.0, 0.15);
             let [x, y] = [center.x, center.y];
-            vec![rectangle(x, x + size, y + gap, y + gap + size, 0.0), rectangle(x, x + size, y - size, y - gap, 0.0)]
+            vec![
+                rectangle(x, x + size, y + gap, y + gap + size, 0.0),
+                rectangle(x, x + size, y - gap - size, y - gap, 0.0),
+            ]
         }
         _ => {
             // Lattice squares that share a side and a corner.

@@ -81,3 +81,56 @@ fn seams_of_wrapped_angles_are_noted_and_undone() {
     let (_, stdout, _) = run(&["--unwrap"]);
     assert!(!stdout.contains("--unwrap") && stdout.contains("3.1832 rad"), "{stdout}");
 }
+
+/// The head of the gantry slides past a wall at exactly the distance to keep, from which it can neither be told that it
+/// keeps it nor that it does not; all lengths are binary fractions, so that the distance computed is that distance.
+#[test]
+fn a_motion_that_grazes_at_exactly_the_clearance_is_undecided() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |file: &str| folder.path().join(file);
+    let slide = |name: &str, parent: &str, child: &str, axis: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"prismatic\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <axis xyz=\"{axis}\"/><limit lower=\"0\" upper=\"4\" effort=\"1\" velocity=\"1\"/></joint>"
+        )
+    };
+    let robot = format!(
+        "<robot name=\"gantry\"><link name=\"base\"/>{}<link name=\"bridge\"/>{}<link name=\"head\"><collision>\
+         <geometry><box size=\"0.5 0.5 0.5\"/></geometry></collision></link></robot>",
+        slide("x", "base", "bridge", "1 0 0"),
+        slide("y", "bridge", "head", "0 1 0")
+    );
+    let world = "[[obstacle]]\nname = \"wall\"\npolygon = [[1.0, 2.0], [3.0, 2.0], [3.0, 2.5], [1.0, 2.5]]\n";
+    std::fs::write(at("gantry.urdf"), robot).unwrap();
+    std::fs::write(at("world.toml"), world).unwrap();
+    // The head's upper side is at 1.75.
+    std::fs::write(at("m.csv"), "time,x,y\n0,0.5,1.5\n6,3.5,1.5\n").unwrap();
+    let verify = |options: &[&str]| {
+        let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
+            .current_dir(folder.path())
+            .args(["verify", "gantry.urdf", "world.toml", "m.csv"])
+            .args(options)
+            .output();
+        let Output { status, stdout, .. } = run.unwrap();
+        (status.code(), String::from_utf8(stdout).unwrap())
+    };
+    let (code, text) = verify(&["--clearance", "0.25"]);
+    assert_eq!(code, Some(4), "{text}");
+    let line = |key: &str| text.lines().find(|line| line.starts_with(key)).unwrap_or_else(|| panic!("{key}:\n{text}"));
+    assert_eq!(line("result"), "result     undecided");
+    for part in ["link \"head\"", "obstacle \"wall\"", "0.250000 m, too near to be told apart"] {
+        assert!(line("undecided").contains(part), "no \"{part}\" in:\n{text}");
+    }
+    assert!(!text.contains("proven"), "{text}");
+    let (code, json) = verify(&["--clearance", "0.25", "--json"]);
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!((code, &found["verdict"]), (Some(4), &"undecided".into()));
+    let [time, depth] = ["time", "depth"].map(|key| found["undecided"][key].as_f64().unwrap());
+    // The head comes alongside the wall after 0.5 s, when its front is at 1.
+    assert!((depth + 0.25).abs() < 1e-9 && (time - 0.5).abs() < 1e-3, "{depth} at {time}");
+    assert!(["clearance", "first_contact", "nearest"].iter().all(|key| found[key].is_null()), "{json}");
+    assert_eq!(verify(&["--clearance", "0.25", "--quiet"]), (Some(4), String::new()));
+    // A hair to either side of it is decided.
+    assert_eq!(verify(&["--clearance", "0.249999"]).0, Some(0));
+    assert_eq!(verify(&["--clearance", "0.250001"]).0, Some(3));
+}

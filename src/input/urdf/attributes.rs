@@ -170,15 +170,23 @@ impl Attributes<'_> {
         None
     }
 
-    /// Lower, upper, velocity and acceleration of a `<limit>`. Lower may exceed upper only where the type ignores them.
-    pub fn limit(&mut self, limit: Node, ranged: bool) -> [Option<f64>; 4] {
-        let values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
-        if ranged
-            && let [Some(lower), Some(upper), ..] = values
-            && lower > upper
-        {
+    /// Lower, upper, velocity and acceleration of a `<limit>`; `absent` is what a lower and an upper limit that are not
+    /// there mean. Lower may exceed upper only where the type ignores them, so not if `ranged`; there they are swapped once
+    /// that is reported, so that what is examined further is in order.
+    pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
+        let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
+        let [lower, upper] = [0, 1].map(|k| values[k].unwrap_or(absent[k]));
+        if ranged && lower > upper {
+            let missing = ["lower", "upper"].into_iter().zip(values).find(|(_, value)| value.is_none());
             let message = format!("the limits are reversed: lower {lower} is above upper {upper}");
-            self.defect(limit, Some("lower"), message, "swap lower and upper");
+            match missing {
+                None => self.defect(limit, Some("lower"), message, "swap lower and upper"),
+                Some((name, _)) => {
+                    let message = format!("{message} (no {name} is given)");
+                    self.defect(limit, None, message, &format!("give {name} as well"));
+                }
+            }
+            values[..2].copy_from_slice(&[Some(upper), Some(lower)]);
         }
         for (name, value) in [("velocity", values[2]), ("acceleration", values[3])] {
             if value.is_some_and(|v| v < 0.0) {
@@ -196,7 +204,7 @@ impl Attributes<'_> {
             let message = format!("the soft limits are reversed: {lower} is above {upper}");
             self.defect(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
         }
-        (lower != 0.0 || upper != 0.0).then_some([lower, upper])
+        (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
 
     /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).

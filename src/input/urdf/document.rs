@@ -193,8 +193,10 @@ impl Reader<'_> {
         let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
         let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
         let limit = attributes.only(joint, "limit", false);
+        // From URDF 1.2 on an absent limit means none, before that it means 0.
+        let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
         let [lower, upper, velocity, acceleration] = match limit {
-            Some(limit) => attributes.limit(limit, matches!(kind, Some("revolute" | "prismatic"))),
+            Some(limit) => attributes.limit(limit, [low, high], matches!(kind, Some("revolute" | "prismatic"))),
             None => [None; 4],
         };
         let mimic = attributes.only(joint, "mimic", false);
@@ -214,8 +216,6 @@ impl Reader<'_> {
             self.copy_element(axis, &["xyz"]);
         }
         if limit.is_some() {
-            // From URDF 1.2 on an absent limit means none, before that it means 0.
-            let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
             let _ = write!(
                 self.copy,
                 "<limit lower=\"{}\" upper=\"{}\" velocity=\"{}\"/>",

@@ -1,0 +1,8 @@
+//! Files of the repository.
+
+use std::path::PathBuf;
+
+/// A file of the repository.
+pub fn shipped(file: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..").join(file)
+}
