@@ -42,6 +42,9 @@ const MOST_CELLS: usize = 2048;
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
 
+/// Share of a slide's stroke that counts as reach where that is smaller, as for a gantry's slender tool.
+const STROKE: f64 = 0.1;
+
 /// Turns of the universal cover to plan in, on either side of the start.
 const PERIODS: usize = 1;
 
@@ -166,7 +169,10 @@ fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions>
 
 /// The level's margin, metres.
 fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
-    effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level as i32)
+    let arm = &problem.scene.arm;
+    let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
+    let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
+    effort.margin * scale * 0.25_f64.powi(level as i32)
 }
 
 /// Cells of the level's size.
