@@ -2,8 +2,8 @@
 
 mod common;
 
-use cplan::cspace::{Hits, Proves, Row, Rows, grid_from_rows, outer_grid, sampled_grid};
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::cspace::{Proves, Row, Rows, grid_from_rows, outer_grid, sampled_grid};
+use cplan::geometry::{Convex, Hits, Point, Vector};
 use cplan::model::{Arm, Motion, Scene};
 use cplan::space::{Axis, Configuration};
 use proptest::prelude::*;

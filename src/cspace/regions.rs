@@ -3,8 +3,8 @@
 use super::curves::Curves;
 use super::rows::Rows;
 use super::union::free_space;
-use super::{Hits, Proves, translation};
-use crate::geometry::{Point, cross};
+use super::{Proves, translation};
+use crate::geometry::{Hits, Point, cross};
 use crate::model::{Joint, Scene};
 use crate::space::{Axis, Configuration, Topology};
 use std::f64::consts::{PI, TAU};
