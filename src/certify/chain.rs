@@ -1,24 +1,51 @@
 //! Chains of adjacent boxes.
 
-use super::boxes::{State, Subdivision};
-use crate::space::Configuration;
+use super::boxes::Cell;
+use crate::space::{Configuration, Topology};
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, VecDeque};
 
 const NONE: u32 = u32::MAX;
 
+/// What is known about a box that may hold free configurations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Openness {
+    /// All of it is free.
+    Free,
+    /// Undecided.
+    Mixed,
+    /// Undecided, and halves would tell no more.
+    Finest,
+}
+
+/// Boxes side by side that cover the domain, by number.
+pub(super) trait Mosaic {
+    /// One more than the greatest number of a box.
+    fn count(&self) -> usize;
+    /// Which configurations.
+    fn cell(&self, index: u32) -> Cell;
+    /// None for a stuck box, or one that is there no more.
+    fn openness(&self, index: u32) -> Option<Openness>;
+    /// Calls `f` with the boxes that share a side with this one, in a fixed order.
+    fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
+    /// A box that holds `q` and is not stuck.
+    fn locate(&self, q: Configuration) -> Option<u32>;
+    /// Of the configuration space.
+    fn topology(&self) -> &Topology;
+}
+
 /// The chain of adjacent open boxes from `from` to one of `ends` with the fewest undecided ones, those of the finest
 /// size only if `finest`: breadth-first search in which free boxes cost nothing. `O(boxes + adjacencies)`.
-pub(super) fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
-    let cost_of = |index: u32| match boxes.nodes[index as usize].state {
-        State::Free => Some(0),
-        State::Mixed(_) => Some(1),
-        State::Finest if finest => Some(1),
+pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
+    let cost_of = |index: u32| match boxes.openness(index) {
+        Some(Openness::Free) => Some(0),
+        Some(Openness::Mixed) => Some(1),
+        Some(Openness::Finest) if finest => Some(1),
         _ => None,
     };
     cost_of(from)?;
-    let mut cost = vec![u32::MAX; boxes.nodes.len()];
-    let mut parent = vec![NONE; boxes.nodes.len()];
+    let mut cost = vec![u32::MAX; boxes.count()];
+    let mut parent = vec![NONE; boxes.count()];
     let mut queue = VecDeque::from([(0, from)]);
     cost[from as usize] = 0;
     while let Some((so_far, index)) = queue.pop_front() {
@@ -28,14 +55,14 @@ pub(super) fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest:
         if ends.contains(&index) {
             return Some(back(&parent, index));
         }
-        for &next in &boxes.nodes[index as usize].neighbors {
-            let Some(step) = cost_of(next) else { continue };
+        boxes.for_each_neighbor(index, |next| {
+            let Some(step) = cost_of(next) else { return };
             if so_far + step < cost[next as usize] {
                 cost[next as usize] = so_far + step;
                 parent[next as usize] = index;
                 if step == 0 { queue.push_front((so_far, next)) } else { queue.push_back((so_far + 1, next)) }
             }
-        }
+        });
     }
     None
 }
@@ -60,16 +87,16 @@ impl Ord for Length {
 
 /// The chain of free boxes from the start, in box `from`, to a goal along which the polyline through the middles of the
 /// doors is the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
-pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
+pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut ends: Vec<(u32, Configuration)> = Vec::new();
     for &goal in goals {
         ends.extend(boxes.locate(goal).map(|index| (index, topology.wrap(goal))));
     }
-    let mut length = vec![f64::INFINITY; boxes.nodes.len()];
+    let mut length = vec![f64::INFINITY; boxes.count()];
     // Where each box is entered, in the fundamental domain.
-    let mut entry = vec![topology.wrap(start); boxes.nodes.len()];
-    let mut parent = vec![NONE; boxes.nodes.len()];
+    let mut entry = vec![topology.wrap(start); boxes.count()];
+    let mut parent = vec![NONE; boxes.count()];
     let mut queue = BinaryHeap::from([Reverse((Length(0.0), from))]);
     let mut best = (f64::INFINITY, from);
     length[from as usize] = 0.0;
@@ -84,12 +111,12 @@ pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goa
                 best = (total, index);
             }
         }
-        let node = &boxes.nodes[index as usize];
-        for &next in &node.neighbors {
-            let beside = &boxes.nodes[next as usize];
-            let Some(door) = node.cell.door(&beside.cell, topology).filter(|_| beside.state == State::Free) else {
-                continue;
-            };
+        let cell = boxes.cell(index);
+        boxes.for_each_neighbor(index, |next| {
+            if boxes.openness(next) != Some(Openness::Free) {
+                return;
+            }
+            let Some(door) = cell.door(&boxes.cell(next), topology) else { return };
             let longer = so_far + (door.middle() - at).norm();
             if longer < length[next as usize] {
                 length[next as usize] = longer;
@@ -97,7 +124,7 @@ pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goa
                 parent[next as usize] = index;
                 queue.push(Reverse((Length(longer), next)));
             }
-        }
+        });
     }
     back(&parent, best.1)
 }

@@ -7,6 +7,7 @@
 
 mod convex;
 mod decompose;
+mod erosion;
 mod hull;
 mod intervals;
 mod meet;

@@ -1,0 +1,192 @@
+//! What is known about all values of joint 2 while joint 1 stays within a short interval, a *slab*.
+//!
+//! At a fixed `q1` the values of `q2` at which a pair meets are known in closed form (contact angles). While joint 1
+//! moves by at most `h` from the middle of the slab, link 2 moves rigidly, and a point of it that touches the obstacle
+//! moves by at most a chord `m` about the base. So where the pair keeps more than `m` apart at the middle, it is free all
+//! over the slab; where a point of it lies more than `m` deep in both shapes, it is stuck all over the slab.
+
+use super::boxes::Cell;
+use super::deviation::{Deviation, Posture};
+use super::disconnection::StuckBox;
+use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
+use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
+use crate::space::Configuration;
+use std::f64::consts::PI;
+
+/// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
+/// of the arm's size, and angles to whole turns, is covered as well.
+const OUTWARD: f64 = 2.0 * ROUNDING;
+
+/// By how much more than a slab's motion shapes must overlap to count as stuck: the rest is what joint 2 may move by in
+/// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the
+/// slab).
+const OVERLAP: f64 = 1.25;
+
+/// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
+const MOST_TILES: usize = 4096;
+
+/// A pair of link 2, prepared.
+struct Prepared<'a> {
+    pair: Pair,
+    piece: &'a Convex,
+    features: Features,
+    part: Carried,
+    /// Reach from the base of all that the part can occupy, and of the piece grown by the clearance, metres.
+    reach: [f64; 2],
+    /// Whether the part, not the piece, is eroded: the one that is deeper.
+    erode_part: bool,
+    /// The eroded shape for every width of slab that was asked for; none where nothing is left.
+    eroded: Vec<Option<Option<Eroded>>>,
+}
+
+/// A shape that is nearer to the bone.
+enum Eroded {
+    Part(Carried),
+    Piece(Features),
+    /// Neither: the clearance to keep is more than what has to be taken away; by how much.
+    Grown(f64),
+}
+
+/// Link 2 and all that it can meet, for slabs of joint 1.
+pub(super) struct SecondLink<'a> {
+    scene: &'a Scene,
+    clearance: f64,
+    pairs: Vec<Prepared<'a>>,
+    scratch: Vec<[f64; 2]>,
+}
+
+/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`SecondLink`].
+#[derive(Default)]
+pub(super) struct Verdicts {
+    /// Outside these intervals no pair comes too near anywhere in the slab.
+    pub outer: Vec<[f64; 2]>,
+    /// Within each of these its pair is too near all over the slab.
+    pub inner: Vec<(usize, [f64; 2])>,
+}
+
+impl<'a> SecondLink<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let joint = &scene.arm.joints[1];
+        let prepare = |&pair: &Pair| {
+            let (part, piece) = (scene.part(pair), scene.piece(pair));
+            let carried = swept(part, joint, scene.arm.offset).reach_from(Point::origin());
+            Prepared {
+                pair,
+                piece,
+                features: Features::new(piece),
+                part: Carried::new(joint.motion, part),
+                reach: [carried, piece.reach_from(scene.arm.base) + clearance],
+                erode_part: part.depth() > piece.depth(),
+                eroded: Vec::new(),
+            }
+        };
+        let pairs = scene.pairs().iter().filter(|p| p.link == 1).map(prepare).collect();
+        Self { scene, clearance, pairs, scratch: Vec::new() }
+    }
+
+    /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
+    fn motion(&self, reach: f64, half: f64) -> f64 {
+        match self.scene.arm.joints[0].motion {
+            Motion::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
+            Motion::Prismatic { .. } => half,
+        }
+    }
+
+    /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
+    /// this `level`.
+    pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
+        verdicts.outer.clear();
+        verdicts.inner.clear();
+        let middle = (from + to) / 2.0;
+        let width = (to - middle).max(middle - from);
+        let (elbow, heading) = self.elbow(middle);
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for index in 0..self.pairs.len() {
+            let pair = &self.pairs[index];
+            let grow = self.clearance + self.motion(pair.reach[0].min(pair.reach[1]), width) + OUTWARD;
+            scratch.clear();
+            let hits = pair.part.hits(elbow, heading, &pair.features, grow, &mut scratch);
+            if hits == Hits::Never {
+                continue;
+            }
+            let joint = &self.scene.arm.joints[1];
+            on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
+            let overlap = self.motion(pair.reach[0], half) * OVERLAP + OUTWARD;
+            scratch.clear();
+            let hits = self.pairs[index].stuck(level, overlap, self.clearance, elbow, heading, &mut scratch);
+            on_axis(joint, hits, &scratch, |interval| {
+                if interval[0] < interval[1] {
+                    verdicts.inner.push((index, interval));
+                }
+            });
+        }
+        self.scratch = scratch;
+    }
+
+    /// The boxes that state that pair `index` is stuck for `q2` in `interval`, all over the slab. Whether the bounds that
+    /// boxes are judged by see it.
+    pub fn tile(&self, from: f64, to: f64, index: usize, interval: [f64; 2], boxes: &mut Vec<StuckBox>) -> bool {
+        let pair = self.pairs[index].pair;
+        let begin = boxes.len();
+        let mut open = vec![interval];
+        while let Some([lower, upper]) = open.pop() {
+            let cell = Cell { lower: [from, lower], upper: [to, upper] };
+            if is_stuck(self.scene, pair, &cell, self.clearance) {
+                boxes.push(StuckBox { cell, pair });
+                continue;
+            }
+            let middle = (lower + upper) / 2.0;
+            if open.len() + boxes.len() - begin > MOST_TILES || middle <= lower || middle >= upper {
+                return false;
+            }
+            open.push([middle, upper]);
+            open.push([lower, middle]);
+        }
+        true
+    }
+
+    /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+    fn elbow(&self, q1: f64) -> (Point, Vector) {
+        let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
+    }
+}
+
+impl Prepared<'_> {
+    /// Values of joint 2 at which the shapes overlap by more than `overlap` less `clearance`.
+    fn stuck(
+        &mut self,
+        level: usize,
+        overlap: f64,
+        clearance: f64,
+        elbow: Point,
+        heading: Vector,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        if self.eroded.len() <= level {
+            self.eroded.resize_with(level + 1, || None);
+        }
+        let (part, piece, motion) = (self.part.shape(), self.piece, self.part.motion());
+        let eroded = self.eroded[level].get_or_insert_with(|| {
+            let by = overlap - clearance;
+            if by <= 0.0 {
+                Some(Eroded::Grown(-by))
+            } else if self.erode_part {
+                part.eroded(by).map(|shape| Eroded::Part(Carried::new(motion, &shape)))
+            } else {
+                piece.eroded(by).map(|shape| Eroded::Piece(Features::new(&shape)))
+            }
+        });
+        match eroded {
+            None => Hits::Never,
+            Some(Eroded::Part(part)) => part.hits(elbow, heading, &self.features, 0.0, out),
+            Some(Eroded::Piece(piece)) => self.part.hits(elbow, heading, piece, 0.0, out),
+            Some(Eroded::Grown(by)) => self.part.hits(elbow, heading, &self.features, *by, out),
+        }
+    }
+}
+
+/// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
+pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
+    Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
+}
