@@ -5,9 +5,12 @@ mod common;
 use common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, q, rectangle, rr, scene};
 use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
 use cplan::geometry::{Convex, Point, Vector};
+use cplan::input::{self, Overrides};
 use cplan::model::{Motion, Scene};
+use cplan::solve::{Verdict, decide};
 use cplan::space::{Axis, Configuration};
 use proptest::prelude::*;
+use std::path::Path;
 
 const SLABS: usize = 20_000;
 
@@ -203,4 +206,32 @@ fn joints_that_cannot_move_are_left_to_others() {
     let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
     let scene = scene(rr([fixed, Axis::Circle]), clutter());
     assert_eq!(check(&scene, q(0.5, 0.0), &[q(0.5, 0.1)], 0.0), None);
+}
+
+/// All shipped workspaces, the six closed twins and the six open ones among them.
+#[test]
+fn shipped_workspaces_are_answered_as_they_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<_> = std::fs::read_dir(root.join("workspaces")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    let mut undecided = Vec::new();
+    for file in &files {
+        let text = std::fs::read_to_string(file).unwrap();
+        let stated = |key: &str| text.lines().find_map(|l| l.strip_prefix(key)).unwrap().trim().to_owned();
+        let urdf = root.join("robots").join(format!("{}.urdf", stated("# robot: ")));
+        let problem = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem;
+        let (scene, clearance) = (&problem.scene, problem.scene.workspace.clearance);
+        let feasible = stated("# expect: ") == "found";
+        match check(scene, problem.start, &problem.goals, clearance) {
+            Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
+            None => undecided.push(file.file_stem().unwrap().to_owned()),
+        }
+        match decide(&problem, SLABS) {
+            Verdict::Found(path) => assert!(feasible && path.clearance() > 0.0, "{}", file.display()),
+            Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
+            Verdict::Unknown(_) => {}
+        }
+    }
+    assert!(undecided.is_empty(), "{undecided:?} of {}", files.len());
 }

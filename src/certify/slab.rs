@@ -190,3 +190,94 @@ impl Prepared<'_> {
 pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
     Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::hull;
+    use crate::model::{Arm, Heights, Joint, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
+    use crate::space::Axis;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn shape(spread: f64) -> impl Strategy<Value = Convex> {
+        let points = prop::collection::vec((-spread..spread, -spread..spread), 1..6);
+        (points, prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(|(points, radius)| {
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            Convex::new(hull(&points), radius)
+        })
+    }
+
+    fn joint(turns: bool, axis: Axis) -> Joint {
+        let motion = if turns {
+            Motion::Revolute { sign: -1.0 }
+        } else {
+            Motion::Prismatic { direction: Vector::new(0.6, 0.8) }
+        };
+        Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+    }
+
+    fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
+        let long = Axis::Interval { lower: -4.0, upper: 4.0 };
+        let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
+        let part = Part { shape: part, heights: Heights::ALL, body: "body".into() };
+        let arm = Arm {
+            name: "arm".into(),
+            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { Axis::Circle } else { long })],
+            links: [link(vec![]), link(vec![part])],
+            base: Point::new(0.1, -0.2),
+            offset,
+            tip: Point::origin(),
+            tip_name: "tip".into(),
+            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        };
+        let shape = Shape::Polygon(piece.core().to_vec());
+        let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
+        Scene::new(arm, Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0 })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(600))]
+
+        /// The oracle is the distance of the shapes at sampled postures, which knows no contact angles.
+        #[test]
+        fn what_is_said_of_a_slab_holds_all_over_it(
+            kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
+            part in shape(0.8), piece in shape(0.6), at in (-1.2..1.2f64, -1.2..1.2f64),
+            middle in -3.0..3.0f64, half in prop_oneof![0.001..0.02f64, 0.02..0.3f64],
+            clearance in prop_oneof![Just(0.0), 0.0..0.2f64],
+            samples in prop::collection::vec((-1.0..=1.0f64, 0.0..=1.0f64), 40),
+        ) {
+            let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
+            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::new(moved, piece.radius()));
+            let mut second = SecondLink::new(&scene, clearance);
+            let mut verdicts = Verdicts::default();
+            let (from, to) = (middle - half, middle + half);
+            second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
+            let Verdicts { mut outer, inner } = verdicts;
+            crate::geometry::merge_in_place(&mut outer);
+            let (bottom, top) = scene.arm.joints[1].axis.domain();
+            for (u, v) in samples {
+                let q1 = (middle + u * half).clamp(from, to);
+                let q2 = bottom + v * (top - bottom);
+                if !outer.iter().any(|i| i[0] <= q2 && q2 <= i[1]) {
+                    let distance = scene.clearance(Configuration::new(q1, q2));
+                    prop_assert!(distance > 0.0 && distance >= clearance, "{distance} at {q1} {q2}");
+                }
+                for (_, [lower, upper]) in &inner {
+                    prop_assert!(outer.iter().any(|i| i[0] <= *lower && *upper <= i[1]));
+                    let distance = scene.clearance(Configuration::new(q1, lower + v * (upper - lower)));
+                    prop_assert!(distance < clearance.max(0.0) || distance < 0.0, "{distance}");
+                }
+            }
+            // The boxes that state it say neither more nor less.
+            for &(pair, interval) in &inner {
+                let mut boxes = Vec::new();
+                prop_assert!(second.tile(from, to, pair, interval, &mut boxes), "{interval:?}");
+                boxes.sort_by(|a, b| a.cell.lower[1].total_cmp(&b.cell.lower[1]));
+                prop_assert!(boxes.windows(2).all(|w| w[0].cell.upper[1] == w[1].cell.lower[1]));
+                prop_assert_eq!([boxes[0].cell.lower[1], boxes[boxes.len() - 1].cell.upper[1]], interval);
+            }
+        }
+    }
+}

@@ -133,7 +133,14 @@ impl<'a> Slabs<'a> {
                     let wall = Some(index(this.walls.len()));
                     this.walls.push(stuck);
                     let none = [index(this.spans.len()); 2];
-                    this.slabs.push(Slab { from: stretch.from, to: stretch.to, level: 0, judged: true, spans: none, wall });
+                    this.slabs.push(Slab {
+                        from: stretch.from,
+                        to: stretch.to,
+                        level: 0,
+                        judged: true,
+                        spans: none,
+                        wall,
+                    });
                 }
                 Kind::Unknown => {
                     let spans = this.whole(Openness::Finest);
@@ -159,7 +166,13 @@ impl<'a> Slabs<'a> {
         // The finest level whose slabs are as wide; the first slabs' ends are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + ALIKE);
         let level = (0..=MOST_LEVELS).take_while(fits).last().unwrap_or(0);
-        self.second.judge(from, to, level, half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE), &mut self.verdicts);
+        self.second.judge(
+            from,
+            to,
+            level,
+            half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE),
+            &mut self.verdicts,
+        );
         let first = index(self.spans.len());
         self.cut(level);
         self.slabs.push(Slab { from, to, level, judged: true, spans: [first, index(self.spans.len())], wall: None });

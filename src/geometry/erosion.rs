@@ -94,7 +94,8 @@ mod tests {
 
     #[test]
     fn what_is_too_thin_leaves_nothing() {
-        let bar = Convex::new(vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)], 0.0);
+        let bar =
+            Convex::new(vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)], 0.0);
         assert!(bar.eroded(0.049).is_some());
         assert!(bar.eroded(0.051).is_none());
         assert!(Convex::segment(Point::new(0., 0.), Point::new(1., 0.)).eroded(1e-9).is_none());

@@ -8,9 +8,11 @@ mod admission;
 mod ladder;
 mod method;
 mod subdivision;
+mod swift;
 
 pub use ladder::{Effort, solve};
 pub use method::Method;
+pub use swift::decide;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
