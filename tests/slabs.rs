@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, q, rectangle, rr, scene};
+use common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, problem, q, rectangle, rr, scene};
 use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{Motion, Scene};
-use cplan::solve::{Verdict, decide};
+use cplan::solve::{Verdict, decide, shorten};
 use cplan::space::{Axis, Configuration};
 use proptest::prelude::*;
 use std::path::Path;
@@ -227,11 +227,25 @@ fn shipped_workspaces_are_answered_as_they_say() {
             Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
             None => undecided.push(file.file_stem().unwrap().to_owned()),
         }
-        match decide(&problem, SLABS) {
-            Verdict::Found(path) => assert!(feasible && path.clearance() > 0.0, "{}", file.display()),
-            Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
-            Verdict::Unknown(_) => {}
+        for verdict in [decide(&problem, SLABS), shorten(&problem, 1e-3, SLABS)] {
+            match verdict {
+                Verdict::Found(path) => assert!(feasible && path.clearance() >= clearance, "{}", file.display()),
+                Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
+                Verdict::Unknown(why) => panic!("{}: {why}", file.display()),
+            }
         }
     }
     assert!(undecided.is_empty(), "{undecided:?} of {}", files.len());
+}
+
+#[test]
+fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        let problem = problem(which);
+        let Verdict::Found(certified) = shorten(&problem, 1e-4, SLABS) else { panic!("{which:?}") };
+        let length = certified.path().length();
+        // The published optima have four digits behind the point.
+        assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");
+        assert!(certify(&problem.scene, certified.path().clone(), 0.0).is_ok());
+    }
 }

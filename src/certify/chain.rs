@@ -1,6 +1,6 @@
 //! Chains of adjacent boxes.
 
-use super::boxes::Cell;
+use super::boxes::{Cell, Door};
 use crate::space::{Configuration, Topology};
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, VecDeque};
@@ -85,14 +85,53 @@ impl Ord for Length {
     }
 }
 
-/// The chain of free boxes from the start, in box `from`, to a goal along which the polyline through the middles of the
-/// doors is the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
+/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the doors is the
+/// shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
+    let middles = |_: Configuration, door: &Door| door.middle();
+    short(boxes, start, from, goals, middles, |openness| (openness == Openness::Free).then_some(1.0))
+        .unwrap_or_default()
+}
+
+/// The chain through which a way seems shortest that passes every door at the nearest place; undecided boxes count as
+/// free, but as `1 + MIXED_DETOUR` times as long. None if there is no chain.
+pub(super) fn promising(
+    boxes: &impl Mosaic,
+    start: Configuration,
+    from: u32,
+    goals: &[Configuration],
+) -> Option<Vec<u32>> {
+    let nearest = |at: Configuration, door: &Door| {
+        let (a, b) = (door.left, door.right);
+        Configuration::from_fn(|k, _| at[k].clamp(a[k].min(b[k]), a[k].max(b[k])))
+    };
+    short(boxes, start, from, goals, nearest, |openness| match openness {
+        Openness::Free => Some(1.0),
+        Openness::Mixed => Some(1.0 + MIXED_DETOUR),
+        Openness::Finest => None,
+    })
+}
+
+/// Share by which a way through free boxes may be longer than one through undecided ones and still be preferred: what
+/// room the fringes of obstacles leave is not worth finding out for less.
+const MIXED_DETOUR: f64 = 0.1;
+
+/// Dijkstra's search with one way into each box: `pass` says where a door is passed, `factor` what a length in a box
+/// counts.
+fn short(
+    boxes: &impl Mosaic,
+    start: Configuration,
+    from: u32,
+    goals: &[Configuration],
+    pass: impl Fn(Configuration, &Door) -> Configuration,
+    factor: impl Fn(Openness) -> Option<f64>,
+) -> Option<Vec<u32>> {
     let topology = boxes.topology();
     let mut ends: Vec<(u32, Configuration)> = Vec::new();
     for &goal in goals {
         ends.extend(boxes.locate(goal).map(|index| (index, topology.wrap(goal))));
     }
+    let factor = |index: u32| boxes.openness(index).and_then(&factor);
     let mut length = vec![f64::INFINITY; boxes.count()];
     // Where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
@@ -104,6 +143,9 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goa
         if so_far >= best.0 {
             break;
         }
+        if so_far > length[index as usize] {
+            continue;
+        }
         let at = entry[index as usize];
         for (_, goal) in ends.iter().filter(|(end, _)| *end == index) {
             let total = so_far + (goal - at).norm();
@@ -113,20 +155,19 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goa
         }
         let cell = boxes.cell(index);
         boxes.for_each_neighbor(index, |next| {
-            if boxes.openness(next) != Some(Openness::Free) {
-                return;
-            }
+            let Some(factor) = factor(next) else { return };
             let Some(door) = cell.door(&boxes.cell(next), topology) else { return };
-            let longer = so_far + (door.middle() - at).norm();
+            let place = pass(at, &door);
+            let longer = so_far + (place - at).norm() * factor;
             if longer < length[next as usize] {
                 length[next as usize] = longer;
-                entry[next as usize] = door.middle() - door.shift;
+                entry[next as usize] = place - door.shift;
                 parent[next as usize] = index;
                 queue.push(Reverse((Length(longer), next)));
             }
         });
     }
-    back(&parent, best.1)
+    best.0.is_finite().then(|| back(&parent, best.1))
 }
 
 /// The chain that leads to `last`.

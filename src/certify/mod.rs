@@ -28,4 +28,4 @@ pub use motion::{CertifiedPath, Nearest, Rejection, certify};
 pub use passage::{Encounter, Moment, Passage, passage};
 pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};
-pub use slabs::slab_connectivity;
+pub use slabs::{short_slab_channel, slab_connectivity};

@@ -7,7 +7,7 @@
 
 use super::bands::{Kind, bands};
 use super::boxes::Cell;
-use super::chain::{Mosaic, Openness, fewest_mixed, shortest};
+use super::chain::{Mosaic, Openness, fewest_mixed, promising};
 use super::channel::Channel;
 use super::connectivity::Connectivity;
 use super::disconnection::{Disconnection, StuckBox};
@@ -74,6 +74,35 @@ pub fn slab_connectivity(
     clearance: f64,
     max_slabs: usize,
 ) -> Connectivity {
+    search(scene, start, goals, clearance, max_slabs, |slabs, from, ends| {
+        fewest_mixed(slabs, from, ends, false).or_else(|| fewest_mixed(slabs, from, ends, true))
+    })
+}
+
+/// As [`slab_connectivity`], but with a channel that holds about the shortest path, at the cost of more slabs: the
+/// connection that is made certain is the one that looks shortest. A promise it is not.
+#[must_use]
+pub fn short_slab_channel(
+    scene: &Scene,
+    start: Configuration,
+    goals: &[Configuration],
+    clearance: f64,
+    max_slabs: usize,
+) -> Connectivity {
+    search(scene, start, goals, clearance, max_slabs, |slabs, from, ends| {
+        promising(slabs, start, from, goals).or_else(|| fewest_mixed(slabs, from, ends, true))
+    })
+}
+
+/// The search with a rule that says which connection to make certain next: none if there is none.
+fn search(
+    scene: &Scene,
+    start: Configuration,
+    goals: &[Configuration],
+    clearance: f64,
+    max_slabs: usize,
+    next: impl Fn(&Slabs, u32, &[u32]) -> Option<Vec<u32>>,
+) -> Connectivity {
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
     if slabs.topology.axes.iter().any(|axis| axis.extent() <= 0.0) {
@@ -83,12 +112,10 @@ pub fn slab_connectivity(
         let ends: Vec<u32> = goals.iter().filter_map(|&g| slabs.locate(g)).collect();
         let undecided = Connectivity::Undecided { boxes: slabs.slabs.len() };
         let Some(from) = slabs.locate(start) else { return undecided };
-        let chain = fewest_mixed(&slabs, from, &ends, false).or_else(|| fewest_mixed(&slabs, from, &ends, true));
-        let Some(chain) = chain else {
+        let Some(chain) = next(&slabs, from, &ends) else {
             return slabs.disconnection(start, goals).map_or(undecided, Connectivity::Disconnected);
         };
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
-            let chain = shortest(&slabs, start, from, goals);
             return Connectivity::Connected(Channel::new(&slabs, &chain, start, goals));
         }
         let mut mixed: Vec<u32> = chain

@@ -1,5 +1,6 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
 
+mod bitmap;
 mod chord;
 mod curves;
 mod events;
@@ -13,6 +14,7 @@ mod slabs;
 mod translation;
 mod union;
 
+pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
 pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions};

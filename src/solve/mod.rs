@@ -7,11 +7,13 @@
 mod admission;
 mod ladder;
 mod method;
+mod shorten;
 mod subdivision;
 mod swift;
 
 pub use ladder::{Effort, solve};
 pub use method::Method;
+pub use shorten::shorten;
 pub use swift::decide;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
