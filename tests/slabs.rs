@@ -86,7 +86,7 @@ fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(ProptestConfig::with_cases(400))]
 
     #[test]
     fn random_scenes_are_answered_as_the_boxes_answer_them(

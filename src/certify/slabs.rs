@@ -32,6 +32,8 @@ struct Slab {
     from: f64,
     to: f64,
     level: usize,
+    /// Whether link 1 is free all over it; if not, no span counts as free, but those that link 2 closes are stuck.
+    clear: bool,
     /// Whether link 2 was looked at; before, all of it is one mixed span.
     judged: bool,
     /// First and one past the last of its spans.
@@ -143,41 +145,38 @@ impl<'a> Slabs<'a> {
             walls: Vec::new(),
             verdicts: Verdicts::default(),
         };
-        let (lower, upper) = topology.axes[0].domain();
-        let at = |i: usize| if i == FIRST { upper } else { lower + (upper - lower) * i as f64 / FIRST as f64 };
         for stretch in bands(scene, clearance) {
             match stretch.kind {
-                Kind::Free => {
-                    // Cut where the first slabs end, so that all slabs of a level share their widths.
-                    let mut from = stretch.from;
-                    for cut in (1..FIRST).map(at).filter(|&c| stretch.from < c && c < stretch.to).chain([stretch.to]) {
-                        let spans = this.whole(Openness::Mixed);
-                        this.slabs.push(Slab { from, to: cut, level: 0, judged: false, spans, wall: None });
-                        from = cut;
-                    }
-                }
+                Kind::Free => this.lay(stretch.from, stretch.to, true),
                 Kind::Wall(stuck) => {
+                    let [from, to] = [stuck.cell.lower[0], stuck.cell.upper[0]];
+                    this.lay(stretch.from, from, false);
                     let wall = Some(index(this.walls.len()));
                     this.walls.push(stuck);
-                    let none = [index(this.spans.len()); 2];
-                    this.slabs.push(Slab {
-                        from: stretch.from,
-                        to: stretch.to,
-                        level: 0,
-                        judged: true,
-                        spans: none,
-                        wall,
-                    });
+                    let spans = [index(this.spans.len()); 2];
+                    this.slabs.push(Slab { from, to, level: 0, clear: false, judged: true, spans, wall });
+                    this.lay(to, stretch.to, false);
                 }
-                Kind::Unknown => {
-                    let spans = this.whole(Openness::Finest);
-                    let (from, to) = (stretch.from, stretch.to);
-                    this.slabs.push(Slab { from, to, level: 0, judged: true, spans, wall: None });
-                }
+                Kind::Unknown => this.lay(stretch.from, stretch.to, false),
             }
         }
         this.number();
         this
+    }
+
+    /// Slabs for a stretch, not looked at yet; cut where the first slabs end, so that all slabs of a level share their
+    /// widths.
+    fn lay(&mut self, from: f64, to: f64, clear: bool) {
+        let (lower, upper) = self.topology.axes[0].domain();
+        let at = |i: usize| lower + (upper - lower) * i as f64 / FIRST as f64;
+        let mut from = from;
+        for cut in (1..FIRST).map(at).chain([to]) {
+            if from < cut && cut <= to {
+                let spans = self.whole(Openness::Mixed);
+                self.slabs.push(Slab { from, to: cut, level: 0, clear, judged: false, spans, wall: None });
+                from = cut;
+            }
+        }
     }
 
     /// One span for all values of joint 2.
@@ -188,8 +187,8 @@ impl<'a> Slabs<'a> {
         [first, first + 1]
     }
 
-    /// Adds a slab on which link 1 is free, and judges it.
-    fn add(&mut self, from: f64, to: f64) {
+    /// Adds a slab and judges it.
+    fn add(&mut self, from: f64, to: f64, clear: bool) {
         // The finest level whose slabs are as wide; the first slabs' ends are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + ALIKE);
         let level = (0..=MOST_LEVELS).take_while(fits).last().unwrap_or(0);
@@ -201,18 +200,27 @@ impl<'a> Slabs<'a> {
             &mut self.verdicts,
         );
         let first = index(self.spans.len());
-        self.cut(level);
-        self.slabs.push(Slab { from, to, level, judged: true, spans: [first, index(self.spans.len())], wall: None });
+        self.cut(level, clear);
+        self.slabs.push(Slab {
+            from,
+            to,
+            level,
+            clear,
+            judged: true,
+            spans: [first, index(self.spans.len())],
+            wall: None,
+        });
     }
 
     /// Turns the verdicts into spans.
-    fn cut(&mut self, level: usize) {
+    fn cut(&mut self, level: usize, clear: bool) {
         let (bottom, top) = self.topology.axes[1].domain();
         let Verdicts { outer, inner } = &mut self.verdicts;
         merge_in_place(outer);
         let mut stuck: Vec<[f64; 2]> = inner.iter().map(|i| i.1).collect();
         merge_in_place(&mut stuck);
         let openness = if level < MOST_LEVELS { Openness::Mixed } else { Openness::Finest };
+        let free = if clear { Openness::Free } else { openness };
         let spans = &mut self.spans;
         let mut add = |lower: f64, upper: f64, openness| {
             if lower < upper {
@@ -222,7 +230,7 @@ impl<'a> Slabs<'a> {
         let mut stuck = stuck.into_iter().peekable();
         let mut at = bottom;
         for &[lower, upper] in outer.iter() {
-            add(at, lower, Openness::Free);
+            add(at, lower, free);
             at = lower.max(at);
             while let Some([from, to]) = stuck.next_if(|s| s[0] < upper) {
                 add(at, from, openness);
@@ -231,7 +239,7 @@ impl<'a> Slabs<'a> {
             add(at, upper, openness);
             at = upper.max(at);
         }
-        add(at, top, Openness::Free);
+        add(at, top, free);
     }
 
     /// Tells the spans which slab they belong to.
@@ -255,10 +263,10 @@ impl<'a> Slabs<'a> {
             }
             let middle = (slab.from + slab.to) / 2.0;
             if !slab.judged {
-                self.add(slab.from, slab.to);
+                self.add(slab.from, slab.to, slab.clear);
             } else if slab.from < middle && middle < slab.to {
-                self.add(slab.from, middle);
-                self.add(middle, slab.to);
+                self.add(slab.from, middle, slab.clear);
+                self.add(middle, slab.to, slab.clear);
             } else {
                 let range = slab.spans[0] as usize..slab.spans[1] as usize;
                 self.spans[range].iter_mut().for_each(|span| {
@@ -339,9 +347,14 @@ impl<'a> Slabs<'a> {
             self.judge_again(number);
             let mut merged: Vec<[f64; 2]> = self.verdicts.inner.iter().map(|i| i.1).collect();
             merge_in_place(&mut merged);
+            let span = |s: &u32| self.spans[*s as usize];
+            let axis = self.topology.axes[1];
+            let (bottom, top) = axis.domain();
             let touches = |&[lower, upper]: &[f64; 2]| {
-                let span = |s: &u32| self.spans[*s as usize];
-                own.iter().map(span).any(|s| s.lower <= upper && lower <= s.upper)
+                let across_seam = |s: Span| {
+                    axis.is_circle() && (s.lower == bottom && upper == top || s.upper == top && lower == bottom)
+                };
+                own.iter().map(span).any(|s| s.lower <= upper && lower <= s.upper || across_seam(s))
                     || beside.iter().map(span).any(|s| s.lower < upper && lower < s.upper)
             };
             merged.retain(touches);
