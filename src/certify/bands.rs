@@ -3,13 +3,10 @@
 use super::boxes::Cell;
 use super::deviation::{Deviation, Posture};
 use super::disconnection::StuckBox;
-use super::slab::is_stuck;
-use crate::geometry::{Point, ROUNDING, merge_in_place};
+use super::slab::{OUTWARD, is_stuck};
+use crate::geometry::{Features, Point, Vector, merge_in_place};
 use crate::model::{Carried, Motion, Pair, Scene, on_axis};
 use nalgebra::Vector2;
-
-/// Distance by which closed forms are taken to be wrong, metres.
-const OUTWARD: f64 = 2.0 * ROUNDING;
 
 /// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
 const PLACES: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
@@ -40,9 +37,9 @@ pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
     let mut arcs = Vec::new();
     for &pair in scene.pairs().iter().filter(|p| p.link == 0) {
         let part = Carried::new(joint.motion, scene.part(pair));
-        let piece = crate::geometry::Features::new(scene.piece(pair));
+        let piece = Features::new(scene.piece(pair));
         arcs.clear();
-        let hits = part.hits(arm.base, crate::geometry::Vector::x(), &piece, clearance + OUTWARD, &mut arcs);
+        let hits = part.hits(arm.base, Vector::x(), &piece, clearance + OUTWARD, &mut arcs);
         on_axis(joint, hits, &arcs, |interval| of_pairs.push((pair, interval)));
     }
     let mut merged: Vec<[f64; 2]> = of_pairs.iter().map(|p| p.1).collect();

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 
 /// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
 /// of the arm's size, and angles to whole turns, is covered as well.
-const OUTWARD: f64 = 2.0 * ROUNDING;
+pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
 
 /// By how much more than a slab's motion shapes must overlap to count as stuck: the rest is what joint 2 may move by in
 /// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the

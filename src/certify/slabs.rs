@@ -157,6 +157,11 @@ impl<'a> Slabs<'a> {
                     this.slabs.push(Slab { from, to, level: 0, clear: false, judged: true, spans, wall });
                     this.lay(to, stretch.to, false);
                 }
+                // A graze at a single value: nothing to halve, but no way through either.
+                Kind::Unknown if stretch.from == stretch.to => {
+                    let (from, to, spans) = (stretch.from, stretch.to, this.whole(Openness::Finest));
+                    this.slabs.push(Slab { from, to, level: 0, clear: false, judged: false, spans, wall: None });
+                }
                 Kind::Unknown => this.lay(stretch.from, stretch.to, false),
             }
         }
