@@ -2,8 +2,8 @@
 
 mod common;
 
-use cplan::cspace::{Hits, Proves, Row, Rows, grid_from_rows, outer_grid, sampled_grid};
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::cspace::{Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
+use cplan::geometry::{Convex, Hits, Point, Vector};
 use cplan::model::{Arm, Motion, Scene};
 use cplan::space::{Axis, Configuration};
 use proptest::prelude::*;
@@ -81,6 +81,18 @@ fn at(axis: Axis, t: f64) -> f64 {
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn bitmaps_are_grids(scene in any_scene(), cells in (1..90_usize, 1..200_usize), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
+        let cells = [cells.0, cells.1];
+        let (bits, grid) = (bitmap(&scene, cells, clearance), grid_from_rows(&scene, cells, clearance));
+        prop_assert_eq!(bits.cells(), cells);
+        for index in 0..cells[0] * cells[1] {
+            prop_assert_eq!(bits.blocked(index / cells[1], index % cells[1]), grid.blocked[index], "cell {}", index);
+        }
+        prop_assert_eq!(bits.count(), grid.blocked.iter().filter(|b| **b).count());
+        prop_assert_eq!((0..cells[0]).map(|i| bits.row(i).iter().map(|w| w.count_ones()).sum::<u32>()).sum::<u32>() as usize, bits.count());
+    }
 
     #[test]
     fn rows_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {

@@ -1,7 +1,8 @@
 //! Arcs, stretches, rows and grids against distances of sampled postures.
 
-use cplan::cspace::{Features, Hits, ROUNDING, sliding, turning, turning_from};
-use cplan::geometry::{Convex, Point, Pose, Vector, separation};
+use cplan::geometry::{
+    Convex, Features, Hits, Point, Pose, ROUNDING, Vector, separation, sliding, turning, turning_from,
+};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

@@ -1,5 +1,6 @@
 //! Subdivision of the configuration space into free, stuck and mixed boxes.
 
+use super::chain::{Mosaic, Openness};
 use super::deviation::{Deviation, Posture};
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, Topology};
@@ -22,7 +23,7 @@ impl Cell {
     }
 
     /// Half of each side; rounded up, so that the box about the middle covers the cell.
-    fn half(&self) -> [f64; 2] {
+    pub(super) fn half(&self) -> [f64; 2] {
         [0, 1].map(|k| (self.upper[k] - self.lower[k]) / 2.0 * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * PI)
     }
 
@@ -287,13 +288,35 @@ impl<'a> Subdivision<'a> {
         }
         found
     }
+}
 
-    /// A box that holds `q` and is not stuck.
-    pub fn locate(&self, q: Configuration) -> Option<u32> {
+impl Mosaic for Subdivision<'_> {
+    fn count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn cell(&self, index: u32) -> Cell {
+        self.nodes[index as usize].cell
+    }
+
+    fn openness(&self, index: u32) -> Option<Openness> {
+        match self.nodes[index as usize].state {
+            State::Free => Some(Openness::Free),
+            State::Mixed(_) => Some(Openness::Mixed),
+            State::Finest => Some(Openness::Finest),
+            State::Stuck(_) | State::Split(_) => None,
+        }
+    }
+
+    fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32)) {
+        self.nodes[index as usize].neighbors.iter().copied().for_each(f);
+    }
+
+    fn locate(&self, q: Configuration) -> Option<u32> {
         self.holding(q).into_iter().find(|&i| self.nodes[i as usize].is_open())
     }
 
-    pub fn topology(&self) -> &Topology {
+    fn topology(&self) -> &Topology {
         &self.topology
     }
 }

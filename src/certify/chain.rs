@@ -1,21 +1,48 @@
 //! Chains of adjacent boxes.
 
-use super::boxes::{State, Subdivision};
-use crate::space::Configuration;
+use super::boxes::{Cell, Door};
+use crate::space::{Configuration, Topology};
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, VecDeque};
 
 const NONE: u32 = u32::MAX;
 
+/// What is known about a box that may hold free configurations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Openness {
+    /// All of it is free.
+    Free,
+    /// Undecided.
+    Mixed,
+    /// Undecided, and halves would tell no more.
+    Finest,
+}
+
+/// Boxes side by side that cover the domain, by number.
+pub(super) trait Mosaic {
+    /// One more than the greatest number of a box.
+    fn count(&self) -> usize;
+    /// Which configurations.
+    fn cell(&self, index: u32) -> Cell;
+    /// None for a stuck box, or one that is there no more.
+    fn openness(&self, index: u32) -> Option<Openness>;
+    /// Calls `f` with the boxes that share a side with this one, in a fixed order.
+    fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
+    /// A box that holds `q` and is not stuck.
+    fn locate(&self, q: Configuration) -> Option<u32>;
+    /// Of the configuration space.
+    fn topology(&self) -> &Topology;
+}
+
 /// The chain of adjacent open boxes from `from` to one of `ends` with the fewest undecided ones, those of the finest
 /// size only if `finest`: breadth-first search in which free boxes cost nothing. `O(boxes + adjacencies)`.
-pub(super) fn fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
+pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
 }
 
 /// All undecided boxes, ascending, that lie on any of the chains with the fewest of them: two such searches.
-pub(super) fn all_of_fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], finest: bool) -> Vec<u32> {
+pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[u32], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
     let (there, ..) = search(boxes, ends, &[], finest);
     let cost = |index: usize| Some(here[index].checked_add(there[index])? - cost_of(boxes, index as u32, finest)?);
@@ -25,19 +52,19 @@ pub(super) fn all_of_fewest_mixed(boxes: &Subdivision, from: u32, ends: &[u32], 
 }
 
 /// What it costs to pass a box: nothing if it is free; none if it cannot be passed.
-fn cost_of(boxes: &Subdivision, index: u32, finest: bool) -> Option<u32> {
-    match boxes.nodes[index as usize].state {
-        State::Free => Some(0),
-        State::Mixed(_) => Some(1),
-        State::Finest if finest => Some(1),
+fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
+    match boxes.openness(index) {
+        Some(Openness::Free) => Some(0),
+        Some(Openness::Mixed) => Some(1),
+        Some(Openness::Finest) if finest => Some(1),
         _ => None,
     }
 }
 
 /// Costs of reaching each box from `starts`, their own included, and the box before it, until one of `ends` is reached.
-fn search(boxes: &Subdivision, starts: &[u32], ends: &[u32], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
-    let mut cost = vec![u32::MAX; boxes.nodes.len()];
-    let mut parent = vec![NONE; boxes.nodes.len()];
+fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
+    let mut cost = vec![u32::MAX; boxes.count()];
+    let mut parent = vec![NONE; boxes.count()];
     let mut queue = VecDeque::new();
     for &start in starts {
         let Some(own) = cost_of(boxes, start, finest) else { continue };
@@ -51,14 +78,14 @@ fn search(boxes: &Subdivision, starts: &[u32], ends: &[u32], finest: bool) -> (V
         if ends.contains(&index) {
             return (cost, parent, Some(index));
         }
-        for &next in &boxes.nodes[index as usize].neighbors {
-            let Some(step) = cost_of(boxes, next, finest) else { continue };
+        boxes.for_each_neighbor(index, |next| {
+            let Some(step) = cost_of(boxes, next, finest) else { return };
             if so_far + step < cost[next as usize] {
                 cost[next as usize] = so_far + step;
                 parent[next as usize] = index;
                 if step == 0 { queue.push_front((so_far, next)) } else { queue.push_back((so_far + 1, next)) }
             }
-        }
+        });
     }
     (cost, parent, None)
 }
@@ -81,24 +108,66 @@ impl Ord for Length {
     }
 }
 
-/// The chain of free boxes from the start, in box `from`, to a goal along which the polyline through the middles of the
-/// doors is the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
-pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
+/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the doors is the
+/// shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
+pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
+    let middles = |_: Configuration, door: &Door| door.middle();
+    short(boxes, start, from, goals, middles, |openness| (openness == Openness::Free).then_some(1.0))
+        .unwrap_or_default()
+}
+
+/// The chain through which a way seems shortest that passes every door at the nearest place; undecided boxes count as
+/// free, but as `1 + MIXED_DETOUR` times as long. None if there is no chain.
+pub(super) fn promising(
+    boxes: &impl Mosaic,
+    start: Configuration,
+    from: u32,
+    goals: &[Configuration],
+) -> Option<Vec<u32>> {
+    let nearest = |at: Configuration, door: &Door| {
+        let (a, b) = (door.left, door.right);
+        Configuration::from_fn(|k, _| at[k].clamp(a[k].min(b[k]), a[k].max(b[k])))
+    };
+    short(boxes, start, from, goals, nearest, |openness| match openness {
+        Openness::Free => Some(1.0),
+        Openness::Mixed => Some(1.0 + MIXED_DETOUR),
+        Openness::Finest => None,
+    })
+}
+
+/// Share by which a way through free boxes may be longer than one through undecided ones and still be preferred: what
+/// room the fringes of obstacles leave is not worth finding out for less.
+const MIXED_DETOUR: f64 = 0.1;
+
+/// Dijkstra's search with one way into each box: `pass` says where a door is passed, `factor` what a length in a box
+/// counts.
+fn short(
+    boxes: &impl Mosaic,
+    start: Configuration,
+    from: u32,
+    goals: &[Configuration],
+    pass: impl Fn(Configuration, &Door) -> Configuration,
+    factor: impl Fn(Openness) -> Option<f64>,
+) -> Option<Vec<u32>> {
     let topology = boxes.topology();
     let mut ends: Vec<(u32, Configuration)> = Vec::new();
     for &goal in goals {
         ends.extend(boxes.locate(goal).map(|index| (index, topology.wrap(goal))));
     }
-    let mut length = vec![f64::INFINITY; boxes.nodes.len()];
+    let factor = |index: u32| boxes.openness(index).and_then(&factor);
+    let mut length = vec![f64::INFINITY; boxes.count()];
     // Where each box is entered, in the fundamental domain.
-    let mut entry = vec![topology.wrap(start); boxes.nodes.len()];
-    let mut parent = vec![NONE; boxes.nodes.len()];
+    let mut entry = vec![topology.wrap(start); boxes.count()];
+    let mut parent = vec![NONE; boxes.count()];
     let mut queue = BinaryHeap::from([Reverse((Length(0.0), from))]);
     let mut best = (f64::INFINITY, from);
     length[from as usize] = 0.0;
     while let Some(Reverse((Length(so_far), index))) = queue.pop() {
         if so_far >= best.0 {
             break;
+        }
+        if so_far > length[index as usize] {
+            continue;
         }
         let at = entry[index as usize];
         for (_, goal) in ends.iter().filter(|(end, _)| *end == index) {
@@ -107,22 +176,21 @@ pub(super) fn shortest(boxes: &Subdivision, start: Configuration, from: u32, goa
                 best = (total, index);
             }
         }
-        let node = &boxes.nodes[index as usize];
-        for &next in &node.neighbors {
-            let beside = &boxes.nodes[next as usize];
-            let Some(door) = node.cell.door(&beside.cell, topology).filter(|_| beside.state == State::Free) else {
-                continue;
-            };
-            let longer = so_far + (door.middle() - at).norm();
+        let cell = boxes.cell(index);
+        boxes.for_each_neighbor(index, |next| {
+            let Some(factor) = factor(next) else { return };
+            let Some(door) = cell.door(&boxes.cell(next), topology) else { return };
+            let place = pass(at, &door);
+            let longer = so_far + (place - at).norm() * factor;
             if longer < length[next as usize] {
                 length[next as usize] = longer;
-                entry[next as usize] = door.middle() - door.shift;
+                entry[next as usize] = place - door.shift;
                 parent[next as usize] = index;
                 queue.push(Reverse((Length(longer), next)));
             }
-        }
+        });
     }
-    back(&parent, best.1)
+    best.0.is_finite().then(|| back(&parent, best.1))
 }
 
 /// The chain that leads to `last`.

@@ -1,6 +1,7 @@
 //! A chain of free boxes, as a way to go.
 
-use super::boxes::{Door, Subdivision};
+use super::boxes::Door;
+use super::chain::Mosaic;
 use crate::space::{Configuration, Path};
 
 /// A chain of adjacent free boxes. Each is convex, so any way that goes straight from door to door is free.
@@ -14,18 +15,18 @@ pub struct Channel {
 
 impl Channel {
     /// The doors of a chain of boxes, the last of which holds one of the goals.
-    pub(super) fn new(boxes: &Subdivision, chain: &[u32], start: Configuration, goals: &[Configuration]) -> Self {
+    pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, goals: &[Configuration]) -> Self {
         let topology = boxes.topology();
         // What to add to values in the fundamental domain to continue the way from `start`.
         let mut lift = start - topology.wrap(start);
         let mut doors = Vec::with_capacity(chain.len());
         for pair in chain.windows(2) {
-            let [a, b] = [pair[0], pair[1]].map(|i| boxes.nodes[i as usize].cell);
+            let [a, b] = [pair[0], pair[1]].map(|i| boxes.cell(i));
             let Some(Door { left, right, shift }) = a.door(&b, topology) else { continue };
             doors.push([left + lift, right + lift]);
             lift += shift;
         }
-        let last = chain.last().map(|&i| boxes.nodes[i as usize].cell);
+        let last = chain.last().map(|&i| boxes.cell(i));
         let goal = goals.iter().map(|&g| topology.wrap(g)).find(|&g| last.is_some_and(|cell| cell.contains(g)));
         Self { start, goal: goal.map_or(start, |g| g + lift), doors }
     }

@@ -1,7 +1,7 @@
 //! Is there a path at all? Proof that there is none, or a path, by subdivision.
 
 use super::boxes::{Cell, State, Subdivision};
-use super::chain::{all_of_fewest_mixed, fewest_mixed, shortest};
+use super::chain::{Mosaic, all_of_fewest_mixed, fewest_mixed, shortest};
 use super::channel::Channel;
 use super::disconnection::Disconnection;
 use crate::model::Scene;

@@ -96,6 +96,18 @@ impl<'a> Posture<'a> {
         Bounded { here, least: least.max(anywhere) - ROUNDING * scale }
     }
 
+    /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
+    /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
+    pub(super) fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
+        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
+        let (center, extent) = disc(local);
+        let (fixed, around) = disc(piece);
+        let at = self.poses[pair.link] * center;
+        let between = (at - fixed).norm();
+        let scale = self.scene.arm.base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
+        between - extent - around - self.farthest_motion(pair, deviation) - ROUNDING * scale
+    }
+
     /// An upper bound on the signed distance of a pair over `deviation`: negative means stuck everywhere in it.
     ///
     /// Were the shapes separate at some deviation, a separating line there, moved back by the farthest motion of a
@@ -217,6 +229,14 @@ impl<'a> Posture<'a> {
             },
         }
     }
+}
+
+/// A disc around a shape.
+fn disc(shape: &Convex) -> (Point, f64) {
+    let core = shape.core();
+    let center = Point::from(core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64);
+    let extent2 = core.iter().map(|p| (p - center).norm_squared()).fold(0.0, f64::max);
+    (center, extent2.sqrt() + shape.radius())
 }
 
 /// Greatest turn of link 2 against the plane when both joints turn.

@@ -1,6 +1,7 @@
 //! The proof that there is no path.
 
 use super::boxes::{Cell, State, Subdivision};
+use super::chain::Mosaic;
 use crate::model::Pair;
 use crate::space::Configuration;
 
@@ -14,7 +15,7 @@ pub struct StuckBox {
 }
 
 /// Proof that no motion leads from the start to any goal: what the stuck boxes leave of the domain does not connect
-/// them. Only [`super::connectivity`] makes one; anybody can check it, see [`super::recheck`].
+/// them. Only [`super::connectivity`] and [`super::slab_connectivity`] make one; anybody can check it, see [`super::recheck`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Disconnection {
     stuck: Vec<StuckBox>,
@@ -26,6 +27,11 @@ impl Disconnection {
     #[must_use]
     pub fn stuck(&self) -> &[StuckBox] {
         &self.stuck
+    }
+
+    /// The proof that consists of these boxes.
+    pub(super) fn of(stuck: Vec<StuckBox>) -> Self {
+        Self { stuck }
     }
 
     /// Of the stuck boxes of a subdivision whose open boxes do not connect start and goals, those that separate them.

@@ -3,6 +3,7 @@
 //! Imports neither [`crate::cspace`] nor [`crate::plan`]: it works on the scene's exact outlines alone, so that an
 //! error there cannot hide here.
 
+mod bands;
 mod boxes;
 mod chain;
 mod channel;
@@ -14,6 +15,8 @@ mod proof_json;
 mod limits;
 mod passage;
 mod recheck;
+mod slab;
+mod slabs;
 
 pub use boxes::Cell;
 pub use channel::Channel;
@@ -25,3 +28,4 @@ pub use motion::{CertifiedPath, Nearest, Rejection, certify};
 pub use passage::{Encounter, Moment, Passage, passage};
 pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};
+pub use slabs::{short_slab_channel, slab_connectivity};

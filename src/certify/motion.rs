@@ -85,8 +85,13 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     }
     let mut search = Search { scene, required: clearance, proven: f64::INFINITY, nearest: None, evaluations: 0 };
     for &q in path.waypoints() {
-        for contact in scene.separations(q) {
-            search.see(q, contact)?;
+        let posture = Posture::new(scene, q);
+        for &pair in scene.pairs() {
+            let deviation = Deviation::Box([0.0, 0.0]);
+            // What is farther off than the nearest so far is of no interest.
+            if posture.apart(pair, deviation) < search.seen() {
+                search.see(q, Contact { pair, separation: posture.bound(pair, deviation).here })?;
+            }
         }
     }
     // A path that stays where it is has no segment, yet a clearance.
@@ -122,10 +127,14 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// Least distance seen.
+    fn seen(&self) -> f64 {
+        self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
+    }
+
     /// What a bound has to reach to be accepted.
     fn target(&self) -> f64 {
-        let seen = self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance);
-        (TIGHTNESS * seen).max(self.required)
+        (TIGHTNESS * self.seen()).max(self.required)
     }
 
     fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
@@ -133,10 +142,16 @@ impl Search<'_> {
         let mut open = vec![(0.5, 0.5)];
         while let Some((middle, half)) = open.pop() {
             let at = from + (to - from) * middle;
-            let bounded = Posture::new(self.scene, at).bound(pair, Deviation::Along((to - from) * half));
+            let (posture, deviation) = (Posture::new(self.scene, at), Deviation::Along((to - from) * half));
+            self.evaluations += 1;
+            let apart = posture.apart(pair, deviation);
+            if apart > 0.0 && apart >= self.target() {
+                self.proven = self.proven.min(apart);
+                continue;
+            }
+            let bounded = posture.bound(pair, deviation);
             let contact = Contact { pair, separation: bounded.here };
             self.see(at, contact)?;
-            self.evaluations += 1;
             if bounded.least >= self.target() {
                 self.proven = self.proven.min(bounded.least);
             } else if self.evaluations > MAX_EVALUATIONS || half < f64::EPSILON {

@@ -1,11 +1,10 @@
 //! C-obstacles of link 2 where it turns, or is turned: the exact rows of a pair, flattened with proof.
 
-use super::Hits;
 use super::chord::{Contact, PairMotion};
 use super::events::events;
 use super::outline::{Break, Flattening, Source, contours};
 use super::rows::Rows;
-use crate::geometry::{Convex, Point};
+use crate::geometry::{Convex, Hits, Point};
 use crate::space::Configuration;
 use std::f64::consts::{PI, TAU};
 

@@ -228,8 +228,7 @@ fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cspace::{Hits, sliding as slid, turning};
-    use crate::geometry::hull;
+    use crate::geometry::{Hits, hull, sliding as slid, turning};
     use crate::model::{Joint, Link, OutlineSource, Plane};
     use crate::space::Axis;
     use nalgebra::{Translation2, Vector3};

@@ -1,11 +1,9 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
 
+mod bitmap;
 mod chord;
-mod contact;
-mod critical;
 mod curves;
 mod events;
-mod features;
 mod grid;
 mod inner;
 mod nearest;
@@ -15,13 +13,10 @@ mod regions;
 mod rows;
 mod sampled;
 mod slabs;
-mod sliding;
-mod touching;
 mod translation;
 mod union;
 
-pub use contact::{Hits, ROUNDING, turning, turning_from};
-pub use features::Features;
+pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use inner::InnerObstacles;
 pub use nearest::{NearestFree, nearest_free};
@@ -29,7 +24,6 @@ pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regio
 pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_rows, outer_grid};
-pub use sliding::sliding;
 
 /// What a representation of free space proves about the real one.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! The free configuration nearest to one that is not.
 
-use super::contact::ROUNDING;
 use super::rows::{Row, Rows};
+use crate::geometry::ROUNDING;
 use crate::model::Scene;
 use crate::space::{Axis, Configuration};
 use std::f64::consts::{PI, TAU};

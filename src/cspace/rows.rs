@@ -1,17 +1,14 @@
 //! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
 
-use super::contact::{Hits, normalized, turning_from};
-use super::features::{Features, product};
-use super::sliding::{along_and_across, sliding_tracks};
-use crate::geometry::{Convex, Point, Vector, merge_in_place};
-use crate::model::{Arm, Joint, Motion, Pair, Scene};
+use crate::geometry::{Convex, Features, Hits, Point, Vector, merge_in_place};
+use crate::model::{Arm, Carried, Motion, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// A scene prepared for rows.
 ///
-/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`super::ROUNDING`], and of joint
+/// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`crate::geometry::ROUNDING`], and of joint
 /// values: *unwrapped* for a revolute joint (start in `[-pi, pi)`, end possibly beyond `pi`, to be repeated by whole
 /// turns), as they are for a prismatic one. Limits are not applied; see [`Rows::row`] for that.
 #[derive(Debug, Clone)]
@@ -43,52 +40,6 @@ impl Prepared {
             (Carried::new(second.motion, part), Some(Carried::new(first.motion, &sweep)))
         };
         Self { pair, part, sweep, piece }
-    }
-}
-
-/// A part and the joint that moves it.
-#[derive(Debug, Clone)]
-struct Carried {
-    motion: Motion,
-    features: Features,
-    /// Prismatic joints: the core along and across the direction.
-    track: Vec<Vector>,
-}
-
-impl Carried {
-    fn new(motion: Motion, shape: &Convex) -> Self {
-        let track = match motion {
-            Motion::Revolute { .. } => Vec::new(),
-            Motion::Prismatic { direction } => along_and_across(shape.core().iter(), Vector::zeros(), direction),
-        };
-        Self { motion, features: Features::new(shape), track }
-    }
-
-    /// The joint's forbidden values when it sits at `pivot` on a link turned by `heading` (a unit vector).
-    fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
-        match self.motion {
-            Motion::Revolute { sign } => {
-                let from = out.len();
-                let hits = turning_from(&self.features, pivot, heading, piece, grow, out);
-                if sign < 0.0 {
-                    out[from..].iter_mut().for_each(|arc| *arc = normalized([-arc[1], -arc[0]]));
-                    out[from..].sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-                }
-                hits
-            }
-            Motion::Prismatic { direction } => {
-                let radius = self.features.shape().radius() + piece.shape().radius() + grow;
-                let direction = product(heading, direction);
-                let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
-                match sliding_tracks(&self.track, &track, radius) {
-                    Some(interval) => {
-                        out.push(interval);
-                        Hits::Within
-                    }
-                    None => Hits::Never,
-                }
-            }
-        }
     }
 }
 
@@ -198,7 +149,7 @@ impl<'a> Rows<'a> {
         match self.scene.arm.joints[0].motion {
             Motion::Prismatic { .. } => step,
             Motion::Revolute { .. } => {
-                let carried = pair.sweep.as_ref().unwrap_or(&pair.part).features.shape().reach_from(Point::origin());
+                let carried = pair.sweep.as_ref().unwrap_or(&pair.part).shape().reach_from(Point::origin());
                 let touched = self.pieces[pair.piece].shape().reach_from(self.scene.arm.base) + clearance;
                 2.0 * carried.min(touched) * (step.min(PI) / 2.0).sin()
             }
@@ -209,9 +160,9 @@ impl<'a> Rows<'a> {
     #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.pairs[index].part;
-        match part.motion {
+        match part.motion() {
             Motion::Prismatic { .. } => 1.0,
-            Motion::Revolute { .. } => part.features.shape().reach_from(Point::origin()),
+            Motion::Revolute { .. } => part.shape().reach_from(Point::origin()),
         }
     }
 
@@ -271,39 +222,5 @@ impl Row {
     fn merge(&mut self) {
         self.merged.extend(self.forbidden.iter().map(|f| f.interval));
         merge_in_place(&mut self.merged);
-    }
-}
-
-/// Calls `f` with the copies of a joint's forbidden intervals within the domain of its axis.
-pub(super) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
-    let (lower, upper) = joint.axis.domain();
-    match hits {
-        Hits::Never => {}
-        Hits::Always => f([lower, upper]),
-        Hits::Within => {
-            let period = if joint.motion.is_revolute() { TAU } else { f64::INFINITY };
-            for &[start, end] in intervals {
-                let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
-                while start + shift <= upper && end + shift >= lower {
-                    f([(start + shift).max(lower), (end + shift).min(upper)]);
-                    shift += period;
-                }
-            }
-        }
-    }
-}
-
-/// A shape, in link 1's frame, that holds a part of link 2 whatever joint 2 does.
-fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
-    let elbow = Point::from(offset);
-    match joint.motion {
-        Motion::Revolute { .. } => Convex::disc(elbow, shape.reach_from(Point::origin())),
-        Motion::Prismatic { direction } => {
-            let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
-            let (lower, upper) = joint.axis.domain();
-            let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
-            let core = if from == to { vec![from] } else { vec![from, to] };
-            Convex::new(core, shape.reach_from(center))
-        }
     }
 }

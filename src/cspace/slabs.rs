@@ -1,9 +1,9 @@
 //! Grids from rows: no collision test a cell.
 
-use super::contact::ROUNDING;
-use super::rows::{Rows, on_axis};
+use super::rows::Rows;
 use super::{Grid, Proves};
-use crate::model::Scene;
+use crate::geometry::ROUNDING;
+use crate::model::{Scene, on_axis};
 use std::f64::consts::TAU;
 
 /// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is

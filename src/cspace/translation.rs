@@ -1,7 +1,6 @@
 //! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
 
-use super::contact::ROUNDING;
-use crate::geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
+use crate::geometry::{Convex, Point, ROUNDING, Vector, cross, inset, minkowski_difference, perpendicular};
 use crate::model::{Arm, Motion};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;

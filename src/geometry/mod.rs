@@ -1,4 +1,5 @@
-//! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals.
+//! Plane geometry: exact predicates, convex shapes, Minkowski differences, at which angles (or along which stretch) a
+//! moving convex shape meets a fixed one, sets of intervals.
 //!
 //! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
 //! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
@@ -6,6 +7,7 @@
 
 mod convex;
 mod decompose;
+mod erosion;
 mod hull;
 mod inset;
 mod intervals;
@@ -15,6 +17,8 @@ mod penetration;
 mod polygon;
 mod predicates;
 mod separation;
+mod sliding;
+mod turning;
 
 pub use convex::Convex;
 pub use decompose::decompose;
@@ -29,6 +33,10 @@ pub use penetration::{
 pub use polygon::{PolygonDefect, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use separation::{Separation, separation};
+pub use sliding::sliding;
+pub(crate) use sliding::{along_and_across, sliding_tracks};
+pub use turning::{Features, Hits, ROUNDING, turning, turning_from};
+pub(crate) use turning::{normalized, product};
 
 /// A point of the plane, metres.
 pub type Point = nalgebra::Point2<f64>;

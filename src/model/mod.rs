@@ -1,6 +1,7 @@
 //! The arm, the workspace, and the two together.
 
 mod arm;
+mod carried;
 mod joint;
 mod link;
 mod problem;
@@ -8,6 +9,8 @@ mod scene;
 mod workspace;
 
 pub use arm::{Arm, Plane};
+pub use carried::Carried;
+pub(crate) use carried::{on_axis, swept};
 pub use joint::{Joint, Motion};
 pub use link::{Link, OutlineSource, Part};
 pub use problem::{Goal, Problem};

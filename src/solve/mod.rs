@@ -8,11 +8,15 @@ mod admission;
 mod bound;
 mod ladder;
 mod method;
+mod shorten;
 mod subdivision;
+mod swift;
 
 pub use bound::{Bound, bound, percent};
 pub use ladder::{Effort, solve};
 pub use method::Method;
+pub use shorten::shorten;
+pub use swift::decide;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};

@@ -58,7 +58,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
 
 /// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
 /// middles.
-fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
+pub(super) fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene.workspace.clearance;
     certify(&problem.scene, taut(channel), clearance).or_else(|_| certify(&problem.scene, channel.path(), clearance))
 }

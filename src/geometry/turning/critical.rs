@@ -1,10 +1,9 @@
 //! The patient way to the arcs of contact: every critical angle, and one distance between neighbours.
 
-use super::contact::{Hits, ROUNDING, normalized};
 use super::features::quotient;
 use super::touching::Placement;
+use super::{Hits, ROUNDING, normalized, wrap};
 use crate::geometry::{Pose, Vector, separation};
-use crate::space::Axis;
 use std::f64::consts::{PI, TAU};
 
 /// Critical angles closer than this are one: a turn by it moves no point of an arm of 100 m by more than a tenth of
@@ -14,14 +13,14 @@ const SAME_ANGLE: f64 = 1e-12;
 /// `cos` may exceed 1 by this and still count as grazing, so that a touch lost to rounding is looked at.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// The arcs of [`super::contact::turning_from`] right in every degenerate position: on the
+/// The arcs of [`super::turning_from`] right in every degenerate position: on the
 /// critical angles themselves and halfway between neighbours the distance decides, with [`ROUNDING`] in favour of
 /// contact. `O(n m)` critical angles and as many distances.
 pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
     let &Placement { part, pivot, zero, piece, radius, .. } = placement;
     let mut angles = critical_angles(placement);
     let zero_angle = zero.y.atan2(zero.x);
-    angles.iter_mut().for_each(|angle| *angle = Axis::Circle.wrap(*angle - zero_angle));
+    angles.iter_mut().for_each(|angle| *angle = wrap(*angle - zero_angle));
     angles.sort_unstable_by(f64::total_cmp);
     angles.dedup_by(|b, a| *b - *a <= SAME_ANGLE);
 
@@ -98,7 +97,7 @@ fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cspace::features::Features;
+    use crate::geometry::Features;
     use crate::geometry::{Convex, Point};
 
     fn regular(corners: u8, size: f64, radius: f64) -> Convex {

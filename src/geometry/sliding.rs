@@ -1,7 +1,7 @@
 //! The stretch along which a sliding convex shape meets a fixed one.
 
-use super::contact::ROUNDING;
-use crate::geometry::{Convex, Point, Vector, cross};
+use super::turning::ROUNDING;
+use super::{Convex, Point, Vector, cross};
 
 /// Closed interval of `s` for which `part` moved by `s * direction` comes within `grow >= 0` of `piece`; as both are
 /// convex there is one or none. `direction` is a unit vector. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
@@ -13,7 +13,7 @@ pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> O
 }
 
 /// Corners relative to `origin`, as coordinates along and across `direction`.
-pub(super) fn along_and_across<'a>(
+pub(crate) fn along_and_across<'a>(
     corners: impl Iterator<Item = &'a Point>,
     origin: Vector,
     direction: Vector,
@@ -31,7 +31,7 @@ pub(super) fn along_and_across<'a>(
 /// The values of `s` are those on the line of motion within the Minkowski difference of piece and part, grown by
 /// `radius`. Its outline consists of differences of a corner of the one and a side of the other, and all such
 /// differences belong to it: so the interval reaches from the least to the greatest crossing of any of them.
-pub(super) fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
+pub(crate) fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
     let mut interval: Option<[f64; 2]> = None;
     let mut include = |s: f64| {
         interval = Some(interval.map_or([s, s], |[low, high]| [low.min(s), high.max(s)]));

@@ -8,14 +8,19 @@
 //! is follows from the sign of the root.
 //!
 //! Every such decision is a comparison of a length with zero. Where one is too close for rounding
-//! ([`super::touching`]), the pair takes the patient way instead ([`super::critical`]): all critical angles, sorted, one
+//! ([`touching`]), the pair takes the patient way instead ([`critical`]): all critical angles, sorted, one
 //! distance between neighbours.
 
-use super::critical::critical_arcs;
-use super::features::Features;
-use super::touching::Placement;
-use crate::geometry::{Convex, Point, Pose, Vector, separation};
-use crate::space::Axis;
+mod critical;
+mod features;
+mod touching;
+
+use super::{Convex, Point, Pose, Vector, separation};
+use critical::critical_arcs;
+pub use features::Features;
+pub(crate) use features::product;
+use std::f64::consts::{PI, TAU};
+use touching::Placement;
 
 /// Bound on the error of a contact, as a distance between the shapes, metres: any angle (or stretch) left out keeps
 /// them at least `grow - ROUNDING` apart, any one that is named brings them within `grow + ROUNDING`. Coordinates up to
@@ -71,7 +76,16 @@ pub fn turning_from(
 }
 
 /// The copy of an arc that starts in `[-pi, pi)`.
-pub(super) fn normalized([start, end]: [f64; 2]) -> [f64; 2] {
-    let wrapped = Axis::Circle.wrap(start);
+pub(crate) fn normalized([start, end]: [f64; 2]) -> [f64; 2] {
+    let wrapped = wrap(start);
     [wrapped, wrapped + (end - start)]
+}
+
+/// The copy of an angle in `[-pi, pi)`.
+fn wrap(angle: f64) -> f64 {
+    if (-PI..PI).contains(&angle) {
+        return angle;
+    }
+    let wrapped = (angle + PI).rem_euclid(TAU) - PI;
+    if wrapped >= PI { -PI } else { wrapped }
 }

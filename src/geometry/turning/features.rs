@@ -6,7 +6,7 @@
 use crate::geometry::{Convex, Point, Vector, cross, perpendicular};
 
 /// Product of two vectors as complex numbers: `b` turned by the angle of `a`, lengths multiplied.
-pub(super) fn product(a: Vector, b: Vector) -> Vector {
+pub(crate) fn product(a: Vector, b: Vector) -> Vector {
     Vector::new(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x)
 }
 

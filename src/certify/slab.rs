@@ -1,0 +1,283 @@
+//! What is known about all values of joint 2 while joint 1 stays within a short interval, a *slab*.
+//!
+//! At a fixed `q1` the values of `q2` at which a pair meets are known in closed form (contact angles). While joint 1
+//! moves by at most `h` from the middle of the slab, link 2 moves rigidly, and a point of it that touches the obstacle
+//! moves by at most a chord `m` about the base. So where the pair keeps more than `m` apart at the middle, it is free all
+//! over the slab; where a point of it lies more than `m` deep in both shapes, it is stuck all over the slab.
+
+use super::boxes::Cell;
+use super::deviation::{Deviation, Posture};
+use super::disconnection::StuckBox;
+use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
+use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
+use crate::space::Configuration;
+use std::f64::consts::PI;
+
+/// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
+/// of the arm's size, and angles to whole turns, is covered as well.
+pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
+
+/// By how much more than a slab's motion shapes must overlap to count as stuck: the rest is what joint 2 may move by in
+/// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the
+/// slab).
+const OVERLAP: f64 = 1.25;
+
+/// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
+const MOST_TILES: usize = 4096;
+
+/// A pair of link 2, prepared.
+struct Prepared<'a> {
+    pair: Pair,
+    piece: &'a Convex,
+    features: Features,
+    part: Carried,
+    /// Reach from the base of all that the part can occupy, and of the piece grown by the clearance, metres.
+    reach: [f64; 2],
+    /// Whether the part, not the piece, is eroded: the one that is deeper.
+    erode_part: bool,
+    /// The eroded shape for every width of slab that was asked for; none where nothing is left.
+    eroded: Vec<Option<Option<Eroded>>>,
+}
+
+/// A shape that is nearer to the bone.
+enum Eroded {
+    Part(Carried),
+    Piece(Features),
+    /// Neither: the clearance to keep is more than what has to be taken away; by how much.
+    Grown(f64),
+}
+
+/// Link 2 and all that it can meet, for slabs of joint 1.
+pub(super) struct SecondLink<'a> {
+    scene: &'a Scene,
+    clearance: f64,
+    pairs: Vec<Prepared<'a>>,
+    scratch: Vec<[f64; 2]>,
+}
+
+/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`SecondLink`].
+#[derive(Default)]
+pub(super) struct Verdicts {
+    /// Outside these intervals no pair comes too near anywhere in the slab.
+    pub outer: Vec<[f64; 2]>,
+    /// Within each of these its pair is too near all over the slab.
+    pub inner: Vec<(usize, [f64; 2])>,
+}
+
+impl<'a> SecondLink<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let joint = &scene.arm.joints[1];
+        let prepare = |&pair: &Pair| {
+            let (part, piece) = (scene.part(pair), scene.piece(pair));
+            let carried = swept(part, joint, scene.arm.offset).reach_from(Point::origin());
+            Prepared {
+                pair,
+                piece,
+                features: Features::new(piece),
+                part: Carried::new(joint.motion, part),
+                reach: [carried, piece.reach_from(scene.arm.base) + clearance],
+                erode_part: part.depth() > piece.depth(),
+                eroded: Vec::new(),
+            }
+        };
+        let pairs = scene.pairs().iter().filter(|p| p.link == 1).map(prepare).collect();
+        Self { scene, clearance, pairs, scratch: Vec::new() }
+    }
+
+    /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
+    fn motion(&self, reach: f64, half: f64) -> f64 {
+        match self.scene.arm.joints[0].motion {
+            Motion::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
+            Motion::Prismatic { .. } => half,
+        }
+    }
+
+    /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
+    /// this `level`.
+    pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
+        verdicts.outer.clear();
+        verdicts.inner.clear();
+        let middle = (from + to) / 2.0;
+        let width = (to - middle).max(middle - from);
+        let (elbow, heading) = self.elbow(middle);
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for index in 0..self.pairs.len() {
+            let pair = &self.pairs[index];
+            let grow = self.clearance + self.motion(pair.reach[0].min(pair.reach[1]), width) + OUTWARD;
+            scratch.clear();
+            let hits = pair.part.hits(elbow, heading, &pair.features, grow, &mut scratch);
+            if hits == Hits::Never {
+                continue;
+            }
+            let joint = &self.scene.arm.joints[1];
+            on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
+            let overlap = self.motion(pair.reach[0], half) * OVERLAP + OUTWARD;
+            scratch.clear();
+            let hits = self.pairs[index].stuck(level, overlap, self.clearance, elbow, heading, &mut scratch);
+            on_axis(joint, hits, &scratch, |interval| {
+                if interval[0] < interval[1] {
+                    verdicts.inner.push((index, interval));
+                }
+            });
+        }
+        self.scratch = scratch;
+    }
+
+    /// The boxes that state that pair `index` is stuck for `q2` in `interval`, all over the slab. Whether the bounds that
+    /// boxes are judged by see it.
+    pub fn tile(&self, from: f64, to: f64, index: usize, interval: [f64; 2], boxes: &mut Vec<StuckBox>) -> bool {
+        let pair = self.pairs[index].pair;
+        let begin = boxes.len();
+        let mut open = vec![interval];
+        while let Some([lower, upper]) = open.pop() {
+            let cell = Cell { lower: [from, lower], upper: [to, upper] };
+            if is_stuck(self.scene, pair, &cell, self.clearance) {
+                boxes.push(StuckBox { cell, pair });
+                continue;
+            }
+            let middle = (lower + upper) / 2.0;
+            if open.len() + boxes.len() - begin > MOST_TILES || middle <= lower || middle >= upper {
+                return false;
+            }
+            open.push([middle, upper]);
+            open.push([lower, middle]);
+        }
+        true
+    }
+
+    /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
+    fn elbow(&self, q1: f64) -> (Point, Vector) {
+        let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
+    }
+}
+
+impl Prepared<'_> {
+    /// Values of joint 2 at which the shapes overlap by more than `overlap` less `clearance`.
+    fn stuck(
+        &mut self,
+        level: usize,
+        overlap: f64,
+        clearance: f64,
+        elbow: Point,
+        heading: Vector,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        if self.eroded.len() <= level {
+            self.eroded.resize_with(level + 1, || None);
+        }
+        let (part, piece, motion) = (self.part.shape(), self.piece, self.part.motion());
+        let eroded = self.eroded[level].get_or_insert_with(|| {
+            let by = overlap - clearance;
+            if by <= 0.0 {
+                Some(Eroded::Grown(-by))
+            } else if self.erode_part {
+                part.eroded(by).map(|shape| Eroded::Part(Carried::new(motion, &shape)))
+            } else {
+                piece.eroded(by).map(|shape| Eroded::Piece(Features::new(&shape)))
+            }
+        });
+        match eroded {
+            None => Hits::Never,
+            Some(Eroded::Part(part)) => part.hits(elbow, heading, &self.features, 0.0, out),
+            Some(Eroded::Piece(piece)) => self.part.hits(elbow, heading, piece, 0.0, out),
+            Some(Eroded::Grown(by)) => self.part.hits(elbow, heading, &self.features, *by, out),
+        }
+    }
+}
+
+/// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
+pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
+    Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::hull;
+    use crate::model::{Arm, Heights, Joint, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
+    use crate::space::Axis;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn shape(spread: f64) -> impl Strategy<Value = Convex> {
+        let points = prop::collection::vec((-spread..spread, -spread..spread), 1..6);
+        (points, prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(|(points, radius)| {
+            let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            Convex::new(hull(&points), radius)
+        })
+    }
+
+    fn joint(turns: bool, axis: Axis) -> Joint {
+        let motion = if turns {
+            Motion::Revolute { sign: -1.0 }
+        } else {
+            Motion::Prismatic { direction: Vector::new(0.6, 0.8) }
+        };
+        Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+    }
+
+    fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
+        let long = Axis::Interval { lower: -4.0, upper: 4.0 };
+        let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
+        let part = Part { shape: part, heights: Heights::ALL, body: "body".into() };
+        let arm = Arm {
+            name: "arm".into(),
+            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { Axis::Circle } else { long })],
+            links: [link(vec![]), link(vec![part])],
+            base: Point::new(0.1, -0.2),
+            offset,
+            tip: Point::origin(),
+            tip_name: "tip".into(),
+            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        };
+        let shape = Shape::Polygon(piece.core().to_vec());
+        let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
+        Scene::new(arm, Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0 })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(600))]
+
+        /// The oracle is the distance of the shapes at sampled postures, which knows no contact angles.
+        #[test]
+        fn what_is_said_of_a_slab_holds_all_over_it(
+            kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
+            part in shape(0.8), piece in shape(0.6), at in (-1.2..1.2f64, -1.2..1.2f64),
+            middle in -3.0..3.0f64, half in prop_oneof![0.001..0.02f64, 0.02..0.3f64],
+            clearance in prop_oneof![Just(0.0), 0.0..0.2f64],
+            samples in prop::collection::vec((-1.0..=1.0f64, 0.0..=1.0f64), 40),
+        ) {
+            let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
+            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::new(moved, piece.radius()));
+            let mut second = SecondLink::new(&scene, clearance);
+            let mut verdicts = Verdicts::default();
+            let (from, to) = (middle - half, middle + half);
+            second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
+            let Verdicts { mut outer, inner } = verdicts;
+            crate::geometry::merge_in_place(&mut outer);
+            let (bottom, top) = scene.arm.joints[1].axis.domain();
+            for (u, v) in samples {
+                let q1 = (middle + u * half).clamp(from, to);
+                let q2 = bottom + v * (top - bottom);
+                if !outer.iter().any(|i| i[0] <= q2 && q2 <= i[1]) {
+                    let distance = scene.clearance(Configuration::new(q1, q2));
+                    prop_assert!(distance > 0.0 && distance >= clearance, "{distance} at {q1} {q2}");
+                }
+                for (_, [lower, upper]) in &inner {
+                    prop_assert!(outer.iter().any(|i| i[0] <= *lower && *upper <= i[1]));
+                    let distance = scene.clearance(Configuration::new(q1, lower + v * (upper - lower)));
+                    prop_assert!(distance < clearance.max(0.0) || distance < 0.0, "{distance}");
+                }
+            }
+            // The boxes that state it say neither more nor less.
+            for &(pair, interval) in &inner {
+                let mut boxes = Vec::new();
+                prop_assert!(second.tile(from, to, pair, interval, &mut boxes), "{interval:?}");
+                boxes.sort_by(|a, b| a.cell.lower[1].total_cmp(&b.cell.lower[1]));
+                prop_assert!(boxes.windows(2).all(|w| w[0].cell.upper[1] == w[1].cell.lower[1]));
+                prop_assert_eq!([boxes[0].cell.lower[1], boxes[boxes.len() - 1].cell.upper[1]], interval);
+            }
+        }
+    }
+}

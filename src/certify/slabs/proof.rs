@@ -1,0 +1,90 @@
+//! The proof that slabs leave no connection, as boxes.
+
+use super::{ALIKE, Slab, Slabs, Span, half_of_level, index};
+use crate::certify::chain::Mosaic;
+use crate::certify::disconnection::{Disconnection, StuckBox};
+use crate::geometry::merge_in_place;
+use crate::space::Configuration;
+
+impl Slabs<'_> {
+    /// What free and mixed spans connect with a place, as one flag a span; none if no span holds the place.
+    fn reached(&self, places: &[Configuration]) -> Option<Vec<bool>> {
+        let mut reached = vec![false; self.spans.len()];
+        let mut waiting = Vec::new();
+        for &place in places {
+            let index = self.locate(place)?;
+            reached[index as usize] = true;
+            waiting.push(index);
+        }
+        while let Some(index) = waiting.pop() {
+            self.for_each_neighbor(index, |next| {
+                if !std::mem::replace(&mut reached[next as usize], true) {
+                    waiting.push(next);
+                }
+            });
+        }
+        Some(reached)
+    }
+
+    /// The proof that start and goals are not connected, which no open span denies: the stuck boxes around what can be
+    /// reached from the start, or from the goals, whichever are fewer. None if boxes do not bear it out.
+    pub(super) fn disconnection(&mut self, start: Configuration, goals: &[Configuration]) -> Option<Disconnection> {
+        let here = self.around(&[start]);
+        let there = self.around(goals);
+        let boxes = match (here, there) {
+            (Some(a), Some(b)) => Some(if b.len() < a.len() { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        boxes.map(Disconnection::of)
+    }
+
+    /// The stuck boxes beside what can be reached from `places`.
+    fn around(&mut self, places: &[Configuration]) -> Option<Vec<StuckBox>> {
+        let reached = self.reached(places)?;
+        let mut boxes = Vec::new();
+        for number in 0..index(self.slabs.len()) {
+            let slab = self.slabs[number as usize];
+            let own: Vec<u32> = self.spans_of(number).filter(|&s| reached[s as usize]).collect();
+            let beside: Vec<u32> =
+                self.beside(number).flat_map(|b| self.spans_of(b)).filter(|&s| reached[s as usize]).collect();
+            if own.is_empty() && beside.is_empty() {
+                continue;
+            }
+            if let Some(wall) = slab.wall {
+                boxes.push(self.walls[wall as usize].clone());
+                continue;
+            }
+            if !slab.judged {
+                continue;
+            }
+            self.judge_again(number);
+            let mut merged: Vec<[f64; 2]> = self.verdicts.inner.iter().map(|i| i.1).collect();
+            merge_in_place(&mut merged);
+            let span = |s: &u32| self.spans[*s as usize];
+            let axis = self.topology.axes[1];
+            let (bottom, top) = axis.domain();
+            let touches = |&[lower, upper]: &[f64; 2]| {
+                let across_seam = |s: Span| {
+                    axis.is_circle() && (s.lower == bottom && upper == top || s.upper == top && lower == bottom)
+                };
+                own.iter().map(span).any(|s| s.lower <= upper && lower <= s.upper || across_seam(s))
+                    || beside.iter().map(span).any(|s| s.lower < upper && lower < s.upper)
+            };
+            merged.retain(touches);
+            for (pair, interval) in &self.verdicts.inner {
+                let needed = merged.iter().any(|m| m[0] <= interval[0] && interval[1] <= m[1]);
+                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes) {
+                    return None;
+                }
+            }
+        }
+        Some(boxes)
+    }
+
+    /// The verdicts on a slab once more.
+    fn judge_again(&mut self, number: u32) {
+        let Slab { from, to, level, .. } = self.slabs[number as usize];
+        let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE);
+        self.second.judge(from, to, level, half, &mut self.verdicts);
+    }
+}

@@ -1,0 +1,105 @@
+//! Shapes shrunk on every side.
+
+use super::{Convex, Point, cross, perpendicular};
+
+impl Convex {
+    /// The points of this shape that lie at least `distance` deep in it: those about which a disc of that radius fits.
+    /// None if there is no such point. Rounded outlines shrink by their radius first, exactly; then every side of the
+    /// core moves inwards. Up to rounding; `O(n^2)`.
+    #[must_use]
+    pub fn eroded(&self, distance: f64) -> Option<Self> {
+        if distance <= self.radius() {
+            return Some(Self::new(self.core().to_vec(), self.radius() - distance));
+        }
+        let by = distance - self.radius();
+        let core = self.core();
+        if core.len() < 3 {
+            return None;
+        }
+        let mut left = core.to_vec();
+        for i in 0..core.len() {
+            let (a, b) = (core[i], core[(i + 1) % core.len()]);
+            let inward = perpendicular(b - a).try_normalize(0.0)?;
+            left = clipped(&left, |p| inward.dot(&(p - a)) - by);
+        }
+        // Corners that rounding leaves side by side, or a sliver without area, would be no counter-clockwise polygon.
+        left.dedup();
+        if left.len() > 1 && left[0] == left[left.len() - 1] {
+            left.pop();
+        }
+        (left.len() > 2 && area(&left) > 0.0).then(|| Self::new(left, 0.0))
+    }
+
+    /// A lower bound of the greatest distance by which this shape can be eroded: how deep the mean of the corners lies.
+    #[must_use]
+    pub fn depth(&self) -> f64 {
+        let core = self.core();
+        if core.len() < 3 {
+            return self.radius();
+        }
+        let mean = Point::from(core.iter().map(|p| p.coords).sum::<super::Vector>() / core.len() as f64);
+        let to_side = |i: usize| {
+            let (a, b) = (core[i], core[(i + 1) % core.len()]);
+            cross(b - a, mean - a) / (b - a).norm()
+        };
+        (0..core.len()).map(to_side).fold(f64::INFINITY, f64::min).max(0.0) + self.radius()
+    }
+}
+
+/// What of a convex polygon has a value that is not negative.
+fn clipped(polygon: &[Point], value: impl Fn(Point) -> f64) -> Vec<Point> {
+    let n = polygon.len();
+    let mut left = Vec::with_capacity(n + 1);
+    for i in 0..n {
+        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
+        let (at_a, at_b) = (value(a), value(b));
+        if at_a >= 0.0 {
+            left.push(a);
+        }
+        if (at_a < 0.0) != (at_b < 0.0) {
+            left.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+    }
+    left
+}
+
+fn area(polygon: &[Point]) -> f64 {
+    let n = polygon.len();
+    (0..n).map(|i| cross(polygon[i] - polygon[0], polygon[(i + 1) % n] - polygon[0])).sum::<f64>() / 2.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Vector, hull, separation};
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn discs_fit_about_what_is_left_and_about_nothing_else(
+            points in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 3..8), radius in 0.0..0.2f64,
+            by in 0.0..0.6f64, at in (-1.0..1.0f64, -1.0..1.0f64),
+        ) {
+            let corners: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
+            let shape = Convex::new(hull(&corners), radius);
+            let eroded = shape.eroded(by);
+            prop_assert!(by > shape.depth() || eroded.is_some());
+            let point = Point::from(Vector::new(at.0, at.1));
+            // Depth of the point: how far the shape must move to leave it behind.
+            let depth = -separation(&shape, &Convex::disc(point, 0.0)).distance;
+            let inside = eroded.is_some_and(|e| separation(&e, &Convex::disc(point, 0.0)).distance <= 0.0);
+            prop_assert!((depth - by).abs() < 1e-9 || inside == (depth >= by), "{depth} {by}");
+        }
+    }
+
+    #[test]
+    fn what_is_too_thin_leaves_nothing() {
+        let bar =
+            Convex::new(vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)], 0.0);
+        assert!(bar.eroded(0.049).is_some());
+        assert!(bar.eroded(0.051).is_none());
+        assert!(Convex::segment(Point::new(0., 0.), Point::new(1., 0.)).eroded(1e-9).is_none());
+        assert_eq!(Convex::disc(Point::origin(), 0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
+        assert!(Convex::disc(Point::origin(), 0.3).eroded(0.31).is_none());
+    }
+}

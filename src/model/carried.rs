@@ -1,0 +1,104 @@
+//! A convex part on the joint that moves it: for which values of the joint it meets a piece.
+
+use super::{Joint, Motion};
+use crate::geometry::{
+    Convex, Features, Hits, Point, Vector, along_and_across, normalized, product, sliding_tracks, turning_from,
+};
+use std::f64::consts::TAU;
+
+/// A part and the joint that moves it, prepared for the contact equations.
+#[derive(Debug, Clone)]
+pub struct Carried {
+    motion: Motion,
+    features: Features,
+    /// Prismatic joints: the core along and across the direction.
+    track: Vec<Vector>,
+}
+
+impl Carried {
+    /// Prepares a part, given in the frame that `motion` moves. `O(n)`.
+    #[must_use]
+    pub fn new(motion: Motion, shape: &Convex) -> Self {
+        let track = match motion {
+            Motion::Revolute { .. } => Vec::new(),
+            Motion::Prismatic { direction } => along_and_across(shape.core().iter(), Vector::zeros(), direction),
+        };
+        Self { motion, features: Features::new(shape), track }
+    }
+
+    /// How it moves.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        self.motion
+    }
+
+    /// The part.
+    #[must_use]
+    pub fn shape(&self) -> &Convex {
+        self.features.shape()
+    }
+
+    /// The joint's values at which the part comes within `grow` of the piece, when the joint sits at `pivot` on a link
+    /// turned by `heading` (a unit vector); pushed on `out`. Exact up to [`crate::geometry::ROUNDING`]. Angles are as in
+    /// [`Hits::Within`], stretches one interval. Limits are not applied. `O(n m)`.
+    pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
+        match self.motion {
+            Motion::Revolute { sign } => {
+                let from = out.len();
+                let hits = turning_from(&self.features, pivot, heading, piece, grow, out);
+                if sign < 0.0 {
+                    out[from..].iter_mut().for_each(|arc| *arc = normalized([-arc[1], -arc[0]]));
+                    out[from..].sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+                }
+                hits
+            }
+            Motion::Prismatic { direction } => {
+                let radius = self.features.shape().radius() + piece.shape().radius() + grow;
+                let direction = product(heading, direction);
+                let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
+                match sliding_tracks(&self.track, &track, radius) {
+                    Some(interval) => {
+                        out.push(interval);
+                        Hits::Within
+                    }
+                    None => Hits::Never,
+                }
+            }
+        }
+    }
+}
+
+/// Calls `f` with the copies of a joint's forbidden intervals within the domain of its axis.
+pub(crate) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
+    let (lower, upper) = joint.axis.domain();
+    match hits {
+        Hits::Never => {}
+        Hits::Always => f([lower, upper]),
+        Hits::Within => {
+            let period = if joint.motion.is_revolute() { TAU } else { f64::INFINITY };
+            for &[start, end] in intervals {
+                let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
+                while start + shift <= upper && end + shift >= lower {
+                    f([(start + shift).max(lower), (end + shift).min(upper)]);
+                    shift += period;
+                }
+            }
+        }
+    }
+}
+
+/// A shape, in link 1's frame, that holds a part of link 2 whatever joint 2 does.
+#[must_use]
+pub(crate) fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
+    let elbow = Point::from(offset);
+    match joint.motion {
+        Motion::Revolute { .. } => Convex::disc(elbow, shape.reach_from(Point::origin())),
+        Motion::Prismatic { direction } => {
+            let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
+            let (lower, upper) = joint.axis.domain();
+            let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
+            let core = if from == to { vec![from] } else { vec![from, to] };
+            Convex::new(core, shape.reach_from(center))
+        }
+    }
+}
