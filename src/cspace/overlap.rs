@@ -11,6 +11,9 @@ pub(super) type Quad = [[Configuration; 2]; 2];
 /// Times that a quadrilateral is halved across the strip, before it counts as not proven.
 const HALVINGS: u32 = 24;
 
+/// After so many halvings without success the middle is looked at.
+const LOOK: u32 = 6;
+
 /// A part of link 2 and an obstacle piece, which *overlap* where their cores are at most `radius` apart.
 ///
 /// The bound of [`Overlaps::everywhere`]. Follow one point `x` of the part over a quadrilateral. Its place in the world is
@@ -24,14 +27,20 @@ pub(super) struct Overlaps<'a> {
     arm: &'a Arm,
     part: &'a Convex,
     piece: &'a Convex,
+    /// Half-planes of the cores.
+    sides: [Vec<(Vector, f64)>; 2],
     motion: PairMotion<'a>,
     radius: f64,
 }
 
+/// A corner of a quadrilateral and the link there.
+type Corner = (Configuration, Pose);
+
 impl<'a> Overlaps<'a> {
     /// The pair; `part` in link 2's frame.
     pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex, radius: f64) -> Self {
-        Self { arm, part, piece, motion: PairMotion::new(arm, part, piece), radius }
+        let sides = [half_planes(part.core()), half_planes(piece.core())];
+        Self { arm, part, piece, sides, motion: PairMotion::new(arm, part, piece), radius }
     }
 
     /// Bound on the motion of the shapes relative to each other per unit of `q1`.
@@ -42,20 +51,7 @@ impl<'a> Overlaps<'a> {
     /// Whether the pair is proven to overlap at every configuration of the quadrilateral. True says so; false says
     /// nothing.
     pub fn everywhere(&self, quad: &Quad) -> bool {
-        self.halved(quad, HALVINGS)
-    }
-
-    fn halved(&self, quad: &Quad, halvings: u32) -> bool {
-        self.follows(quad)
-            || halvings > 0 && {
-                let middle = quad.map(|[lower, upper]| (lower + upper) / 2.0);
-                let below = [[quad[0][0], middle[0]], [quad[1][0], middle[1]]];
-                let above = [[middle[0], quad[0][1]], [middle[1], quad[1][1]]];
-                // Where the middle is free no halving will help.
-                self.depth((middle[0] + middle[1]) / 2.0) >= 0.0
-                    && self.halved(&below, halvings - 1)
-                    && self.halved(&above, halvings - 1)
-            }
+        self.halved(&quad.map(|side| side.map(|q| self.corner(q))), HALVINGS)
     }
 
     /// How much farther apart the cores may be at `q`.
@@ -63,30 +59,41 @@ impl<'a> Overlaps<'a> {
         self.radius - self.motion.separation(q).distance - self.part.radius() - self.piece.radius()
     }
 
-    /// Whether one point or one crossing stands for the whole quadrilateral.
-    fn follows(&self, quad: &Quad) -> bool {
-        let [world, link] = self.deviations(quad);
-        let corners = [quad[0][0], quad[0][1], quad[1][0], quad[1][1]];
-        let poses = corners.map(|q| self.arm.pose(1, q));
-        let (part, piece) = (self.part.core(), self.piece.core());
-        let from_world = |x: &Point| poses.iter().all(|pose| distance(pose * x, piece) + world <= self.radius);
-        let from_link = |y: &Point| poses.iter().all(|pose| distance(pose.inverse() * y, part) + link <= self.radius);
-        if world <= self.radius + self.depth_of(piece) && part.iter().any(from_world) {
-            return true;
-        }
-        if link <= self.radius + self.depth_of(part) && piece.iter().any(from_link) {
-            return true;
-        }
-        let center = self.arm.pose(1, (corners[0] + corners[1] + corners[2] + corners[3]) / 4.0);
-        if let Some(y) = self.common_point(&center) {
-            return from_link(&y) || from_world(&(center.inverse() * y));
-        }
-        self.radius == 0.0 && self.cross(&poses, world, link)
+    fn corner(&self, q: Configuration) -> Corner {
+        (q, self.arm.pose(1, q))
     }
 
-    /// An upper bound on how deep a point can lie in a core.
-    fn depth_of(&self, core: &[Point]) -> f64 {
-        if core.len() > 2 { f64::INFINITY } else { 0.0 }
+    fn halved(&self, quad: &[[Corner; 2]; 2], halvings: u32) -> bool {
+        self.follows(quad)
+            || halvings > 0 && {
+                let middle = quad.map(|[lower, upper]| self.corner((lower.0 + upper.0) / 2.0));
+                // Where the middle is free no halving will help.
+                (halvings % LOOK != 0 || self.depth((middle[0].0 + middle[1].0) / 2.0) >= 0.0)
+                    && self.halved(&[[quad[0][0], middle[0]], [quad[1][0], middle[1]]], halvings - 1)
+                    && self.halved(&[[middle[0], quad[0][1]], [middle[1], quad[1][1]]], halvings - 1)
+            }
+    }
+
+    /// Whether one point or one crossing stands for the whole quadrilateral.
+    fn follows(&self, quad: &[[Corner; 2]; 2]) -> bool {
+        let [world, link] = self.deviations(quad);
+        let corners = [quad[0][0], quad[0][1], quad[1][0], quad[1][1]];
+        let (part, piece) = (self.part.core(), self.piece.core());
+        let [of_part, of_piece] = &self.sides;
+        let from_world =
+            |x: &Point| corners.iter().all(|(_, pose)| within(pose * x, piece, of_piece, self.radius - world));
+        let from_link = |y: &Point| {
+            corners.iter().all(|(_, pose)| within(pose.inverse_transform_point(y), part, of_part, self.radius - link))
+        };
+        if piece.iter().any(from_link) || part.iter().any(from_world) {
+            return true;
+        }
+        let mean = |f: fn(&Corner) -> Configuration| corners.iter().map(f).sum::<Configuration>() / 4.0;
+        let center = self.arm.pose(1, mean(|corner| corner.0));
+        if let Some(y) = self.common_point(&center) {
+            return from_link(&y) || from_world(&center.inverse_transform_point(&y));
+        }
+        self.radius == 0.0 && self.cross(&corners.map(|corner| corner.1), world, link)
     }
 
     /// The middle of what the cores have in common with the link at `pose`, if one of them has area.
@@ -121,29 +128,42 @@ impl<'a> Overlaps<'a> {
 
     /// How far a point of the part, seen from the world, and one of the piece, seen from the link, may be from the
     /// interpolation of its places at the corners.
-    fn deviations(&self, [u, v]: &Quad) -> [f64; 2] {
+    fn deviations(&self, quad: &[[Corner; 2]; 2]) -> [f64; 2] {
+        let [u, v] = quad.map(|side| side.map(|corner| corner.0));
         let along = [self.motion.curvatures(u[0], v[0]), self.motion.curvatures(u[1], v[1])];
         let across = [self.motion.curvatures(u[0], u[1]), self.motion.curvatures(v[0], v[1])];
         [0, 1].map(|k| (along[0][k].max(along[1][k]) + across[0][k].max(across[1][k])) / 8.0)
     }
 }
 
-/// Signed distance of a point from a convex polygon (negative inside), segment or point: a convex function.
-fn distance(p: Point, core: &[Point]) -> f64 {
-    let n = core.len();
-    let (mut inside, mut nearest) = (f64::NEG_INFINITY, f64::INFINITY);
-    for (i, &a) in core.iter().enumerate() {
-        let along = core[(i + 1) % n] - a;
-        let length = along.norm();
-        let to = p - a;
-        if length > 0.0 {
-            let unit = along / length;
-            inside = inside.max(-perpendicular(unit).dot(&to));
-            let t = unit.dot(&to).clamp(0.0, length);
-            nearest = nearest.min((to - unit * t).norm());
-        } else {
-            nearest = nearest.min(to.norm());
-        }
+/// The half-planes `normal . p <= offset` of a convex polygon with area.
+fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
+    let n = if core.len() > 2 { core.len() } else { 0 };
+    (0..n)
+        .map(|i| {
+            let normal = -perpendicular((core[(i + 1) % n] - core[i]).normalize());
+            (normal, normal.dot(&core[i].coords))
+        })
+        .collect()
+}
+
+/// Whether a point's signed distance from a convex polygon (negative inside), segment or point, a convex function of it,
+/// is at most `allowed`.
+fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
+    let outside = sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max);
+    if outside > allowed {
+        return false;
     }
-    if n > 2 && inside <= 0.0 { inside } else { nearest }
+    if outside <= 0.0 && !sides.is_empty() {
+        return true;
+    }
+    let n = core.len();
+    allowed >= 0.0 && (0..n).any(|i| to_segment(p, core[i], core[(i + 1) % n]) <= allowed)
+}
+
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (along, to) = (b - a, p - a);
+    let length2 = along.norm_squared();
+    let t = if length2 > 0.0 { (along.dot(&to) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (to - along * t).norm()
 }

@@ -1,6 +1,6 @@
 //! Shapes shrunk on every side.
 
-use super::{Convex, Point, cross, perpendicular};
+use super::{Convex, Point, cross, inset};
 
 impl Convex {
     /// The points of this shape that lie at least `distance` deep in it: those about which a disc of that radius fits.
@@ -11,23 +11,7 @@ impl Convex {
         if distance <= self.radius() {
             return Some(Self::new(self.core().to_vec(), self.radius() - distance));
         }
-        let by = distance - self.radius();
-        let core = self.core();
-        if core.len() < 3 {
-            return None;
-        }
-        let mut left = core.to_vec();
-        for i in 0..core.len() {
-            let (a, b) = (core[i], core[(i + 1) % core.len()]);
-            let inward = perpendicular(b - a).try_normalize(0.0)?;
-            left = clipped(&left, |p| inward.dot(&(p - a)) - by);
-        }
-        // Corners that rounding leaves side by side, or a sliver without area, would be no counter-clockwise polygon.
-        left.dedup();
-        if left.len() > 1 && left[0] == left[left.len() - 1] {
-            left.pop();
-        }
-        (left.len() > 2 && area(&left) > 0.0).then(|| Self::new(left, 0.0))
+        inset(self.core(), distance - self.radius()).map(|core| Self::new(core, 0.0))
     }
 
     /// A lower bound of the greatest distance by which this shape can be eroded: how deep the mean of the corners lies.
@@ -44,28 +28,6 @@ impl Convex {
         };
         (0..core.len()).map(to_side).fold(f64::INFINITY, f64::min).max(0.0) + self.radius()
     }
-}
-
-/// What of a convex polygon has a value that is not negative.
-fn clipped(polygon: &[Point], value: impl Fn(Point) -> f64) -> Vec<Point> {
-    let n = polygon.len();
-    let mut left = Vec::with_capacity(n + 1);
-    for i in 0..n {
-        let (a, b) = (polygon[i], polygon[(i + 1) % n]);
-        let (at_a, at_b) = (value(a), value(b));
-        if at_a >= 0.0 {
-            left.push(a);
-        }
-        if (at_a < 0.0) != (at_b < 0.0) {
-            left.push(a + (b - a) * (at_a / (at_a - at_b)));
-        }
-    }
-    left
-}
-
-fn area(polygon: &[Point]) -> f64 {
-    let n = polygon.len();
-    (0..n).map(|i| cross(polygon[i] - polygon[0], polygon[(i + 1) % n] - polygon[0])).sum::<f64>() / 2.0
 }
 
 #[cfg(test)]
