@@ -24,6 +24,14 @@ fn wrong_command_lines_end_with_2() {
         ("--output result.txt", ".json, .csv, .yaml"),
         ("--output .json", ".json, .csv, .yaml"),
         ("--picture drawing.pdf", ".svg or .png"),
+        ("--gap 0", "more than 0"),
+        ("--gap nan", "more than 0"),
+        ("--gap 0.1 --planner wavefront", "needs --planner visibility"),
+        ("--metric time --planner harmonic", "needs --planner visibility"),
+        ("--metric weighted", "--weights"),
+        ("--metric weighted --weights 1,-1", "two positive numbers"),
+        ("--metric weighted --weights 1,2,3", "two positive numbers"),
+        ("--weights 1,2", "--metric weighted"),
         ("--frobnicate", "unexpected argument"),
     ];
     for (options, part) in cases {

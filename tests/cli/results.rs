@@ -150,3 +150,38 @@ fn full_devices_are_an_error_and_no_panic() {
     let code = place.command().args(["no.urdf", "no.toml"]).stderr(full()).status().unwrap().code();
     assert_eq!(code, Some(1));
 }
+
+#[test]
+fn paths_come_with_a_bound_on_the_optimum() {
+    let here = Place::new();
+    let optimum = |options: &str| {
+        let done = here.run(&shelf(), &format!("--json {options}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let result = done.json();
+        let optimum = result["optimum"].clone();
+        let [length, lower] = ["length", "lower_bound"].map(|key| optimum[key].as_f64().unwrap());
+        assert!(0.0 < lower && lower <= length, "{optimum}");
+        assert!((optimum["gap"].as_f64().unwrap() - (length / lower - 1.0)).abs() < 1e-12, "{optimum}");
+        (optimum, result["length"].as_f64().unwrap())
+    };
+    let (plain, length) = optimum("");
+    assert_eq!((plain["metric"].as_str(), plain["length"].as_f64()), (Some("euclidean"), Some(length)));
+    let (tight, shorter) = optimum("--gap 0.0001");
+    assert!(tight["gap"].as_f64().unwrap() <= 1e-4 && shorter < length, "{tight}");
+    // Speeds of the shoulder and the elbow are 2 and 3 rad/s: the slower joint alone has 2.45 rad to go.
+    let (time, _) = optimum("--metric time --gap 0.01");
+    assert!(time["metric"] == "time" && time["length"].as_f64().unwrap() >= 2.45 / 2.0, "{time}");
+    let (weighted, euclidean) = optimum("--metric weighted --weights 2,2");
+    assert_eq!(weighted["weights"], serde_json::json!([2.0, 2.0]));
+    assert!((weighted["length"].as_f64().unwrap() - 2.0 * euclidean).abs() < 1e-9, "{weighted}");
+    let text = here.run(&shelf(), "--metric time").stdout;
+    assert!(text.contains("optimum") && text.contains("s at top speed; proven: none below"), "{text}");
+}
+
+#[test]
+fn a_gap_that_cannot_be_reached_is_said() {
+    let here = Place::new();
+    let done = here.run(&shelf(), "--gap 0.00001 --levels 1 --json");
+    assert_eq!(done.code, 0);
+    assert!(done.stderr.contains("warning: the gap of") && done.stderr.contains("--levels"), "{}", done.stderr);
+}
