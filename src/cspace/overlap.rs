@@ -68,7 +68,7 @@ impl<'a> Overlaps<'a> {
             || halvings > 0 && {
                 let middle = quad.map(|[lower, upper]| self.corner((lower.0 + upper.0) / 2.0));
                 // Where the middle is free no halving will help.
-                (halvings % LOOK != 0 || self.depth((middle[0].0 + middle[1].0) / 2.0) >= 0.0)
+                (!halvings.is_multiple_of(LOOK) || self.depth((middle[0].0 + middle[1].0) / 2.0) >= 0.0)
                     && self.halved(&[[quad[0][0], middle[0]], [quad[1][0], middle[1]]], halvings - 1)
                     && self.halved(&[[middle[0], quad[0][1]], [middle[1], quad[1][1]]], halvings - 1)
             }
