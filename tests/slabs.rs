@@ -97,14 +97,32 @@ proptest! {
         let scene = scene(all_kinds().swap_remove(kind), obstacles);
         let (start, goal) = (inside(&scene, a), inside(&scene, b));
         prop_assume!(scene.clearance(start) > clearance + 1e-6 && scene.clearance(goal) > clearance + 1e-6);
-        if let Some(connected) = check(&scene, start, &[goal], clearance) {
-            match connectivity(&scene, start, &[goal], clearance, 20_000) {
-                Connectivity::Connected(_) => prop_assert!(connected),
-                Connectivity::Disconnected(_) => prop_assert!(!connected),
-                Connectivity::Undecided { .. } => {}
-            }
+        agrees_with_the_boxes(&scene, start, goal, clearance);
+    }
+}
+
+/// Where both decide, slabs and boxes say the same.
+fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) {
+    if let Some(connected) = check(scene, start, &[goal], clearance) {
+        match connectivity(scene, start, &[goal], clearance, 20_000) {
+            Connectivity::Connected(_) => assert!(connected),
+            Connectivity::Disconnected(_) => assert!(!connected),
+            Connectivity::Undecided { .. } => {}
         }
     }
+}
+
+/// Found by `random_scenes_are_answered_as_the_boxes_answer_them`: stuck intervals across the seam of joint 2 belong to
+/// the proof.
+#[test]
+fn a_proof_across_the_seam() {
+    let disc = Convex::disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
+    let wall = [(-0.8754122955094447, -0.6096296790282105), (-1.1648286518001902, -0.6096296790282105)];
+    let capsule = Convex::new(wall.map(|(x, y)| Point::new(x, y)).to_vec(), 0.04823605938179094);
+    let scene = scene(all_kinds().swap_remove(0), vec![disc, capsule]);
+    let (start, goal) = (inside(&scene, (0.14021252832200662, 0.39818998128329575)), inside(&scene, (0.0, 0.0)));
+    assert!(scene.clearance(start) > 0.0 && scene.clearance(goal) > 0.0);
+    agrees_with_the_boxes(&scene, start, goal, 0.0);
 }
 
 /// Two segments without thickness: nothing to erode, so that only a path can be decided, or what joint 1 alone closes.
