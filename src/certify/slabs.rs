@@ -9,7 +9,7 @@ mod proof;
 
 use super::bands::{Kind, bands};
 use super::boxes::Cell;
-use super::chain::{Mosaic, Openness, fewest_mixed, promising};
+use super::chain::{Mosaic, Openness, all_of_fewest_mixed, fewest_mixed, promising};
 use super::channel::Channel;
 use super::connectivity::Connectivity;
 use super::disconnection::StuckBox;
@@ -24,6 +24,10 @@ const FIRST: usize = 16;
 
 /// Slabs are halved so often at most: finer ones move link 2 by less than what rounding leaves uncertain.
 const MOST_LEVELS: usize = 26;
+
+/// With so many slabs all the connections with the fewest mixed spans are made certain at once: one at a time, the searches
+/// would take most of the time.
+const ONE_BY_ONE: usize = 512;
 
 /// Slabs of a level are alike up to this share of their width, far more than rounding makes of their ends.
 const ALIKE: f64 = 1e-6;
@@ -122,6 +126,12 @@ fn search(
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
             return Connectivity::Connected(Channel::new(&slabs, &chain, start, goals));
         }
+        let chain = if slabs.slabs.len() < ONE_BY_ONE {
+            chain
+        } else {
+            let all = all_of_fewest_mixed(&slabs, from, &ends, false);
+            if all.is_empty() { chain } else { all }
+        };
         let mut mixed: Vec<u32> = chain
             .into_iter()
             .filter(|&i| slabs.spans[i as usize].openness == Openness::Mixed)

@@ -84,6 +84,11 @@ impl Ends {
         Self { topology, start, goals, query }
     }
 
+    /// Whether something stands in for a goal.
+    pub fn has_goal_stand_ins(&self) -> bool {
+        self.query.goals != self.goals
+    }
+
     /// The planner's path from the true start to the true goal by way of the stand-ins.
     pub fn complete(&self, path: &Path) -> Path {
         self.join(path.waypoints(), self.goal_reached(path))
