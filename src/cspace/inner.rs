@@ -19,6 +19,9 @@ const NARROWEST: f64 = 0.5;
 /// Overlap of neighbouring contours, relative to the width of the narrowest strip.
 const OVERLAP: f64 = 1e-3;
 
+/// Depth that the middle of a link's side may have, relative to that of its ends: more would be far from the boundary.
+const DEEPEST: f64 = 2.0;
+
 /// Share of the depth that the links of contours leave unused, so that they survive rounding.
 const SPARE: f64 = 1.0 / 16.0;
 
@@ -125,8 +128,8 @@ struct InnerCurves<'a> {
     overlaps: Overlaps<'a>,
     smaller: &'a Smaller,
     min_width: f64,
-    /// Depth that the middle of a link's side may have, at the most.
-    deepest: f64,
+    /// By which the smaller shapes are smaller.
+    depth: f64,
 }
 
 impl<'a> InnerCurves<'a> {
@@ -137,7 +140,7 @@ impl<'a> InnerCurves<'a> {
         let spare = if smaller.solid { SPARE * depth } else { 0.0 };
         let overlaps = Overlaps::new(&scene.arm, part, piece, radius - spare);
         let min_width = NARROWEST * depth / overlaps.speed().max(f64::MIN_POSITIVE);
-        Self { rows, overlaps, smaller, min_width, deepest: 2.0 * depth }
+        Self { rows, overlaps, smaller, min_width, depth }
     }
 
     fn contours(&self) -> Vec<Vec<Point>> {
@@ -145,7 +148,9 @@ impl<'a> InnerCurves<'a> {
             return Vec::new();
         }
         let turning = self.rows.scene().arm.joints[1].motion.is_revolute();
-        let overlap = if self.smaller.solid { OVERLAP * self.min_width } else { 0.0 };
+        // Both joints' motion over the overlap is a small part of the depth.
+        let width = self.min_width.min(self.depth / self.rows.lever(0).max(f64::MIN_POSITIVE));
+        let overlap = if self.smaller.solid { OVERLAP * width } else { 0.0 };
         let breaks = first_breaks(self.rows, 0, [&self.smaller.part, &self.smaller.piece], &[(0.0, false)], overlap);
         contours(&mut &*self, &breaks, Flattening { turning, min_width: self.min_width, overlap })
     }
@@ -173,7 +178,7 @@ impl Source for &InnerCurves<'_> {
     }
 
     fn links(&self, from: &[Configuration; 2], to: &[Configuration; 2]) -> bool {
-        (0..2).all(|side| self.overlaps.depth((from[side] + to[side]) / 2.0) <= self.deepest)
+        (0..2).all(|side| self.overlaps.depth((from[side] + to[side]) / 2.0) <= DEEPEST * self.depth)
             && self.overlaps.everywhere(&[*from, *to])
     }
 
