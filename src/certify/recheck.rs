@@ -7,6 +7,7 @@ use super::disconnection::{Disconnection, StuckBox};
 use crate::geometry::penetration_depth;
 use crate::model::{Motion, Scene};
 use crate::space::{Configuration, Topology};
+use petgraph::unionfind::UnionFind;
 use thiserror::Error;
 
 /// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
@@ -75,9 +76,7 @@ pub fn recheck(
     // A start or goal inside a stuck box is not free: nothing leads there.
     let Some(from) = slabs.locate(topology.wrap(start)) else { return Ok(()) };
     let groups = slabs.groups(&topology);
-    let joined = |&goal: &Configuration| {
-        slabs.locate(topology.wrap(goal)).is_some_and(|to| groups.find(to) == groups.find(from))
-    };
+    let joined = |&goal: &Configuration| slabs.locate(topology.wrap(goal)).is_some_and(|to| groups.equiv(to, from));
     goals.iter().position(joined).map_or(Ok(()), |goal| Err(ProofDefect::NotSeparated(goal)))
 }
 
@@ -190,16 +189,16 @@ impl Slabs {
 
     /// Gaps that belong together: of neighbouring strips (round the circle too) where they overlap, and of one strip
     /// across the seam of the second axis.
-    fn groups(&self, topology: &Topology) -> Groups {
+    fn groups(&self, topology: &Topology) -> UnionFind<usize> {
         let strips = self.first.len() - 1;
-        let mut groups = Groups { parent: (0..self.gaps.len()).collect() };
+        let mut groups = UnionFind::new(self.gaps.len());
         let round = topology.axes[0].is_circle().then_some((strips - 1, 0));
         for (a, b) in (1..strips).map(|i| (i - 1, i)).chain(round) {
             let (mut i, mut j) = (self.strip(a).start, self.strip(b).start);
             while i < self.strip(a).end && j < self.strip(b).end {
                 let ([from_a, to_a], [from_b, to_b]) = (self.gaps[i], self.gaps[j]);
                 if from_a.max(from_b) < to_a.min(to_b) {
-                    groups.join(i, j);
+                    groups.union(i, j);
                 }
                 if to_a < to_b { i += 1 } else { j += 1 }
             }
@@ -208,38 +207,10 @@ impl Slabs {
             let (bottom, top) = topology.axes[1].domain();
             for strip in (0..strips).map(|i| self.strip(i)).filter(|s| !s.is_empty()) {
                 if self.gaps[strip.start][0] == bottom && self.gaps[strip.end - 1][1] == top {
-                    groups.join(strip.start, strip.end - 1);
+                    groups.union(strip.start, strip.end - 1);
                 }
             }
         }
         groups
-    }
-}
-
-/// Union-find.
-struct Groups {
-    parent: Vec<usize>,
-}
-
-impl Groups {
-    fn find(&self, mut of: usize) -> usize {
-        while self.parent[of] != of {
-            of = self.parent[of];
-        }
-        of
-    }
-
-    fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b)] = a.min(b);
-    }
-
-    /// [`Groups::find`], halving the way for the next one.
-    fn root(&mut self, mut of: usize) -> usize {
-        while self.parent[of] != of {
-            self.parent[of] = self.parent[self.parent[of]];
-            of = self.parent[of];
-        }
-        of
     }
 }
