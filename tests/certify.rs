@@ -11,6 +11,7 @@ use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::space::{Axis, Configuration, Path};
 use proptest::prelude::*;
+use std::f64::consts::PI;
 
 fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
     let at = |k: usize, t: f64| {
@@ -220,6 +221,56 @@ fn false_proofs_are_refused() {
     assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofDefect::NotInDomain(7)));
     assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofDefect::NotInDomain(7)));
     assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofDefect::UnknownPair(7)));
+}
+
+/// Whether boxes leave a way from `start` to `goal` on the torus: flood fill over the grid of all their coordinates.
+fn flooded(boxes: &[StuckBox], start: Configuration, goal: Configuration) -> bool {
+    let ends: [Vec<f64>; 2] = [0, 1].map(|k| {
+        let sides = boxes.iter().flat_map(|b| [b.cell.lower[k], b.cell.upper[k]]);
+        let mut ends: Vec<f64> = sides.chain([-PI, PI]).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        ends
+    });
+    let size = [0, 1].map(|k| ends[k].len() - 1);
+    let at = |k: usize, value: f64| ends[k].partition_point(|&end| end <= value) - 1;
+    let mut closed = vec![vec![false; size[1]]; size[0]];
+    for cell in boxes.iter().map(|b| &b.cell) {
+        let [across, up] = [0, 1].map(|k| {
+            let place = |value: f64| ends[k].partition_point(|&end| end < value);
+            place(cell.lower[k])..place(cell.upper[k])
+        });
+        closed[across].iter_mut().for_each(|column| column[up.clone()].fill(true));
+    }
+    let mut waiting = vec![[at(0, start[0]), at(1, start[1])]];
+    while let Some([i, j]) = waiting.pop() {
+        if !std::mem::replace(&mut closed[i][j], true) {
+            if [i, j] == [at(0, goal[0]), at(1, goal[1])] {
+                return true;
+            }
+            let [w, h] = size;
+            waiting.extend([[(i + 1) % w, j], [(i + w - 1) % w, j], [i, (j + 1) % h], [i, (j + h - 1) % h]]);
+        }
+    }
+    false
+}
+
+#[test]
+fn what_separates_is_decided_as_by_flood_fill() {
+    for which in [Benchmark::Inf, Benchmark::T] {
+        let (scene, start, goal) = benchmark(which);
+        let boxes = proof(&scene, start, goal, 0.0);
+        let mut opened = 0;
+        let step = boxes.len().div_ceil(64);
+        for gone in (0..boxes.len()).step_by(step) {
+            let left = [&boxes[..gone], &boxes[gone + 1..]].concat();
+            let way = flooded(&left, start, goal);
+            let expected = if way { Err(ProofDefect::NotSeparated(0)) } else { Ok(()) };
+            assert_eq!(recheck(&left, &scene, start, &[goal], 0.0), expected, "{which:?} without box {gone}");
+            opened += usize::from(way);
+        }
+        assert!(opened > 0, "{which:?}: no box matters");
+    }
 }
 
 /// The arm of [`rr`] as two segments without thickness.
