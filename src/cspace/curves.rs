@@ -148,4 +148,9 @@ impl Source for &Curves<'_> {
     fn fills(&self, _: f64, _: f64, _: [f64; 2]) -> bool {
         true
     }
+
+    /// What is left out could be hit.
+    fn is_spent(&self) -> bool {
+        false
+    }
 }

@@ -192,4 +192,8 @@ impl Source for &InnerCurves<'_> {
         self.smaller.solid && v - u <= self.min_width
             || self.overlaps.everywhere(&[u, v].map(|q1| [lower, upper].map(|q2| Configuration::new(q1, q2))))
     }
+
+    fn is_spent(&self) -> bool {
+        self.overlaps.is_spent()
+    }
 }

@@ -33,6 +33,9 @@ pub(super) trait Source {
     /// Whether a rectangle over the strip from `u` to `v` and `span` can stand for the C-obstacle there, given that at
     /// each end of the strip or at one of them all of the span is blocked.
     fn fills(&self, u: f64, v: f64, span: [f64; 2]) -> bool;
+
+    /// Whether what is left of the C-obstacle is to be left out.
+    fn is_spent(&self) -> bool;
 }
 
 /// How to flatten.
@@ -121,6 +124,9 @@ impl<S: Source> Tracer<'_, S> {
             self.rectangle(u.at.q1, v.at.q1, TURN);
         } else if let Some(links) = self.matching(u, v) {
             self.extend(v, &links);
+        } else if self.source.is_spent() {
+            self.close_chains();
+            self.start_chains(v);
         } else if v.at.q1 - u.at.q1 <= self.how.min_width {
             self.cover(u, v);
         } else {

@@ -4,12 +4,17 @@ use super::chord::PairMotion;
 use crate::geometry::{Convex, Point, Pose, Vector, common, perpendicular, segments_cross};
 use crate::model::Arm;
 use crate::space::Configuration;
+use std::cell::Cell;
 
 /// A quadrilateral of configurations as two of its sides, each at one value of `q1` from its lower end to its upper.
 pub(super) type Quad = [[Configuration; 2]; 2];
 
 /// Times that a quadrilateral is halved across the strip, before it counts as not proven.
 const HALVINGS: u32 = 24;
+
+/// Quadrilaterals looked at for one pair: a hundred times what contours within a millionth of the reach take, and some
+/// tenths of a second. Pairs that graze each other all along a curve could take without end.
+const MOST_LOOKS: u32 = 400_000;
 
 /// After so many halvings without success the middle is looked at.
 const LOOK: u32 = 6;
@@ -31,6 +36,8 @@ pub(super) struct Overlaps<'a> {
     sides: [Vec<(Vector, f64)>; 2],
     motion: PairMotion<'a>,
     radius: f64,
+    /// Looks at single quadrilaterals that are left.
+    looks: Cell<u32>,
 }
 
 /// A corner of a quadrilateral and the link there.
@@ -40,12 +47,25 @@ impl<'a> Overlaps<'a> {
     /// The pair; `part` in link 2's frame.
     pub fn new(arm: &'a Arm, part: &'a Convex, piece: &'a Convex, radius: f64) -> Self {
         let sides = [half_planes(part.core()), half_planes(piece.core())];
-        Self { arm, part, piece, sides, motion: PairMotion::new(arm, part, piece), radius }
+        Self {
+            arm,
+            part,
+            piece,
+            sides,
+            motion: PairMotion::new(arm, part, piece),
+            radius,
+            looks: Cell::new(MOST_LOOKS),
+        }
     }
 
     /// Bound on the motion of the shapes relative to each other per unit of `q1`.
     pub fn speed(&self) -> f64 {
         self.motion.speed()
+    }
+
+    /// Whether so much has been looked at that nothing more will be proven.
+    pub fn is_spent(&self) -> bool {
+        self.looks.get() == 0
     }
 
     /// Whether the pair is proven to overlap at every configuration of the quadrilateral. True says so; false says
