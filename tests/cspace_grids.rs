@@ -2,7 +2,8 @@
 
 mod common;
 
-use cplan::cspace::{Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
+use common::Benchmark;
+use cplan::cspace::{Bitmap, Grid, Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Hits, Point, Vector};
 use cplan::model::{Arm, Motion, Scene};
 use cplan::space::{Axis, Configuration};
@@ -88,9 +89,13 @@ proptest! {
         let (bits, grid) = (bitmap(&scene, cells, clearance), grid_from_rows(&scene, cells, clearance));
         prop_assert_eq!(bits.cells(), cells);
         for index in 0..cells[0] * cells[1] {
-            prop_assert_eq!(bits.blocked(index / cells[1], index % cells[1]), grid.blocked[index], "cell {}", index);
+            if bits.blocked(index / cells[1], index % cells[1]) != grid.blocked[index] {
+                let distance = scene.clearance(grid.center(index)) - clearance;
+                prop_assert!(distance.abs() < BOUNDARY, "cell {} is {} from contact", index, distance);
+            }
         }
-        prop_assert_eq!(bits.count(), grid.blocked.iter().filter(|b| **b).count());
+        let counted = (0..cells[0] * cells[1]).filter(|i| bits.blocked(i / cells[1], i % cells[1])).count();
+        prop_assert_eq!(bits.count(), counted);
         prop_assert_eq!((0..cells[0]).map(|i| bits.row(i).iter().map(|w| w.count_ones()).sum::<u32>()).sum::<u32>() as usize, bits.count());
     }
 
@@ -180,4 +185,35 @@ fn w20_from_rows_is_that_of_collision_tests() {
     }
     let blocked = rows.blocked.iter().filter(|b| **b).count() as f64 / rows.blocked.len() as f64;
     assert!(blocked > 0.1 && blocked < 0.9, "a mixed picture, not a share of {blocked}");
+}
+
+/// The cells in which a bitmap differs from a grid.
+fn differing(bits: &Bitmap, grid: &Grid) -> Vec<usize> {
+    let columns = grid.cells[1];
+    (0..grid.blocked.len()).filter(|&i| bits.blocked(i / columns, i % columns) != grid.blocked[i]).collect()
+}
+
+#[test]
+fn bitmaps_of_the_benchmarks_are_their_grids() {
+    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+        let cells = [2048, 2048];
+        let (bits, grid) = (bitmap(&scene, cells, 0.0), grid_from_rows(&scene, cells, 0.0));
+        for index in differing(&bits, &grid) {
+            let distance = scene.clearance(grid.center(index));
+            assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
+        }
+        assert!(bits.count() > 0 && bits.count() < cells[0] * cells[1]);
+    }
+}
+
+#[test]
+fn bitmaps_are_what_collision_tests_say() {
+    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+        let cells = [256, 256];
+        let (bits, sampled) = (bitmap(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
+        for index in differing(&bits, &sampled) {
+            let distance = scene.clearance(sampled.center(index));
+            assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
+        }
+    }
 }

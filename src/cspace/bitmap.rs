@@ -1,8 +1,9 @@
 //! A configuration space as bits.
 
-use super::rows::{Row, Rows};
-use crate::model::Scene;
-use crate::space::{Configuration, Topology};
+use super::rows::Rows;
+use crate::model::{Scene, on_axis};
+use crate::space::Axis;
+use std::ops::Range;
 
 /// Cells as in [`super::Grid`], one bit each: set where the cell's *centre* comes within the clearance of an obstacle.
 ///
@@ -51,32 +52,82 @@ impl Bitmap {
     }
 }
 
-/// The bitmap of a scene: [`super::grid_from_rows`] in an eighth of the memory, row by row from exact intervals.
-/// `O(rows * contacts + cells / 64)`.
+/// The bitmap of a scene: [`super::grid_from_rows`] in an eighth of the memory. Pair by pair, only in the rows where link
+/// 2 reaches the piece at all. `O(reached rows * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let rows = Rows::new(scene);
-    let topology: Topology = scene.arm.topology();
+    let axes: [Axis; 2] = scene.arm.topology().axes;
     let words = cells[1].div_ceil(WORD);
     let mut bits = vec![0_u64; words * cells[0]];
-    let step = [0, 1].map(|k| topology.axes[k].extent() / cells[k] as f64);
-    let (first, second) = (topology.axes[0].domain().0, topology.axes[1].domain().0);
-    let bands = rows.bands(clearance);
-    let mut row = Row::default();
-    for (i, words) in bits.chunks_exact_mut(words.max(1)).enumerate() {
-        let q = Configuration::new(first + (i as f64 + 0.5) * step[0], second);
-        if bands.forbids(q[0]) {
-            fill(words, 0, cells[1]);
-            continue;
-        }
-        rows.row(q[0], clearance, &mut row);
-        for &[start, end] in &row.merged {
-            let from = ((start - second) / step[1] - 0.5).ceil().max(0.0) as usize;
-            let to = (((end - second) / step[1] - 0.5).floor() + 1.0).max(0.0) as usize;
-            fill(words, from, to.min(cells[1]));
+    let [lines, columns] = [0, 1].map(|k| Centers::new(axes[k], cells[k]));
+
+    let banned = rows.bands(clearance).merged;
+    let banned: Vec<Range<usize>> = banned.into_iter().map(|band| lines.within(band)).collect();
+    for band in &banned {
+        for i in band.clone() {
+            fill(&mut bits[i * words..(i + 1) * words], 0, cells[1]);
         }
     }
+    let elbows: Vec<_> = (0..cells[0]).map(|i| rows.elbow(lines.at(i))).collect();
+    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
+    for index in rows.second_link_pairs() {
+        reached.clear();
+        let hits = rows.reach_range(index, clearance, &mut reached);
+        on_axis(&scene.arm.joints[0], hits, &reached, |range| {
+            // One row more at either end, for the rounding of the range.
+            let range = lines.within(range);
+            let range = range.start.saturating_sub(1)..(range.end + 1).min(cells[0]);
+            for i in without(range, &banned) {
+                let (elbow, heading) = elbows[i];
+                let row = &mut bits[i * words..(i + 1) * words];
+                intervals.clear();
+                let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
+                on_axis(&scene.arm.joints[1], hits, &intervals, |blocked| {
+                    let blocked = columns.within(blocked);
+                    fill(row, blocked.start, blocked.end);
+                });
+            }
+        });
+    }
     Bitmap { cells, words, bits }
+}
+
+/// The centres of an axis's cells.
+struct Centers {
+    lower: f64,
+    step: f64,
+    per_cell: f64,
+    count: usize,
+}
+
+impl Centers {
+    fn new(axis: Axis, count: usize) -> Self {
+        let step = axis.extent() / count as f64;
+        Self { lower: axis.domain().0, step, per_cell: 1.0 / step, count }
+    }
+
+    fn at(&self, i: usize) -> f64 {
+        self.lower + (i as f64 + 0.5) * self.step
+    }
+
+    /// The cells whose centre lies in the closed interval.
+    fn within(&self, [start, end]: [f64; 2]) -> Range<usize> {
+        // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1.
+        let at = |value: f64| (value - self.lower) * self.per_cell - 0.5;
+        let up = |x: f64| x as usize + usize::from(x > (x as usize) as f64);
+        let (start, end) = (at(start), at(end));
+        let to = if end >= 0.0 { end as usize + 1 } else { 0 };
+        let (from, to) = (up(start), to.min(self.count));
+        from..to
+    }
+}
+
+/// The members of a range that are in none of the others, which ascend.
+fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
+    let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
+    let starts = [0].into_iter().chain(others.iter().map(|o| o.end));
+    starts.zip(ends).flat_map(move |(from, to)| from.max(range.start)..to.min(range.end))
 }
 
 /// Sets the bits `from..to`.

@@ -3,6 +3,7 @@
 //! Vectors of the plane are multiplied as complex numbers here: turning by an angle is a product, and the angle of a
 //! contact comes from a single arc tangent.
 
+use super::bar::Bar;
 use crate::geometry::{Convex, Point, Vector, cross, perpendicular};
 
 /// Product of two vectors as complex numbers: `b` turned by the angle of `a`, lengths multiplied.
@@ -66,6 +67,8 @@ pub struct Features {
     /// A disc around the core.
     pub(super) center: Vector,
     pub(super) extent: f64,
+    /// The core, where it is a bar about the origin.
+    pub(super) bar: Option<Bar>,
 }
 
 impl Features {
@@ -97,6 +100,7 @@ impl Features {
             inner: inner_distance(&corners, &sides),
             outer: corners.iter().map(|c| c.distance).fold(0.0, f64::max),
             extent: core.iter().map(|p| (p - center).norm()).fold(0.0, f64::max),
+            bar: Bar::of(shape),
             shape: shape.clone(),
             corners,
             sides,

@@ -9,8 +9,9 @@
 //!
 //! Every such decision is a comparison of a length with zero. Where one is too close for rounding
 //! ([`touching`]), the pair takes the patient way instead ([`critical`]): all critical angles, sorted, one
-//! distance between neighbours.
+//! distance between neighbours. A bar about the pivot, the usual link, has a shorter way ([`bar`]).
 
+mod bar;
 mod critical;
 mod features;
 mod touching;
@@ -58,6 +59,11 @@ pub fn turning_from(
     out: &mut Vec<[f64; 2]>,
 ) -> Hits {
     let radius = part.shape.radius() + piece.shape.radius() + grow;
+    if let Some(bar) = part.bar.as_ref().filter(|_| radius == 0.0)
+        && let Some(hits) = bar.arc(pivot, zero, piece, out)
+    {
+        return hits;
+    }
     let (near, far) = piece.distances(pivot);
     if near > part.outer + radius || far + radius < part.inner {
         return Hits::Never;
