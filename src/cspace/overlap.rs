@@ -84,14 +84,18 @@ impl<'a> Overlaps<'a> {
     }
 
     fn halved(&self, quad: &[[Corner; 2]; 2], halvings: u32) -> bool {
-        self.follows(quad)
-            || halvings > 0 && {
-                let middle = quad.map(|[lower, upper]| self.corner((lower.0 + upper.0) / 2.0));
-                // Where the middle is free no halving will help.
-                (!halvings.is_multiple_of(LOOK) || self.depth((middle[0].0 + middle[1].0) / 2.0) >= 0.0)
-                    && self.halved(&[[quad[0][0], middle[0]], [quad[1][0], middle[1]]], halvings - 1)
-                    && self.halved(&[[middle[0], quad[0][1]], [middle[1], quad[1][1]]], halvings - 1)
-            }
+        self.looks.set(self.looks.get().saturating_sub(1));
+        if self.follows(quad) {
+            return true;
+        }
+        if halvings == 0 || self.is_spent() {
+            return false;
+        }
+        let middle = quad.map(|[lower, upper]| self.corner((lower.0 + upper.0) / 2.0));
+        // Where the middle is free no halving will help.
+        (!halvings.is_multiple_of(LOOK) || self.depth((middle[0].0 + middle[1].0) / 2.0) >= 0.0)
+            && self.halved(&[[quad[0][0], middle[0]], [quad[1][0], middle[1]]], halvings - 1)
+            && self.halved(&[[middle[0], quad[0][1]], [middle[1], quad[1][1]]], halvings - 1)
     }
 
     /// Whether one point or one crossing stands for the whole quadrilateral.
