@@ -117,7 +117,7 @@ impl<'a> Overlaps<'a> {
         if let Some(y) = self.common_point(&center) {
             return from_link(&y) || from_world(&center.inverse_transform_point(&y));
         }
-        self.radius == 0.0 && self.cross(&corners.map(|corner| corner.1), world, link)
+        self.radius >= 0.0 && self.cross(&corners.map(|corner| corner.1), world, link)
     }
 
     /// The middle of what the cores have in common with the link at `pose`, if one of them has area.

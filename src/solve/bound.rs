@@ -24,6 +24,12 @@ impl Bound {
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
+
+    /// What two bounds of the same problem say together: the shorter path, and the greater of what none is below.
+    #[must_use]
+    pub(super) fn and(self, other: Self) -> Self {
+        Self { lower: self.lower.max(other.lower), upper: self.upper.min(other.upper), ..self }
+    }
 }
 
 /// A share in words: `0.031 %`.

@@ -108,13 +108,10 @@ where
                             stages.bound += clock.elapsed();
                             bound
                         });
-                        let lower = best.map_or(0.0, |b| b.lower);
                         if best.zip(bounded).is_none_or(|(best, new)| new.upper < best.upper) {
                             verdict = Some(Verdict::Found(path));
-                            best = bounded;
                         }
-                        best = best
-                            .map(|b| Bound { lower: b.lower.max(lower).max(bounded.map_or(0.0, |b| b.lower)), ..b });
+                        best = best.zip(bounded).map_or(bounded, |(best, new)| Some(best.and(new)));
                         best.map_or_else(String::new, |bound| {
                             format!("its path is longer than the bound by {}", percent(bound.gap()))
                         })
