@@ -8,7 +8,7 @@ use cplan::certify::{CertifiedPath, certify};
 use cplan::geometry::Convex;
 use cplan::model::{Motion, Problem, Scene};
 use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::space::{Configuration, Path};
+use cplan::space::{Configuration, Metric, Path};
 use draft::Draft;
 use libfuzzer_sys::fuzz_target;
 use parry2d_f64::math::{Pose, Vector};
@@ -21,7 +21,8 @@ const PARRY: f64 = 1e-6;
 /// Samples of a straight piece.
 const SAMPLES: u32 = 200;
 
-const EFFORT: Effort = Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000 };
+const EFFORT: Effort =
+    Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, metric: Metric::Euclidean, gap: None };
 
 /// A shape's core, turned by an angle and moved; none where parry's constructor refuses a sliver.
 fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
