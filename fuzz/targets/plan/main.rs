@@ -21,8 +21,7 @@ const PARRY: f64 = 1e-6;
 /// Samples of a straight piece.
 const SAMPLES: u32 = 200;
 
-const EFFORT: Effort =
-    Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, metric: Metric::Euclidean, gap: None };
+const EFFORT: Effort = Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, metric: Metric::Euclidean, gap: None };
 
 /// A shape's core, turned by an angle and moved; none where parry's constructor refuses a sliver.
 fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
