@@ -1,6 +1,6 @@
 //! Laplace's equation: 1 at the goals, 0 on obstacles and beyond limits, periodic on circles.
 
-use super::{Component, Potential, Progress, Relaxation, Room};
+use super::{Component, OverRelaxation, Potential, Progress, Room};
 use std::f64::consts::{LN_2, PI};
 
 /// A harmonic potential: the probability that a random walk from a cell comes to a goal before it comes to a wall. It has
@@ -29,13 +29,13 @@ pub fn harmonic(component: &Component, factor: Option<f64>, tolerance: f64, max_
         None => room.widest.iter().map(|&widest| over_relaxation(widest)).collect(),
     };
     let mut potential = Potential::from_log2(&decay_guess(component, &room));
-    let mut progress = Relaxation { factors, tolerance, max_sweeps }.run(component, &mut potential);
+    let mut progress = OverRelaxation { factors, tolerance, max_sweeps }.run(component, &mut potential);
     for limit in CAUTIOUS_SWEEPS {
         if potential.navigates(component) {
             break;
         }
         potential = Potential::from_log2(&subharmonic_guess(component));
-        let cautious = Relaxation { factors: vec![1.0; component.len()], tolerance: 0.0, max_sweeps: limit };
+        let cautious = OverRelaxation { factors: vec![1.0; component.len()], tolerance: 0.0, max_sweeps: limit };
         let again = cautious.run(component, &mut potential);
         progress = Progress { sweeps: progress.sweeps + again.sweeps, change: again.change, converged: false };
     }

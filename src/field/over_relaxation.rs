@@ -12,7 +12,7 @@ const MEASURED: usize = 4;
 
 /// How a field is relaxed, and when it ends.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Relaxation {
+pub struct OverRelaxation {
     /// One a position: 1 is Gauss-Seidel; greater is over-relaxation, less than 2.
     pub factors: Vec<f64>,
     /// Ends when no value changes by more than this part of itself in a sweep.
@@ -32,7 +32,7 @@ pub struct Progress {
     pub converged: bool,
 }
 
-impl Relaxation {
+impl OverRelaxation {
     /// Relaxes `potential` towards the mean of its four neighbours, goals fixed, walls 0, in the order of the component.
     ///
     /// Values stay positive. With factor 1 and a start that is nowhere greater than the mean of its neighbours
