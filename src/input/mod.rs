@@ -12,6 +12,7 @@
 mod error;
 mod inspection;
 mod inverse;
+mod preference;
 mod problem;
 mod source;
 mod trajectory;

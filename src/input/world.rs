@@ -1,6 +1,7 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
+use super::preference::PreferenceTable;
 use super::source::Source;
 use crate::geometry::{Convex, Point, SimplePolygon};
 use crate::model::{Heights, Obstacle, Shape, Workspace};
@@ -10,8 +11,8 @@ use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-type Number = Spanned<f64>;
-type Numbers = Spanned<Vec<Number>>;
+pub(super) type Number = Spanned<f64>;
+pub(super) type Numbers = Spanned<Vec<Number>>;
 /// Values by joint name, with the place of both.
 pub(super) type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
@@ -30,7 +31,12 @@ impl World {
     /// A world that says nothing.
     pub(super) fn silent() -> Self {
         Self {
-            workspace: Workspace { name: String::new(), obstacles: Vec::new(), clearance: 0.0 },
+            workspace: Workspace {
+                name: String::new(),
+                obstacles: Vec::new(),
+                clearance: 0.0,
+                preferences: Vec::new(),
+            },
             source: Source { path: "".into(), text: String::new() },
             robot: RobotTable::default(),
             start: None,
@@ -75,6 +81,8 @@ struct WorldFile {
     goal: Option<Spanned<GoalTable>>,
     #[serde(default)]
     obstacle: Vec<Spanned<ObstacleTable>>,
+    #[serde(default)]
+    preference: Vec<Spanned<PreferenceTable>>,
 }
 
 #[derive(Deserialize)]
@@ -130,9 +138,11 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
     let goal = file.goal.as_ref().map(|g| reader.goal(g)).transpose()?;
     let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<_, _>>()?;
+    let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
+    let preferences = preferences.collect::<Result<_, _>>()?;
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
-        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance },
+        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
         goal,
         robot: file.robot,
@@ -149,12 +159,12 @@ fn in_toml_words(message: &str) -> String {
 }
 
 /// Checks values and knows the file they come from.
-struct Reader<'a> {
-    source: &'a Source,
+pub(super) struct Reader<'a> {
+    pub source: &'a Source,
 }
 
 impl Reader<'_> {
-    fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
+    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
         let value = *number.get_ref();
         if !value.is_finite() {
             return Err(self.source.defect_at(number.span(), format!("{what}: {value} is not a finite number")));
@@ -175,7 +185,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
+    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.finite(a, what)?, self.finite(b, what)?]),
             other => {
@@ -266,7 +276,7 @@ impl Reader<'_> {
         Ok((Shape::Polyline(corners), pieces))
     }
 
-    fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {
+    pub fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {
         let name = |i: usize| format!("{what}, point {}", i + 1);
         points.get_ref().iter().enumerate().map(|(i, p)| self.point(p, &name(i))).collect()
     }
