@@ -5,6 +5,7 @@
 //! says towards what ([`harmonic`]).
 
 mod component;
+mod descent;
 mod domain;
 mod equation;
 mod harmonic;
@@ -17,6 +18,7 @@ mod stencil;
 mod stopping;
 
 pub use component::{Component, Room};
+pub use descent::{Stuck, descend};
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use harmonic::{Field, harmonic, rough_harmonic};
