@@ -6,9 +6,11 @@
 
 mod component;
 mod descent;
+mod distance;
 mod domain;
 mod equation;
 mod harmonic;
+mod khatib;
 mod lattice;
 mod over_relaxation;
 mod potential;
@@ -19,9 +21,11 @@ mod stopping;
 
 pub use component::{Component, Room};
 pub use descent::{Stuck, descend};
+pub use distance::nearest_obstacles;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use harmonic::{Field, harmonic, rough_harmonic};
+pub use khatib::{Attraction, ForceField, Khatib, Repulsion, Trap};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;

@@ -5,9 +5,9 @@ use super::bound::{Bound, bound, percent};
 use super::swift::{SLABS, checked};
 use super::{Answer, Method, Space, Stages, Verdict, subdivision};
 use crate::certify::{Connectivity, Rejection, certify, connectivity, slab_connectivity};
-use crate::cspace::{Grid, Regions, outer_grid, regions};
+use crate::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
 use crate::model::{Problem, Scene};
-use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::plan::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
 use crate::space::Metric;
 use std::time::Instant;
 
@@ -27,12 +27,14 @@ pub struct Effort {
     /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
     /// planner only).
     pub gap: Option<f64>,
+    /// The field to follow in place of the default one (harmonic planner only).
+    pub field: Option<FieldPlanner>,
 }
 
 impl Default for Effort {
     /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
     fn default() -> Self {
-        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None }
+        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None, field: None }
     }
 }
 
@@ -56,6 +58,9 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
+        Method::Harmonic if let Some(planner) = &effort.field => {
+            climb(problem, method, effort, progress, planner, zoned_cells)
+        }
         Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
@@ -201,6 +206,11 @@ fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
     (level == 0 || n <= MOST_CELLS).then(|| outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance))
 }
 
+/// The same with the workspace's preferences.
+fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
+    cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+}
+
 /// A space in a few words.
 trait Described {
     fn describe(&self) -> String;
@@ -218,6 +228,12 @@ impl Described for Grid {
     }
 }
 
+impl Described for ZonedGrid {
+    fn describe(&self) -> String {
+        self.grid.describe()
+    }
+}
+
 impl From<Regions> for Space {
     fn from(regions: Regions) -> Self {
         Space::Regions(Box::new(regions))
@@ -227,6 +243,12 @@ impl From<Regions> for Space {
 impl From<Grid> for Space {
     fn from(grid: Grid) -> Self {
         Space::Grid(Box::new(grid))
+    }
+}
+
+impl From<ZonedGrid> for Space {
+    fn from(zoned: ZonedGrid) -> Self {
+        zoned.grid.into()
     }
 }
 
