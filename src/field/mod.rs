@@ -5,9 +5,12 @@
 //! says towards what ([`harmonic`]).
 
 mod component;
+mod descent;
+mod distance;
 mod domain;
 mod equation;
 mod harmonic;
+mod khatib;
 mod lattice;
 mod over_relaxation;
 mod potential;
@@ -17,9 +20,12 @@ mod stencil;
 mod stopping;
 
 pub use component::{Component, Room};
+pub use descent::{Stuck, descend};
+pub use distance::nearest_obstacles;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use harmonic::{Field, harmonic, rough_harmonic};
+pub use khatib::{Attraction, ForceField, Khatib, Repulsion, Trap};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;

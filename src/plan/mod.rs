@@ -4,6 +4,7 @@ mod attach;
 mod boundary;
 mod channel;
 mod decomposition;
+mod field_planner;
 mod funnel;
 mod grid_path;
 mod harmonic;
@@ -18,6 +19,7 @@ mod trapezoid;
 mod visibility;
 mod wavefront;
 
+pub use field_planner::{EquationChoice, FieldChoice, FieldPlanner};
 pub use funnel::{Passage, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
@@ -120,6 +122,13 @@ pub enum Trace {
         cells: [usize; 2],
         /// One a cell.
         potential: Vec<f64>,
+    },
+    /// A potential that paths descend, for every cell; infinite where there is none.
+    Potential {
+        /// Shape of the grid.
+        cells: [usize; 2],
+        /// One a cell.
+        heights: Vec<f64>,
     },
 }
 
