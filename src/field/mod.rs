@@ -7,6 +7,7 @@
 mod component;
 mod harmonic;
 mod lattice;
+pub mod multigrid;
 mod potential;
 mod over_relaxation;
 
