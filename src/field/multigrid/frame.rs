@@ -153,7 +153,11 @@ impl Add for Pack {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+        let mut result = self;
+        for k in 0..LANES {
+            result.0[k] += other.0[k];
+        }
+        result
     }
 }
 
@@ -161,7 +165,11 @@ impl Sub for Pack {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+        let mut result = self;
+        for k in 0..LANES {
+            result.0[k] -= other.0[k];
+        }
+        result
     }
 }
 
@@ -169,6 +177,10 @@ impl Mul for Pack {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
+        let mut result = self;
+        for k in 0..LANES {
+            result.0[k] *= other.0[k];
+        }
+        result
     }
 }
