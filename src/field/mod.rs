@@ -12,6 +12,8 @@ mod equation;
 mod harmonic;
 mod khatib;
 mod lattice;
+pub mod multigrid;
+mod potential;
 mod over_relaxation;
 mod potential;
 mod relax;
