@@ -13,7 +13,6 @@ mod harmonic;
 mod khatib;
 mod lattice;
 pub mod multigrid;
-mod potential;
 mod over_relaxation;
 mod potential;
 mod relax;
