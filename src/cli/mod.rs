@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod compare;
 mod failure;
+mod field_args;
 mod inspect;
 mod inspect_text;
 mod output;

@@ -22,6 +22,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if let Some(conflict) = args.optimum.conflict(args.planner) {
         return Err(Failure::Usage(conflict));
     }
+    let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
     let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
@@ -32,8 +33,11 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
+    if let Some(lack) = args.field.lack(&problem.scene.workspace.preferences) {
+        return Err(Failure::Usage(lack));
+    }
     let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
-    let effort = Effort { metric, gap: args.optimum.gap, ..args.effort.effort() };
+    let effort = Effort { metric, gap: args.optimum.gap, field, ..args.effort.effort() };
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
