@@ -1,6 +1,6 @@
 //! The command line's words.
 
-use super::field_args::FieldArgs;
+use super::field_args::{FieldArgs, Variant};
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -238,6 +238,10 @@ pub struct CompareArgs {
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,
+    /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
+    /// --direction 0,-1"; can be repeated.
+    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
+    pub with: Vec<Variant>,
     /// Print the table as JSON.
     #[arg(long, conflicts_with = "csv")]
     pub json: bool,

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod failure;
 mod field_args;
+mod field_report;
 mod inspect;
 mod inspect_text;
 mod output;

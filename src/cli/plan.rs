@@ -2,6 +2,7 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
+use super::field_report::field_report;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN};
@@ -52,6 +53,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
         ));
     }
     let mut report = report(problem, &answer, args.effort.period)?;
+    report.field = field.map(|field| field_report(&field, &answer));
     clock.stage("trajectory");
     if args.timings {
         report.timings = clock.milliseconds();
@@ -66,7 +68,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, &report, &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &answer, &report, field.as_ref(), &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,
