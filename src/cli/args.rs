@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use super::field_args::{FieldArgs, Variant};
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -174,7 +175,7 @@ fn gap(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
 }
 
-fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
+pub(super) fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if allowed(value) => Ok(value),
         _ => Err(format!("must be a number {range}")),
@@ -206,6 +207,8 @@ pub struct PlanArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub optimum: OptimumArgs,
+    #[command(flatten)]
+    pub field: FieldArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
@@ -235,6 +238,10 @@ pub struct CompareArgs {
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,
+    /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
+    /// --direction 0,-1"; can be repeated.
+    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
+    pub with: Vec<Variant>,
     /// Print the table as JSON.
     #[arg(long, conflicts_with = "csv")]
     pub json: bool,

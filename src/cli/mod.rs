@@ -4,6 +4,8 @@ mod args;
 mod check;
 mod compare;
 mod failure;
+mod field_args;
+mod field_report;
 mod inspect;
 mod inspect_text;
 mod output;

@@ -2,6 +2,7 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
+use super::field_report::field_report;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN};
@@ -22,6 +23,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if let Some(conflict) = args.optimum.conflict(args.planner) {
         return Err(Failure::Usage(conflict));
     }
+    let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
     let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
@@ -32,8 +34,11 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
+    if let Some(lack) = args.field.lack(&problem.scene.workspace.preferences) {
+        return Err(Failure::Usage(lack));
+    }
     let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
-    let effort = Effort { metric, gap: args.optimum.gap, ..args.effort.effort() };
+    let effort = Effort { metric, gap: args.optimum.gap, field, ..args.effort.effort() };
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
@@ -48,6 +53,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
         ));
     }
     let mut report = report(problem, &answer, args.effort.period)?;
+    report.field = field.map(|field| field_report(&field, &answer));
     clock.stage("trajectory");
     if args.timings {
         report.timings = clock.milliseconds();
@@ -62,7 +68,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, &report, &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &answer, &report, field.as_ref(), &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,

@@ -4,6 +4,7 @@
 use super::{Limits, nearest_obstacles};
 use crate::cspace::Grid;
 use crate::space::Configuration;
+use std::fmt;
 
 /// How strongly the nearest goal attracts at a distance `d`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,6 +80,26 @@ impl Repulsion {
             Self::Ranged { range, .. } if p >= range => 0.0,
             Self::Ranged { gain, range } => gain * (1.0 / p - 1.0 / range) / (p * p),
             Self::InverseSquare(charge) => charge / (p * p),
+        }
+    }
+}
+
+/// As on the command line.
+impl fmt::Display for Attraction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant(c) => write!(f, "constant:{c}"),
+            Self::Linear(k) => write!(f, "linear:{k}"),
+        }
+    }
+}
+
+/// As on the command line.
+impl fmt::Display for Repulsion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Ranged { gain, range } => write!(f, "ranged:{gain},{range}"),
+            Self::InverseSquare(charge) => write!(f, "inverse-square:{charge}"),
         }
     }
 }

@@ -69,9 +69,9 @@ impl fmt::Display for RelaxError {
 
 impl std::error::Error for RelaxError {}
 
-/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots, and a scheme that
-/// is not monotone may leave the range for good, but by nothing like this.
-const BEYOND: f64 = 1e12;
+/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
+/// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
+const BEYOND: f64 = 1e100;
 
 /// Every so many sweeps values are looked at for divergence.
 const LOOKED_AT: usize = 16;

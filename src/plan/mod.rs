@@ -4,6 +4,7 @@ mod attach;
 mod boundary;
 mod channel;
 mod decomposition;
+mod field_choice;
 mod field_planner;
 mod funnel;
 mod grid_path;
@@ -19,7 +20,7 @@ mod trapezoid;
 mod visibility;
 mod wavefront;
 
-pub use field_planner::{EquationChoice, FieldChoice, FieldPlanner};
+pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 pub use funnel::{Passage, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};

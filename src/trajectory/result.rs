@@ -1,6 +1,6 @@
 //! What a run found, as JSON.
 
-use super::Trajectory;
+use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedPath, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
@@ -80,6 +80,9 @@ pub struct Report {
     /// The link and the obstacle that come closest, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closest: Option<String>,
+    /// The field that was followed, if one was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldReport>,
     /// How much the planner built: `nodes` and `edges`, or `cells` and `sweeps`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub size: BTreeMap<&'static str, usize>,
@@ -142,6 +145,7 @@ impl Report {
             certified: false,
             clearance: None,
             closest: None,
+            field: None,
             size: BTreeMap::new(),
             timings: Vec::new(),
             duration: None,
