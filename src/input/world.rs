@@ -1,17 +1,20 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
+use super::occupancy::OccupancyMap;
+use super::preference_map::PreferenceRectangle;
 use super::source::Source;
+use super::world_map::{self, MapTable};
 use crate::geometry::{Convex, Point, SimplePolygon};
 use crate::model::{Heights, Obstacle, Shape, Workspace};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-type Number = Spanned<f64>;
-type Numbers = Spanned<Vec<Number>>;
+pub(super) type Number = Spanned<f64>;
+pub(super) type Numbers = Spanned<Vec<Number>>;
 /// Values by joint name, with the place of both.
 pub(super) type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
@@ -24,6 +27,8 @@ pub struct World {
     pub(super) robot: RobotTable,
     pub(super) start: Option<([f64; 2], Range<usize>)>,
     pub(super) goal: Option<(WorldGoal, Range<usize>)>,
+    /// What the preference file says, in metres.
+    pub preferences: Vec<PreferenceRectangle>,
 }
 
 impl World {
@@ -35,6 +40,7 @@ impl World {
             robot: RobotTable::default(),
             start: None,
             goal: None,
+            preferences: Vec::new(),
         }
     }
 }
@@ -73,6 +79,7 @@ struct WorldFile {
     robot: RobotTable,
     start: Option<StartTable>,
     goal: Option<Spanned<GoalTable>>,
+    map: Option<MapTable>,
     #[serde(default)]
     obstacle: Vec<Spanned<ObstacleTable>>,
 }
@@ -97,6 +104,8 @@ struct ObstacleTable {
     polygon: Option<Spanned<Vec<Numbers>>>,
     circle: Option<CircleTable>,
     polyline: Option<Spanned<Vec<Numbers>>>,
+    image: Option<Spanned<String>>,
+    unknown: Option<Spanned<String>>,
     height: Option<Numbers>,
 }
 
@@ -110,6 +119,9 @@ struct CircleTable {
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
 pub(super) const LARGEST: f64 = 1e6;
+
+/// Convex pieces of the largest map: beyond it each planner takes minutes.
+pub(super) const MOST_PIECES: usize = 1 << 20;
 
 /// Reads a world file.
 ///
@@ -129,12 +141,16 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
     let goal = file.goal.as_ref().map(|g| reader.goal(g)).transpose()?;
-    let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<_, _>>()?;
+    let mut obstacles =
+        file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<Vec<_>, InputError>>()?;
+    let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
+    obstacles.extend(map.obstacles);
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance },
         start: start.zip(file.start.map(|s| s.joints.span())),
-        goal,
+        goal: goal.or(map.goal.map(|(tip, at)| (WorldGoal::Tip(tip), at))),
+        preferences: map.preferences,
         robot: file.robot,
         source,
     })
@@ -149,12 +165,12 @@ fn in_toml_words(message: &str) -> String {
 }
 
 /// Checks values and knows the file they come from.
-struct Reader<'a> {
-    source: &'a Source,
+pub(super) struct Reader<'a> {
+    pub source: &'a Source,
 }
 
 impl Reader<'_> {
-    fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
+    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
         let value = *number.get_ref();
         if !value.is_finite() {
             return Err(self.source.defect_at(number.span(), format!("{what}: {value} is not a finite number")));
@@ -175,7 +191,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
+    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.finite(a, what)?, self.finite(b, what)?]),
             other => {
@@ -185,7 +201,7 @@ impl Reader<'_> {
         }
     }
 
-    fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Defect> {
+    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Defect> {
         self.two(numbers, what).map(Point::from)
     }
 
@@ -201,35 +217,79 @@ impl Reader<'_> {
         }
     }
 
-    fn obstacle(&self, index: usize, table: &Spanned<ObstacleTable>) -> Result<Obstacle, Defect> {
+    /// The path of a file that the world names, relative to itself.
+    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
+        let path = self.source.path.with_file_name(name.get_ref());
+        if path.is_file() {
+            return Ok(path);
+        }
+        let message = format!("{what}: there is no file {}", path.display());
+        Err(self.source.defect_at(name.span(), message).cure("paths are relative to the world file"))
+    }
+
+    /// Heights, all if there are none.
+    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Defect> {
+        let Some(height) = height else { return Ok(Heights::ALL) };
+        let [lower, upper] = self.two(height, &format!("{what}, height"))?;
+        if lower > upper {
+            let message = format!("{what}: height [{lower}, {upper}] is empty");
+            return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
+        }
+        Ok(Heights { lower, upper })
+    }
+
+    fn obstacle(&self, index: usize, table: &Spanned<ObstacleTable>) -> Result<Obstacle, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
-        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline) {
-            (Some(corners), None, None) => self.polygon(corners, &what)?,
-            (None, Some(circle), None) => self.circle(circle, &what)?,
-            (None, None, Some(points)) => self.polyline(points, &what)?,
-            (polygon, circle, polyline) => {
-                let count = [polygon.is_some(), circle.is_some(), polyline.is_some()].iter().filter(|x| **x).count();
+        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
+            (Some(corners), None, None, None) => self.polygon(corners, &what)?,
+            (None, Some(circle), None, None) => self.circle(circle, &what)?,
+            (None, None, Some(points), None) => self.polyline(points, &what)?,
+            (None, None, None, Some(image)) => self.image(image, obstacle.unknown.as_ref(), &what)?,
+            (polygon, circle, polyline, image) => {
+                let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
+                let count = given.iter().filter(|x| **x).count();
                 let message = format!("{what} needs exactly one shape, it has {count}");
-                return Err(self
-                    .source
-                    .defect_at(table.span(), message)
-                    .cure("give it one of polygon, circle, polyline; a second shape is an [[obstacle]] of its own"));
+                let cure = "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
+                return Err(self.source.defect_at(table.span(), message).cure(cure).into());
             }
         };
-        let heights = match &obstacle.height {
-            None => Heights::ALL,
-            Some(height) => {
-                let [lower, upper] = self.two(height, &format!("{what}, height"))?;
-                if lower > upper {
-                    let message = format!("{what}: height [{lower}, {upper}] is empty");
-                    return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
-                }
-                Heights { lower, upper }
-            }
-        };
+        if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
+            let message = format!("{what}: only an image has unknown cells");
+            return Err(self.source.defect_at(unknown.span(), message).cure("remove the key").into());
+        }
+        let heights = self.heights(obstacle.height.as_ref(), &what)?;
         Ok(Obstacle { name, shape, pieces, heights })
+    }
+
+    fn image(
+        &self,
+        image: &Spanned<String>,
+        unknown: Option<&Spanned<String>>,
+        what: &str,
+    ) -> Result<(Shape, Vec<Convex>), InputError> {
+        let unknown_is_free = match unknown.map(|u| (u.get_ref().as_str(), u.span())) {
+            None | Some(("solid", _)) => false,
+            Some(("free", _)) => true,
+            Some((other, at)) => {
+                let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
+                return Err(self.source.defect_at(at, message).into());
+            }
+        };
+        let path = self.beside(image, what)?;
+        if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
+            let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
+            let cure = "name the YAML; it names the picture";
+            return Err(self.source.defect_at(image.span(), message).cure(cure).into());
+        }
+        let pieces = OccupancyMap::read(&path)?.pieces(unknown_is_free);
+        if pieces.len() > MOST_PIECES {
+            let message = format!("{what}: {} rectangles are too many (at most {MOST_PIECES})", pieces.len());
+            let cure = "remove single pixels from the picture, or make its pixels larger";
+            return Err(self.source.defect_at(image.span(), message).cure(cure).into());
+        }
+        Ok((Shape::Pieces, pieces))
     }
 
     fn polygon(&self, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
