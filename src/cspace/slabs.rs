@@ -75,9 +75,9 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
             // One row more at either end, for the rounding of the range.
             let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
             let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
-            for i in first..last {
-                let Some((elbow, heading)) = elbows[i] else { continue };
-                let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
+            let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
+            for (row, elbow) in rows_within {
+                let &Some((elbow, heading)) = elbow else { continue };
                 intervals.clear();
                 let hits = rows.at_elbow(index, elbow, heading, grow, &mut intervals);
                 intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));

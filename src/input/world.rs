@@ -251,7 +251,8 @@ impl Reader<'_> {
                 let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
                 let count = given.iter().filter(|x| **x).count();
                 let message = format!("{what} needs exactly one shape, it has {count}");
-                let cure = "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
+                let cure =
+                    "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
                 return Err(self.source.defect_at(table.span(), message).cure(cure).into());
             }
         };

@@ -58,7 +58,7 @@ impl Description {
             let message = format!("origin: expected three numbers, found {}", file.origin.value.len());
             defect(source, &file.origin, message).cure("origin: [x, y, yaw], metres and radians")
         })?;
-        if let Some(bad) = origin.iter().find(|v| !(v.abs() <= LARGEST)) {
+        if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > LARGEST) {
             let message = format!("origin: {bad} is not finite, or too large (at most {LARGEST:e})");
             return Err(defect(source, &file.origin, message).cure("origin: [x, y, yaw], metres and radians"));
         }

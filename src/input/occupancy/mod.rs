@@ -110,14 +110,12 @@ impl OccupancyMap {
             Occupancy::Occupied => true,
             Occupancy::Unknown => !unknown_is_free,
         };
-        let corner =
-            |x: usize, y: usize| self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution);
+        let corner = |x: usize, y: usize| {
+            self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution)
+        };
         let piece = |r: &PixelRectangle| {
             let ([left, right], [top, bottom]) = (r.columns, r.rows);
-            Convex::new(
-                vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)],
-                0.0,
-            )
+            Convex::new(vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)], 0.0)
         };
         rectangles(self.size, solid).iter().map(piece).collect()
     }

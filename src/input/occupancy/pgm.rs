@@ -31,19 +31,20 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
             cells.push(checked(value, index)?);
         }
         header.skip();
-        ended(header.at, bytes.len())?;
+        ended(header.at, bytes)?;
         cells
     } else {
         // One white space ends the header, which may be the end of a comment's line.
         header.skip_comment();
-        let raster = bytes.get(header.at + 1..).unwrap_or_default();
+        let start = header.at + 1;
+        let raster = bytes.get(start..).unwrap_or_default();
         let wide = most > 255;
         let needed = count * if wide { 2 } else { 1 };
         if raster.len() < needed {
             let message = format!("ends early: {width} x {height} pixels take {needed} bytes, it has {}", raster.len());
             return Err(Broken::new(message, CURE));
         }
-        ended(needed, raster.len())?;
+        ended(start + needed, bytes)?;
         let value = |index: usize| match wide {
             true => usize::from(u16::from_be_bytes([raster[2 * index], raster[2 * index + 1]])),
             false => usize::from(raster[index]),
@@ -53,12 +54,12 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     Ok(Picture { width, height, cells })
 }
 
-/// Nothing may follow the picture.
-fn ended(at: usize, length: usize) -> Result<(), Broken> {
-    if at == length {
+/// Nothing may follow the picture, which ends before byte `at`.
+fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
+    if at >= bytes.len() {
         return Ok(());
     }
-    let message = format!("has {} bytes more than the picture that its header announces", length - at);
+    let message = format!("goes on after the picture that its header announces, at byte {}", at + 1);
     Err(Broken::new(message, "correct width, height and maxval in the header, or save it anew"))
 }
 

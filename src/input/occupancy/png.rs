@@ -1,7 +1,7 @@
 //! PNG pictures of any kind: grey, colour, palette; 1 to 16 bits; with or without opacity.
 
 use super::picture::{Broken, Judge, Picture, checked_size};
-use ::png::{BitDepth, DecodingError, Decoder, Transformations};
+use ::png::{BitDepth, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
 /// Reads a PNG.
