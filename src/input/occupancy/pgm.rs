@@ -17,12 +17,13 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
     if !(1..=65535).contains(&most) {
         return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), CURE));
     }
-    let checked = |value: usize, index: usize| match value <= most {
-        true => Ok(judge(Some(value as f64 / most as f64))),
-        false => {
+    // Once for every shade, not for every pixel.
+    let said: Vec<_> = (0..=most).map(|value| judge(Some(value as f64 / most as f64))).collect();
+    let checked = |value: usize, index: usize| {
+        said.get(value).copied().ok_or_else(|| {
             let place = format!("row {}, column {}", index / width + 1, index % width + 1);
-            Err(Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), CURE))
-        }
+            Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), CURE)
+        })
     };
     let cells = if in_text {
         let mut cells = Vec::with_capacity(count.min(bytes.len()));
