@@ -146,7 +146,7 @@ mod tests {
         for count in [MANY - 1, MANY + 1, 3 * MANY, 1500] {
             let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
             // A third of them are three wide, so that they overlap.
-            let width = |i: usize| if i % 3 == 0 { 3 } else { 1 };
+            let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };
             let mut covered = vec![[false; 40]; n];
             let squares: Vec<Vec<Point>> = places
                 .iter()

@@ -5,13 +5,24 @@
 //! says towards what ([`harmonic`]).
 
 mod component;
+mod domain;
+mod equation;
 mod harmonic;
 mod lattice;
-mod potential;
 mod over_relaxation;
+mod potential;
+mod relax;
+mod relaxation;
+mod stencil;
+mod stopping;
 
 pub use component::{Component, Room};
+pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
+pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use harmonic::{Field, harmonic, rough_harmonic};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;
+pub use relax::{RelaxError, Relaxed, relax, relax_from};
+pub use relaxation::{Factor, Lines, Order, Relaxation, Scan, Scheme};
+pub use stopping::{Convergence, Measure, Stopping};

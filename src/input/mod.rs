@@ -17,6 +17,7 @@ mod inverse;
 mod line_map;
 mod map_text;
 mod occupancy;
+mod preference;
 mod preference_map;
 mod problem;
 mod source;

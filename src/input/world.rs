@@ -2,7 +2,7 @@
 
 use super::error::{Defect, InputError};
 use super::occupancy::OccupancyMap;
-use super::preference_map::PreferenceRectangle;
+use super::preference::PreferenceTable;
 use super::source::Source;
 use super::world_map::{self, MapTable};
 use crate::geometry::{Convex, Point, SimplePolygon};
@@ -27,20 +27,22 @@ pub struct World {
     pub(super) robot: RobotTable,
     pub(super) start: Option<([f64; 2], Range<usize>)>,
     pub(super) goal: Option<(WorldGoal, Range<usize>)>,
-    /// What the preference file says, in metres.
-    pub preferences: Vec<PreferenceRectangle>,
 }
 
 impl World {
     /// A world that says nothing.
     pub(super) fn silent() -> Self {
         Self {
-            workspace: Workspace { name: String::new(), obstacles: Vec::new(), clearance: 0.0 },
+            workspace: Workspace {
+                name: String::new(),
+                obstacles: Vec::new(),
+                clearance: 0.0,
+                preferences: Vec::new(),
+            },
             source: Source { path: "".into(), text: String::new() },
             robot: RobotTable::default(),
             start: None,
             goal: None,
-            preferences: Vec::new(),
         }
     }
 }
@@ -82,6 +84,8 @@ struct WorldFile {
     map: Option<MapTable>,
     #[serde(default)]
     obstacle: Vec<Spanned<ObstacleTable>>,
+    #[serde(default)]
+    preference: Vec<Spanned<PreferenceTable>>,
 }
 
 #[derive(Deserialize)]
@@ -145,12 +149,14 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
         file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<Vec<_>, InputError>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
     obstacles.extend(map.obstacles);
+    let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
+    let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
+    preferences.extend(map.preferences);
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
-        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance },
+        workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
         goal: goal.or(map.goal.map(|(tip, at)| (WorldGoal::Tip(tip), at))),
-        preferences: map.preferences,
         robot: file.robot,
         source,
     })
@@ -327,7 +333,7 @@ impl Reader<'_> {
         Ok((Shape::Polyline(corners), pieces))
     }
 
-    fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {
+    pub fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {
         let name = |i: usize| format!("{what}, point {}", i + 1);
         points.get_ref().iter().enumerate().map(|(i, p)| self.point(p, &name(i))).collect()
     }

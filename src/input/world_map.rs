@@ -4,10 +4,11 @@ use super::error::InputError;
 use super::line_map::LineMap;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
 use super::world::{LARGEST, MOST_PIECES, Number, Numbers, Reader};
-use crate::geometry::{Convex, Point, Vector};
-use crate::model::{Obstacle, Shape};
+use crate::geometry::{Convex, Point, SimplePolygon, Vector};
+use crate::model::{Obstacle, Preference, Region, Shape};
 use serde::Deserialize;
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
 
 /// `[map]`.
@@ -28,7 +29,7 @@ pub(super) struct MapContent {
     pub obstacles: Vec<Obstacle>,
     /// Centre of the goal rectangle, and what in the world file names it.
     pub goal: Option<(Point, Range<usize>)>,
-    pub preferences: Vec<PreferenceRectangle>,
+    pub preferences: Vec<Preference>,
 }
 
 /// Maps are in millimetres unless the world says otherwise.
@@ -56,7 +57,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
         return Err(reader.source.defect_at(table.file.span(), message).into());
     }
-    let name = path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned());
+    let name = stem(&path);
     let mut obstacles = Vec::new();
     let mut add = |name: String, points: Vec<Point>| {
         let points: Vec<Point> = points.into_iter().map(place).collect();
@@ -82,14 +83,28 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
 
     let mut content = MapContent { obstacles, ..MapContent::default() };
     if let Some(file) = &table.preferences {
-        let map = PreferenceMap::read(&reader.beside(file, "preferences")?)?;
+        let path = reader.beside(file, "preferences")?;
+        let map = PreferenceMap::read(&path)?;
         within(map.bounds, file)?;
         let [a, b] = map.goal;
         content.goal = Some((place(nalgebra::center(&a, &b)), file.span()));
-        let metres = |r: &PreferenceRectangle| PreferenceRectangle { corners: r.corners.map(place), ..*r };
-        content.preferences = map.rectangles.iter().map(metres).collect();
+        let name = stem(&path);
+        for (i, PreferenceRectangle { corners: [a, b], epsilon }) in map.rectangles.into_iter().enumerate() {
+            let name = format!("{name}, rectangle {}", i + 1);
+            let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
+            let polygon = SimplePolygon::new(corners.to_vec()).map_err(|defect| {
+                let message = format!("preference \"{name}\" is no rectangle with {scale} m a unit: {defect}");
+                reader.source.defect_at(file.span(), message).cure("set `scale` in [map], metres a unit of the file")
+            })?;
+            content.preferences.push(Preference { name, region: Region::Tip(polygon), epsilon, direction: None });
+        }
     }
     Ok(content)
+}
+
+/// The file's name, for those of what is in it.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
 /// Metres a unit.

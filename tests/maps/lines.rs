@@ -3,7 +3,7 @@
 use super::{assert_refused, folder, problem_in, world_in};
 use cplan::geometry::{Convex, Point};
 use cplan::input::{LineMap, PreferenceMap};
-use cplan::model::{Goal, Shape};
+use cplan::model::{Goal, Preference, Region, Shape};
 use proptest::prelude::*;
 
 const MAP: &str = "2D-Map\nLineMinPos: -2000 -1000\nLineMaxPos: 2000 1000\nNumLines: 3\nLINES\n\
@@ -65,6 +65,14 @@ proptest! {
     }
 }
 
+/// Lower left and upper right corner of a rectangle for the tip.
+fn ends(preference: &Preference) -> [Point; 2] {
+    let Region::Tip(polygon) = &preference.region else { panic!("{preference:?}") };
+    let corners = polygon.corners();
+    assert_eq!(corners.len(), 4);
+    [corners[0], corners[2]]
+}
+
 #[test]
 fn a_world_has_the_walls_of_its_map_in_metres() {
     let world = world_in(&files(MAP, PREFERENCES, WORLD)).unwrap();
@@ -77,9 +85,10 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
     assert_eq!(obstacles[2].pieces.len(), 4);
     assert_eq!(obstacles[2].pieces[1], Convex::segment(point(2.0, -1.0), point(2.0, 1.0)));
 
-    let epsilons: Vec<f64> = world.preferences.iter().map(|p| p.epsilon).collect();
+    let epsilons: Vec<f64> = world.workspace.preferences.iter().map(|p| p.epsilon).collect();
     assert_eq!(epsilons, [0.5, -0.25]);
-    assert_eq!(world.preferences[0].corners, [point(-0.2, 0.0), point(0.0, 0.1)]);
+    assert_eq!(ends(&world.workspace.preferences[0]), [point(-0.2, 0.0), point(0.0, 0.1)]);
+    assert_eq!(world.workspace.preferences[1].name, "wishes, rectangle 2");
 
     let world = WORLD.replace("file =", "scale = 1.0\noffset = [10, -20]\nframe = false\nheight = [0, 3]\nfile =");
     let world = world_in(&files(MAP, PREFERENCES, &world)).unwrap();
@@ -87,7 +96,7 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
     assert_eq!(obstacles.len(), 2);
     assert_eq!(obstacles[1].pieces, [Convex::segment(point(-1490.0, -20.0), point(-990.0, -20.0))]);
     assert!(obstacles.iter().all(|o| o.heights.lower == 0.0 && o.heights.upper == 3.0));
-    assert_eq!(world.preferences[1].corners, [point(-990.0, -920.0), point(10.0, -620.0)]);
+    assert_eq!(ends(&world.workspace.preferences[1]), [point(-990.0, -920.0), point(10.0, -620.0)]);
 }
 
 #[test]
