@@ -16,6 +16,7 @@ mod inspection;
 mod inverse;
 mod line_map;
 mod map_text;
+mod obstacle;
 mod occupancy;
 mod preference;
 mod preference_map;

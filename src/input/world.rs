@@ -1,12 +1,12 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
-use super::occupancy::OccupancyMap;
+use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
 use super::source::Source;
 use super::world_map::{self, MapTable};
-use crate::geometry::{Convex, Point, SimplePolygon};
-use crate::model::{Heights, Obstacle, Shape, Workspace};
+use crate::geometry::Point;
+use crate::model::{Heights, Workspace};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -101,31 +101,9 @@ struct GoalTable {
     tip: Option<Numbers>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObstacleTable {
-    name: Option<String>,
-    polygon: Option<Spanned<Vec<Numbers>>>,
-    circle: Option<CircleTable>,
-    polyline: Option<Spanned<Vec<Numbers>>>,
-    image: Option<Spanned<String>>,
-    unknown: Option<Spanned<String>>,
-    height: Option<Numbers>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CircleTable {
-    center: Numbers,
-    radius: Number,
-}
-
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
 pub(super) const LARGEST: f64 = 1e6;
-
-/// Convex pieces of the largest map: beyond it each planner takes minutes.
-pub(super) const MOST_PIECES: usize = 1 << 20;
 
 /// Reads a world file.
 ///
@@ -145,8 +123,8 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
     let goal = file.goal.as_ref().map(|g| reader.goal(g)).transpose()?;
-    let mut obstacles =
-        file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<Vec<_>, InputError>>()?;
+    let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
+    let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
     obstacles.extend(map.obstacles);
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
@@ -242,95 +220,6 @@ impl Reader<'_> {
             return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
         }
         Ok(Heights { lower, upper })
-    }
-
-    fn obstacle(&self, index: usize, table: &Spanned<ObstacleTable>) -> Result<Obstacle, InputError> {
-        let obstacle = table.get_ref();
-        let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
-        let what = format!("obstacle \"{name}\"");
-        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
-            (Some(corners), None, None, None) => self.polygon(corners, &what)?,
-            (None, Some(circle), None, None) => self.circle(circle, &what)?,
-            (None, None, Some(points), None) => self.polyline(points, &what)?,
-            (None, None, None, Some(image)) => self.image(image, obstacle.unknown.as_ref(), &what)?,
-            (polygon, circle, polyline, image) => {
-                let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
-                let count = given.iter().filter(|x| **x).count();
-                let message = format!("{what} needs exactly one shape, it has {count}");
-                let cure =
-                    "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
-                return Err(self.source.defect_at(table.span(), message).cure(cure).into());
-            }
-        };
-        if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
-            let message = format!("{what}: only an image has unknown cells");
-            return Err(self.source.defect_at(unknown.span(), message).cure("remove the key").into());
-        }
-        let heights = self.heights(obstacle.height.as_ref(), &what)?;
-        Ok(Obstacle { name, shape, pieces, heights })
-    }
-
-    fn image(
-        &self,
-        image: &Spanned<String>,
-        unknown: Option<&Spanned<String>>,
-        what: &str,
-    ) -> Result<(Shape, Vec<Convex>), InputError> {
-        let unknown_is_free = match unknown.map(|u| (u.get_ref().as_str(), u.span())) {
-            None | Some(("solid", _)) => false,
-            Some(("free", _)) => true,
-            Some((other, at)) => {
-                let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
-                return Err(self.source.defect_at(at, message).into());
-            }
-        };
-        let path = self.beside(image, what)?;
-        if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
-            let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
-            let cure = "name the YAML; it names the picture";
-            return Err(self.source.defect_at(image.span(), message).cure(cure).into());
-        }
-        let pieces = OccupancyMap::read(&path)?.pieces(unknown_is_free);
-        if pieces.len() > MOST_PIECES {
-            let message = format!("{what}: {} rectangles are too many (at most {MOST_PIECES})", pieces.len());
-            let cure = "remove single pixels from the picture, or make its pixels larger";
-            return Err(self.source.defect_at(image.span(), message).cure(cure).into());
-        }
-        Ok((Shape::Pieces, pieces))
-    }
-
-    fn polygon(&self, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let points = self.points(corners, what)?;
-        let polygon = SimplePolygon::new(points).map_err(|defect| {
-            self.source
-                .defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}"))
-                .cure("list the corners in order round the shape, each once; a wall without area is a polyline")
-        })?;
-        Ok((Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces()))
-    }
-
-    fn circle(&self, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let center = self.point(&circle.center, &format!("{what}, center"))?;
-        let radius = self.finite(&circle.radius, &format!("{what}, radius"))?;
-        if radius <= 0.0 {
-            let message = format!("{what}: the radius must be positive, is {radius}");
-            return Err(self.source.defect_at(circle.radius.span(), message));
-        }
-        Ok((Shape::Circle { center, radius }, vec![Convex::disc(center, radius)]))
-    }
-
-    fn polyline(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let corners = self.points(points, what)?;
-        if corners.len() < 2 {
-            let message = format!("{what}: a polyline needs at least two points, it has {}", corners.len());
-            return Err(self.source.defect_at(points.span(), message));
-        }
-        if let Some(i) = corners.windows(2).position(|w| w[0] == w[1]) {
-            let message = format!("{what}: points {} and {} of the polyline are the same", i + 1, i + 2);
-            return Err(self.source.defect_at(points.get_ref()[i + 1].span(), message).cure("leave one of them out"));
-        }
-        let pieces = corners.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
-        Ok((Shape::Polyline(corners), pieces))
     }
 
     pub fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {

@@ -2,8 +2,9 @@
 
 use super::error::InputError;
 use super::line_map::LineMap;
+use super::obstacle::MOST_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
-use super::world::{LARGEST, MOST_PIECES, Number, Numbers, Reader};
+use super::world::{LARGEST, Number, Numbers, Reader};
 use crate::geometry::{Convex, Point, SimplePolygon, Vector};
 use crate::model::{Obstacle, Preference, Region, Shape};
 use serde::Deserialize;

@@ -40,7 +40,7 @@ proptest! {
             occupied_thresh: 0.65\nfree_thresh: 0.196\nmode: scale\n", u8::from(negate));
         let folder = folder(&[("room.pgm", &picture), ("room.yaml", yaml.as_bytes())]);
         let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
-        let pieces = map.pieces(unknown_is_free);
+        let pieces = map.pieces(unknown_is_free, usize::MAX).unwrap();
         // Places by their share of the picture's width and height, from beyond its lower left to beyond its upper right.
         let steps = 4 * width.max(height) + 3;
         for i in 0..=steps {

@@ -5,7 +5,11 @@ use proptest::prelude::*;
 use std::collections::HashMap;
 
 fn of(pixels: &[Vec<bool>]) -> Vec<PixelRectangle> {
-    rectangles([pixels[0].len(), pixels.len()], |x, y| pixels[y][x])
+    let found = rectangles([pixels[0].len(), pixels.len()], |x, y| pixels[y][x], usize::MAX).unwrap();
+    let limited = |most| rectangles([pixels[0].len(), pixels.len()], |x, y| pixels[y][x], most);
+    assert_eq!(limited(found.len()).as_ref(), Some(&found));
+    assert!(found.is_empty() || limited(found.len() - 1).is_none());
+    found
 }
 
 /// The least number of rectangles that the pixels `solid` (bits, row by row) can be divided into: every rectangle whose

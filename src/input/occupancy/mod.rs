@@ -101,9 +101,10 @@ impl OccupancyMap {
     }
 
     /// What is solid as rectangles with disjoint interiors: the occupied cells, and the unknown ones unless they count as
-    /// `unknown_is_free`. As many as [`rectangles`] makes. Corners that cells share are the same points.
+    /// `unknown_is_free`. As many as [`rectangles`] makes; none if these are more than `most`. Corners that cells share are the
+    /// same points.
     #[must_use]
-    pub fn pieces(&self, unknown_is_free: bool) -> Vec<Convex> {
+    pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let solid = |x: usize, y: usize| match self.cells[y * width + x] {
             Occupancy::Free => false,
@@ -117,7 +118,7 @@ impl OccupancyMap {
             let ([left, right], [top, bottom]) = (r.columns, r.rows);
             Convex::new(vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)], 0.0)
         };
-        rectangles(self.size, solid).iter().map(piece).collect()
+        Some(rectangles(self.size, solid, most)?.iter().map(piece).collect())
     }
 }
 

@@ -15,16 +15,17 @@ pub struct PixelRectangle {
 /// returned. That is a cut along one line through every concave corner of the outline. A partition into the least number
 /// needs a cut for every two concave corners at least, so of an outline without holes this makes at most twice, of one with
 /// holes at most three times as many as need be. (The least number itself takes a matching of the lines that join two
-/// concave corners: Lipski et al. 1979, Ohtsuki 1982.) Linear in the pixels.
+/// concave corners: Lipski et al. 1979, Ohtsuki 1982.) Linear in the pixels. None if there are more than `most`.
 #[must_use]
-pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool) -> Vec<PixelRectangle> {
+pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
-    let by_rows = merged_runs(height, width, |y, x| solid(x, y));
-    let by_columns = merged_runs(width, height, &solid);
-    if by_rows.len() <= by_columns.len() {
-        by_rows.into_iter().map(|[rows, columns]| PixelRectangle { columns, rows }).collect()
-    } else {
-        by_columns.into_iter().map(|[columns, rows]| PixelRectangle { columns, rows }).collect()
+    let by_rows = merged_runs([height, width], |y, x| solid(x, y), most)
+        .map(|found| found.into_iter().map(|[rows, columns]| PixelRectangle { columns, rows }).collect::<Vec<_>>());
+    let enough = by_rows.as_ref().map_or(most, |found| found.len().saturating_sub(1));
+    let by_columns = merged_runs([width, height], &solid, enough);
+    match by_columns {
+        None => by_rows,
+        Some(found) => Some(found.into_iter().map(|[columns, rows]| PixelRectangle { columns, rows }).collect()),
     }
 }
 
@@ -34,8 +35,12 @@ struct Open {
     since: usize,
 }
 
-/// Rectangles as lines and places in the line, in the order in which they end.
-fn merged_runs(lines: usize, length: usize, solid: impl Fn(usize, usize) -> bool) -> Vec<[[usize; 2]; 2]> {
+/// Rectangles as lines and places in the line, in the order in which they end; none if there are more than `most`.
+fn merged_runs(
+    [lines, length]: [usize; 2],
+    solid: impl Fn(usize, usize) -> bool,
+    most: usize,
+) -> Option<Vec<[[usize; 2]; 2]>> {
     let mut done = Vec::new();
     // Both ascend.
     let (mut open, mut next): (Vec<Open>, Vec<Open>) = (Vec::new(), Vec::new());
@@ -60,6 +65,9 @@ fn merged_runs(lines: usize, length: usize, solid: impl Fn(usize, usize) -> bool
         }
         done.extend(before.map(|ended| [[ended.since, line], ended.run]));
         std::mem::swap(&mut open, &mut next);
+        if done.len() + open.len() > most {
+            return None;
+        }
     }
-    done
+    Some(done)
 }
