@@ -1,6 +1,7 @@
 //! Line maps, preference files and occupancy maps: read as written, brought to metres, planned in.
 
 mod lines;
+mod mutations;
 mod occupancy;
 mod pictures;
 mod published;
