@@ -7,11 +7,14 @@
 mod component;
 mod harmonic;
 mod lattice;
-mod potential;
+mod network;
 mod over_relaxation;
+mod peeling;
+mod potential;
+mod wide;
 
 pub use component::{Component, Room};
-pub use harmonic::{Field, harmonic, rough_harmonic};
+pub use harmonic::{Field, harmonic, residual};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;
