@@ -7,6 +7,7 @@
 mod component;
 mod harmonic;
 mod lattice;
+pub mod multigrid;
 mod network;
 mod over_relaxation;
 mod peeling;

@@ -1,5 +1,6 @@
 //! The harmonic potential in windows, in order of falling values.
 
+use super::multigrid::Ends;
 use super::network::Network;
 use super::potential::Scaled;
 use super::wide::Wide;
@@ -205,8 +206,28 @@ impl<'a> Peeling<'a> {
         network
     }
 
+    /// The same equations on the smallest box of cells around them.
     fn wide(&self, window: &Window) -> Wide {
-        let mut wide = Wide::default();
+        let (mut low, mut high, mut ends) = ([usize::MAX; 2], [0; 2], [Ends::High; 2]);
+        for &position in &window.cells {
+            let place = self.component.place(position as usize);
+            for k in [0, 1] {
+                low[k] = low[k].min(place[k]);
+                high[k] = high[k].max(place[k] + 1);
+                // Across the seam of a circle.
+                let before = self.component.neighbors[position as usize][2 * k] as usize;
+                if place[k] == 0 && before != self.component.wall() && self.number[before] != NONE {
+                    ends[k] = Ends::Joined;
+                }
+            }
+        }
+        for k in [0, 1] {
+            if ends[k] == Ends::Joined {
+                (low[k], high[k]) = (0, self.component.shape[k]);
+            }
+        }
+        let cells = [high[0] - low[0], high[1] - low[1]];
+        let mut wide = Wide::new(cells, ends);
         for &position in &window.cells {
             let (mut ground, mut source) = (self.loss, [0.0; 2]);
             let around = self.component.neighbors[position as usize].map(|n| {
@@ -226,6 +247,8 @@ impl<'a> Peeling<'a> {
             wide.neighbors.push(around);
             wide.ground.push(ground);
             wide.source.push(source);
+            let [i, j] = self.component.place(position as usize);
+            wide.place.push(((i - low[0]) * cells[1] + j - low[1]) as u32);
         }
         wide
     }
