@@ -6,6 +6,9 @@ const NONE: u32 = u32::MAX;
 /// Sides of a linear system that are solved for together.
 pub(super) const SIDES: usize = 2;
 
+/// Nodes left for each link of the node with the fewest, at which links are no longer followed one by one.
+const FULL: usize = 4;
+
 /// Unknowns, each with `(ground + sum of weights) u = source + sum of weight * neighbour's u`: the potential in a network
 /// of conductances, `ground` leading to where the potential is known.
 ///
@@ -86,6 +89,7 @@ impl Network {
     pub fn solve(mut self, budget: usize) -> Option<Vec<[f64; SIDES]>> {
         let order = self.eliminate(budget)?;
         let mut solution = vec![[0.0; SIDES]; self.first.len()];
+        self.solve_rest(&order, &mut solution);
         for &node in order.iter().rev() {
             let node = node as usize;
             let mut value = self.source[node];
@@ -103,7 +107,47 @@ impl Network {
         Some(solution)
     }
 
-    /// Eliminates all nodes; their order.
+    /// Solves for the nodes that were not eliminated: their links fill a matrix.
+    fn solve_rest(&self, order: &[u32], solution: &mut [[f64; SIDES]]) {
+        let mut number = vec![0; self.first.len()];
+        order.iter().for_each(|&node| number[node as usize] = NONE);
+        let rest: Vec<usize> = (0..number.len()).filter(|&node| number[node] != NONE).collect();
+        rest.iter().enumerate().for_each(|(k, &node)| number[node] = k as u32);
+        let n = rest.len();
+        // Rows of weights; the last columns are ground and source.
+        let width = n + 1 + SIDES;
+        let mut rows = vec![0.0; n * width];
+        for (row, &node) in rows.chunks_exact_mut(width).zip(&rest) {
+            let mut at = self.first[node];
+            while at != NONE {
+                let link = self.links[at as usize];
+                row[number[link.to as usize] as usize] = link.weight;
+                at = link.next;
+            }
+            row[n] = self.ground[node];
+            row[n + 1..].copy_from_slice(&self.source[node]);
+        }
+        for k in 0..n {
+            let (done, left) = rows.split_at_mut((k + 1) * width);
+            let row = &mut done[k * width..];
+            row[k] = row[k + 1..=n].iter().sum();
+            for other in left.chunks_exact_mut(width) {
+                let share = other[k] / row[k];
+                if share > 0.0 {
+                    other[k + 1..].iter_mut().zip(&row[k + 1..]).for_each(|(other, own)| *other += share * own);
+                }
+            }
+        }
+        for k in (0..n).rev() {
+            let row = &rows[k * width..(k + 1) * width];
+            solution[rest[k]] = std::array::from_fn(|side| {
+                let others = (k + 1..n).map(|l| row[l] * solution[rest[l]][side]);
+                (row[n + 1 + side] + others.sum::<f64>()) / row[k]
+            });
+        }
+    }
+
+    /// Eliminates nodes until those that are left are mostly linked with each other; the order.
     fn eliminate(&mut self, mut budget: usize) -> Option<Vec<u32>> {
         let nodes = self.first.len();
         let mut order = Vec::with_capacity(nodes);
@@ -122,7 +166,7 @@ impl Network {
         let mut slot = vec![NONE; nodes];
         let mut around: Vec<(u32, f64)> = Vec::new();
         let mut least = 0;
-        while order.len() < nodes {
+        while order.len() < nodes && nodes - order.len() > FULL * least {
             let Some(node) = waiting[least].pop_front() else {
                 least += 1;
                 continue;

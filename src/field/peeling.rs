@@ -21,10 +21,10 @@ const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
 /// Values below this part of the greatest are left to a later window, where they are great: far above the least double.
 const SMALLEST: f64 = 1e-200;
 
-/// Pairs of neighbours that elimination may cost a cell, ...
-const BUDGET: usize = 64;
-/// ... and in any case: small windows are always eliminated.
-const FREE: usize = 1 << 18;
+/// Windows of no more cells than this are eliminated, ...
+const SMALL: usize = 2000;
+/// ... and those where the room is no wider than this.
+const NARROW: u32 = 12;
 /// Values below this part of the greatest are not precise.
 const FLOOR: f64 = 1e-36;
 
@@ -105,10 +105,10 @@ impl<'a> Peeling<'a> {
     pub fn run(mut self) -> Self {
         while let Some(window) = self.gather() {
             self.windows += 1;
-            let budget = BUDGET * window.cells.len() + FREE;
-            let direct = self.network(&window).solve(budget);
-            let solution = direct.or_else(|| self.wide(&window).solve(FLOOR * window.greatest));
-            let solution = solution.unwrap_or_default();
+            let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
+            let direct = window.cells.len() <= SMALL || widest <= NARROW;
+            let wide = if direct { None } else { self.wide(&window).solve(FLOOR * window.greatest) };
+            let solution = wide.unwrap_or_else(|| self.network(&window).solve(usize::MAX).unwrap_or_default());
             let accepted = self.accept(&window, &solution);
             if 4 * accepted < window.cells.len() {
                 self.depth *= 1.5;
@@ -268,6 +268,7 @@ impl<'a> Peeling<'a> {
         if value > 0.0 {
             beyond = if share < 1.0 { beyond.max(value / (1.0 - share)).min(window.greatest) } else { window.greatest };
         }
+        if std::env::var_os("DBG").is_some() { eprintln!("value {value:e} share {share} beside {:e} greatest {:e} beyond {beyond:e}", window.beside, window.greatest); }
         let mut taken = 0;
         let mut front = window.sources.clone();
         for (&position, &[u, e]) in window.cells.iter().zip(solution) {

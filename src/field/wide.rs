@@ -44,12 +44,12 @@ impl Wide {
     pub fn solve(&self, floor: f64) -> Option<Vec<[f64; SIDES]>> {
         let inner = Multigrid::new(self.cells, self.ends, &self.free(), 0.0);
         let mut workspace = inner.workspace();
-        let sides: [Option<Vec<f64>>; SIDES] = std::array::from_fn(|k| self.side(&inner, &mut workspace, k, floor));
-        let [u, e] = sides;
-        Some(u?.into_iter().zip(e?).map(|(u, e)| [u, e + floor]).collect())
+        let u = self.side(&inner, &mut workspace, 0, floor, ROUNDS)?;
+        let e = self.side(&inner, &mut workspace, 1, 1.0, 1)?;
+        Some(u.into_iter().zip(e).map(|(u, e)| [u, e + 1e-7]).collect())
     }
 
-    fn side(&self, inner: &Multigrid, workspace: &mut Workspace, side: usize, floor: f64) -> Option<Vec<f64>> {
+    fn side(&self, inner: &Multigrid, workspace: &mut Workspace, side: usize, floor: f64, rounds: usize) -> Option<Vec<f64>> {
         let source: Vec<f64> = self.source.iter().map(|source| source[side]).collect();
         let mut x = vec![0.0; source.len()];
         if source.iter().all(|&s| s == 0.0) {
@@ -57,7 +57,7 @@ impl Wide {
         }
         let mut residual = source.clone();
         let (mut right, mut correction) = (vec![0.0; self.area()], vec![0.0; self.area()]);
-        for _ in 0..ROUNDS {
+        for round in 1..=rounds {
             right.fill(0.0);
             correction.fill(0.0);
             self.place.iter().zip(&residual).for_each(|(&place, r)| right[place as usize] = *r);
@@ -74,7 +74,7 @@ impl Wide {
                     precise = false;
                 }
             }
-            if precise {
+            if precise || (side == 1 && round == rounds) {
                 return Some(x);
             }
         }
