@@ -5,13 +5,21 @@
 //! says towards what ([`harmonic`]).
 
 mod component;
+mod free_cells;
 mod harmonic;
 mod lattice;
-mod potential;
 mod over_relaxation;
+mod potential;
+mod queue_wave;
+mod run_wave;
+mod search;
+mod step_labels;
 
 pub use component::{Component, Room};
+pub use free_cells::{FreeCells, Move, Neighborhood};
 pub use harmonic::{Field, harmonic, rough_harmonic};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;
+pub use search::{Cost, Order, Search, Ties};
+pub use step_labels::StepLabels;

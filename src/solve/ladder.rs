@@ -27,12 +27,22 @@ pub struct Effort {
     /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
     /// planner only).
     pub gap: Option<f64>,
+    /// How the wavefront planner searches its grid.
+    pub wavefront: Wavefront,
 }
 
 impl Default for Effort {
     /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
     fn default() -> Self {
-        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None }
+        Self {
+            levels: 6,
+            margin: 1e-3,
+            cells: 256,
+            boxes: 200_000,
+            metric: Metric::Euclidean,
+            gap: None,
+            wavefront: Wavefront::default(),
+        }
     }
 }
 
@@ -55,7 +65,7 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
     match method {
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
-        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
+        Method::Wavefront => climb(problem, method, effort, progress, &effort.wavefront, cells),
         Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
