@@ -47,7 +47,7 @@ fn fields(c: &mut Criterion) {
     let mut group = c.benchmark_group("harmonic");
     group.sample_size(10);
     group.bench_function("component 256^2", |b| b.iter(|| Component::new(&lattice, black_box(&wave))));
-    group.bench_function("field to 1e-6, 256^2", |b| b.iter(|| harmonic(black_box(&component), None, 1e-6, 10_000)));
+    group.bench_function("boxes 256^2", |b| b.iter(|| harmonic(black_box(&component))));
 }
 
 criterion_group!(benches, fields);

@@ -22,10 +22,10 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
-        Method::Harmonic if let Some(planner) = &effort.field => {
-            climb(problem, method, effort, progress, planner, zoned_cells)
-        }
-        Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        Method::Harmonic => match &effort.field {
+            Some(planner) => climb(problem, method, effort, progress, planner, zoned_cells),
+            None => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        },
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
 }
