@@ -18,6 +18,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
+  cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
@@ -210,8 +211,6 @@ pub struct PlanArgs {
     #[command(flatten)]
     pub optimum: OptimumArgs,
     #[command(flatten)]
-    pub field: FieldArgs,
-    #[command(flatten)]
     pub search: SearchArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
@@ -228,6 +227,9 @@ pub struct PlanArgs {
     /// No summary, no progress.
     #[arg(long)]
     pub quiet: bool,
+    // Last, because its heading is for all that follows.
+    #[command(flatten)]
+    pub field: FieldArgs,
 }
 
 /// Arguments of `compare`.

@@ -87,8 +87,8 @@ pub struct FieldArgs {
     /// How slopes are discretised (oriented, local, bvp) [default: central].
     #[arg(long, value_enum, value_name = "NAME")]
     pub difference: Option<DifferenceName>,
-    /// How the equation is relaxed, such as --relaxation sor --order corners [default of fields other than harmonic:
-    /// gauss-seidel].
+    /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
+    /// harmonic one: gauss-seidel].
     #[arg(long, value_enum, value_name = "NAME")]
     pub relaxation: Option<RelaxationName>,
     /// In which order cells go (gauss-seidel, sor) [default: corners].

@@ -3,7 +3,7 @@
 use super::axes::{Frame, Range, Unit};
 use super::color::{self, GREY, INK, PALE, Rgb, WHITE};
 use super::figure::{Anchor, Item, Label, Rect, Step, Style, chain};
-use super::{Picture, page};
+use super::{Picture, page, preferences};
 use crate::geometry::{Convex, Point, cross};
 use crate::model::{Arm, Motion, Obstacle, Plane, Shape};
 use crate::space::{Configuration, Path};
@@ -26,6 +26,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     for (i, obstacle) in obstacles.iter().enumerate() {
         inside.push(obstacle_item(&frame, obstacle, color::obstacle(i)));
     }
+    inside.extend(preferences::in_workspace(&picture.scene.workspace.preferences, &frame));
     if let [(_, path)] = picture.paths[..] {
         for q in between(path, GHOSTS) {
             inside.extend(arm_items(&frame, arm, q, &GHOST));

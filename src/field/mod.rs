@@ -3,6 +3,10 @@
 //! A field is made of parts that combine: the free cells that matter and their adjacency ([`Component`]), numbers of
 //! unbounded range to store a potential in ([`Potential`]), how it is relaxed ([`OverRelaxation`]) and the equation that
 //! says towards what ([`harmonic`]).
+//!
+//! Beside this solver of one equation there is the whole family, in plain doubles, to choose from and to compare: [`relax`]
+//! takes a [`Domain`], an [`Equation`], a [`Relaxation`] and a [`Stopping`] rule, any with any; [`descend`] follows what
+//! comes of it. [`Khatib`]'s attraction and repulsion need no relaxation: [`ForceField`].
 
 mod component;
 mod descent;

@@ -2,9 +2,11 @@
 
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Order, Relaxation, Scan,
-    Stopping, descend, relax,
+    Stopping, Stuck, descend, relax,
 };
 use proptest::prelude::*;
+
+use crate::direct::drawn;
 
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
@@ -120,4 +122,25 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn a_field_that_is_level_about_a_corner_is_crossed() {
+    let domain = drawn("..#\n...\n#.G", [Boundary::Reflecting; 2], Levels::PROBABILITY);
+    let stopping = Stopping { measure: Measure::GreatestChange, below: 0.0, max_sweeps: 10_000 };
+    let relaxation = Relaxation::gauss_seidel(Order::Lines(Scan::ROWS));
+    let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping).unwrap();
+    // In sevenths: 1 1 0, 1 2 3, 0 3 7.
+    let sevenths = [1.0, 1.0, 0.0, 1.0, 2.0, 3.0, 0.0, 3.0, 7.0];
+    assert!(field.values.iter().zip(sevenths).all(|(value, expected)| (7.0 * value - expected).abs() < 1e-12));
+    let way = descend(&domain, &sevenths.map(|value| value / 7.0), 0).unwrap();
+    assert_eq!(way, [0, 3, 4, 7, 8]);
+    // What has the value of obstacles, or of goals, is not crossed; nor is a minimum.
+    let at = |values: [f64; 9]| descend(&domain, &values, 0).unwrap_err();
+    let zeros = [0.0, 0.0, 0.0, 0.0, 0.2, 0.3, 0.0, 0.3, 1.0];
+    assert_eq!(at(zeros), Stuck { cell: 0, value: 0.0, flat: true });
+    let ones = [1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0];
+    assert_eq!(at(ones), Stuck { cell: 0, value: 1.0, flat: true });
+    let peak = [0.3, 0.1, 0.0, 0.1, 0.2, 0.3, 0.0, 0.3, 1.0];
+    assert_eq!(at(peak), Stuck { cell: 0, value: 0.3, flat: false });
 }
