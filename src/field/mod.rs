@@ -12,6 +12,7 @@ mod network;
 mod over_relaxation;
 mod peeling;
 mod potential;
+mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
@@ -19,3 +20,4 @@ pub use harmonic::{Field, harmonic, residual};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;
+pub use streamline::{Interpolated, LatticePoint, Place, Streamline};
