@@ -5,6 +5,7 @@ use cplan::cspace::{Grid, Proves};
 use cplan::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
 use cplan::space::{Axis, Topology};
 use criterion::{Criterion, Throughput};
+use std::collections::VecDeque;
 use std::hint::black_box;
 
 /// A generator whose numbers do not matter (xorshift, Marsaglia 2003): scenes are the same in every run.
@@ -91,7 +92,6 @@ struct Plain {
     stride: usize,
     columns: usize,
     framed: Vec<u32>,
-    /// For each place in the frame of a circle the cell that it stands for.
     is_torus: bool,
 }
 
@@ -114,14 +114,11 @@ impl Plain {
     fn labels(&self, source: usize) -> Vec<u32> {
         let (stride, rows) = (self.stride, self.framed.len() / self.stride - 2);
         let mut labels = self.framed.clone();
-        let mut queue: Vec<u32> = Vec::with_capacity(labels.len());
+        let mut queue = VecDeque::new();
         let source = (source / self.columns + 1) * stride + source % self.columns + 1;
         labels[source] = TWIN + 1;
-        queue.push(source as u32);
-        let mut at = 0;
-        while at < queue.len() {
-            let from = queue[at] as usize;
-            at += 1;
+        queue.push_back(source);
+        while let Some(from) = queue.pop_front() {
             let label = labels[from] + 1;
             for mut to in [from - stride, from + stride, from - 1, from + 1] {
                 if self.is_torus && labels[to] == TWIN {
@@ -138,7 +135,7 @@ impl Plain {
                 }
                 if labels[to] == UNREACHED {
                     labels[to] = label;
-                    queue.push(to as u32);
+                    queue.push_back(to);
                 }
             }
         }
