@@ -28,7 +28,8 @@ fn square(n: usize, blocked: Vec<bool>) -> Grid {
 /// Rooms of `room x room` cells; three walls of four have a door.
 fn rooms(n: usize, room: usize, door: usize) -> Grid {
     let mut numbers = Numbers(987_654_321_987);
-    let mut blocked: Vec<bool> = (0..n * n).map(|c| c / n % room == 0 || c % n % room == 0).collect();
+    let is_wall = |c: usize| (c / n).is_multiple_of(room) || (c % n).is_multiple_of(room);
+    let mut blocked: Vec<bool> = (0..n * n).map(is_wall).collect();
     for (i, j) in (0..n / room).flat_map(|i| (0..n / room).map(move |j| (i * room, j * room))) {
         for is_row in [true, false] {
             let at = 1 + numbers.below(room - door - 1);
@@ -143,12 +144,15 @@ impl Plain {
     }
 }
 
+/// A grid of so many cells along each axis.
+type Scene = fn(usize) -> Grid;
+
 /// Reached cells a second; 1000 Melem/s are 1 ns a cell.
 pub fn wave(c: &mut Criterion) {
     for n in [1024, 4096] {
         let mut group = c.benchmark_group(format!("wave {n}^2"));
         group.sample_size(10);
-        let scenes: [(&str, fn(usize) -> Grid); 8] = [
+        let scenes: [(&str, Scene); 8] = [
             ("free", |n| square(n, vec![false; n * n])),
             ("boxes on a torus", boxes),
             ("clutter", clutter),
