@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 12] = [
+const PLANNERS: [(&str, Plan); 11] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -41,9 +41,6 @@ const PLANNERS: [(&str, Plan); 12] = [
     ("wavefront, A*, 8 neighbours", |scene, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
         answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
-    }),
-    ("wavefront, depth-first", |scene, query| {
-        answered(&Wavefront { search: GridSearch::DepthFirst, ..Wavefront::default() }, &cells(scene), query)
     }),
     ("harmonic, cells", |scene, query| {
         answered(&Harmonic { shortcut: false, ..Harmonic::default() }, &cells(scene), query)
@@ -168,6 +165,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
             (Trace::Wavefront { cells, labels: drawn }, Size::Grid { cells: reached, .. }) => {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == reached
+            }
+            (Trace::Wavefront { cells, labels: drawn }, Size::Search { expanded, labelled }) => {
+                drawn.len() == cells[0] * cells[1]
+                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+                    && expanded <= labelled
             }
             (Trace::Field { cells, potential }, Size::Grid { cells: reached, .. }) => {
                 potential.len() == cells[0] * cells[1] && potential.iter().filter(|p| p.is_finite()).count() == reached

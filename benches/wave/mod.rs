@@ -5,6 +5,7 @@ use cplan::cspace::{Grid, Proves};
 use cplan::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
 use cplan::space::{Axis, Topology};
 use criterion::{Criterion, Throughput};
+use std::collections::VecDeque;
 use std::hint::black_box;
 
 /// A generator whose numbers do not matter (xorshift, Marsaglia 2003): scenes are the same in every run.
@@ -27,7 +28,8 @@ fn square(n: usize, blocked: Vec<bool>) -> Grid {
 /// Rooms of `room x room` cells; three walls of four have a door.
 fn rooms(n: usize, room: usize, door: usize) -> Grid {
     let mut numbers = Numbers(987_654_321_987);
-    let mut blocked: Vec<bool> = (0..n * n).map(|c| c / n % room == 0 || c % n % room == 0).collect();
+    let is_wall = |c: usize| (c / n).is_multiple_of(room) || (c % n).is_multiple_of(room);
+    let mut blocked: Vec<bool> = (0..n * n).map(is_wall).collect();
     for (i, j) in (0..n / room).flat_map(|i| (0..n / room).map(move |j| (i * room, j * room))) {
         for is_row in [true, false] {
             let at = 1 + numbers.below(room - door - 1);
@@ -91,7 +93,6 @@ struct Plain {
     stride: usize,
     columns: usize,
     framed: Vec<u32>,
-    /// For each place in the frame of a circle the cell that it stands for.
     is_torus: bool,
 }
 
@@ -114,14 +115,11 @@ impl Plain {
     fn labels(&self, source: usize) -> Vec<u32> {
         let (stride, rows) = (self.stride, self.framed.len() / self.stride - 2);
         let mut labels = self.framed.clone();
-        let mut queue: Vec<u32> = Vec::with_capacity(labels.len());
+        let mut queue = VecDeque::new();
         let source = (source / self.columns + 1) * stride + source % self.columns + 1;
         labels[source] = TWIN + 1;
-        queue.push(source as u32);
-        let mut at = 0;
-        while at < queue.len() {
-            let from = queue[at] as usize;
-            at += 1;
+        queue.push_back(source);
+        while let Some(from) = queue.pop_front() {
             let label = labels[from] + 1;
             for mut to in [from - stride, from + stride, from - 1, from + 1] {
                 if self.is_torus && labels[to] == TWIN {
@@ -138,7 +136,7 @@ impl Plain {
                 }
                 if labels[to] == UNREACHED {
                     labels[to] = label;
-                    queue.push(to as u32);
+                    queue.push_back(to);
                 }
             }
         }
@@ -146,12 +144,15 @@ impl Plain {
     }
 }
 
+/// A grid of so many cells along each axis.
+type Scene = fn(usize) -> Grid;
+
 /// Reached cells a second; 1000 Melem/s are 1 ns a cell.
 pub fn wave(c: &mut Criterion) {
     for n in [1024, 4096] {
         let mut group = c.benchmark_group(format!("wave {n}^2"));
         group.sample_size(10);
-        let scenes: [(&str, fn(usize) -> Grid); 8] = [
+        let scenes: [(&str, Scene); 8] = [
             ("free", |n| square(n, vec![false; n * n])),
             ("boxes on a torus", boxes),
             ("clutter", clutter),
