@@ -1,6 +1,8 @@
 //! The command line's words.
 
-use super::field_args::{FieldArgs, Variant};
+use super::field_args::FieldArgs;
+use super::search_args::SearchArgs;
+use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -17,6 +19,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
@@ -208,6 +211,8 @@ pub struct PlanArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub optimum: OptimumArgs,
+    #[command(flatten)]
+    pub search: SearchArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,

@@ -11,7 +11,9 @@ mod inspect_text;
 mod output;
 mod plan;
 mod recheck;
+mod search_args;
 mod summary;
+mod variant;
 mod verify;
 
 use args::{Cli, Command};
