@@ -96,9 +96,9 @@ impl Relaxation {
         for &(from, to) in &self.runs {
             let len = to - from;
             let (above, rest) = self.values.split_at_mut(from - 1);
-            let (row, below) = rest.split_at_mut(self.stride - 1 + 1);
+            let (row, below) = rest.split_at_mut(self.stride);
             let above = &above[from - self.stride..][..len];
-            let below = &below[..len];
+            let below = &below[1..][..len];
             let mut west = row[0];
             for k in 0..len {
                 // The sum without the value just made is ready before that is: the chain from cell to cell is short.

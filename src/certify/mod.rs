@@ -17,6 +17,7 @@ mod passage;
 mod recheck;
 mod slab;
 mod slabs;
+mod vicinity;
 
 pub use boxes::Cell;
 pub use channel::Channel;

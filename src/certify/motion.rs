@@ -1,6 +1,7 @@
 //! Continuous collision check of a path.
 
 use super::deviation::{Deviation, Posture};
+use super::vicinity::Vicinity;
 use crate::model::{Contact, Pair, Scene};
 use crate::space::{Configuration, Path};
 
@@ -8,8 +9,14 @@ use crate::space::{Configuration, Path};
 /// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
 const TIGHTNESS: f64 = 0.9;
 
-/// Looks at pairs and pieces of a path before giving up: some seconds' worth.
+/// Looks at pairs and pieces of a path before giving up: some seconds' worth, ...
 const MAX_EVALUATIONS: usize = 5_000_000;
+/// ... and some for each straight piece: paths through mazes have hundreds of thousands.
+const EVALUATIONS_PER_PIECE: usize = 500;
+
+/// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
+/// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
+const BEYOND: f64 = 2.0;
 
 /// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
 /// [`certify`] makes one.
@@ -83,23 +90,26 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
             return Err(Rejection::OutOfLimits { waypoint, joint });
         }
     }
-    let mut search = Search { scene, required: clearance, proven: f64::INFINITY, nearest: None, evaluations: 0 };
+    let vicinity = Vicinity::new(scene);
+    let budget = MAX_EVALUATIONS + EVALUATIONS_PER_PIECE * path.waypoints().len();
+    let mut search = Search { scene, required: clearance, proven: f64::INFINITY, nearest: None, budget };
     for &q in path.waypoints() {
         let posture = Posture::new(scene, q);
-        for &pair in scene.pairs() {
-            let deviation = Deviation::Box([0.0, 0.0]);
+        let here = Deviation::Box([0.0, 0.0]);
+        vicinity.near(&posture, here, search.seen(), |pair| {
             // What is farther off than the nearest so far is of no interest.
-            if posture.apart(pair, deviation) < search.seen() {
-                search.see(q, Contact { pair, separation: posture.bound(pair, deviation).here })?;
+            if posture.apart(pair, here) < search.seen() {
+                search.see(q, Contact { pair, separation: posture.bound(pair, here).here })?;
             }
-        }
+            Ok(())
+        })?;
     }
     // A path that stays where it is has no segment, yet a clearance.
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
-        for &pair in scene.pairs() {
-            search.segment(pair, from, to)?;
-        }
+        let middle = Posture::new(scene, from + (to - from) * 0.5);
+        let along = Deviation::Along((to - from) * 0.5);
+        vicinity.near(&middle, along, BEYOND * search.target(), |pair| search.segment(pair, from, to))?;
     }
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
@@ -111,7 +121,8 @@ struct Search<'a> {
     proven: f64,
     /// Least distance seen.
     nearest: Option<Nearest>,
-    evaluations: usize,
+    /// Looks that are left.
+    budget: usize,
 }
 
 impl Search<'_> {
@@ -143,7 +154,7 @@ impl Search<'_> {
         while let Some((middle, half)) = open.pop() {
             let at = from + (to - from) * middle;
             let (posture, deviation) = (Posture::new(self.scene, at), Deviation::Along((to - from) * half));
-            self.evaluations += 1;
+            self.budget = self.budget.saturating_sub(1);
             let apart = posture.apart(pair, deviation);
             if apart > 0.0 && apart >= self.target() {
                 self.proven = self.proven.min(apart);
@@ -154,7 +165,7 @@ impl Search<'_> {
             self.see(at, contact)?;
             if bounded.least >= self.target() {
                 self.proven = self.proven.min(bounded.least);
-            } else if self.evaluations > MAX_EVALUATIONS || half < f64::EPSILON {
+            } else if self.budget == 0 || half < f64::EPSILON {
                 return Err(Rejection::Undecided(Nearest { at, contact }));
             } else {
                 let quarter = half / 2.0;

@@ -30,6 +30,7 @@ pub mod search;
 mod stencil;
 mod step_labels;
 mod stopping;
+mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
@@ -47,3 +48,4 @@ pub use relax::{RelaxError, Relaxed, relax, relax_from};
 pub use relaxation::{Factor, Lines, Order, Relaxation, Scan, Scheme};
 pub use step_labels::StepLabels;
 pub use stopping::{Convergence, Measure, Stopping};
+pub use streamline::{Interpolated, LatticePoint, Place, Streamline};

@@ -56,10 +56,7 @@ impl Planner for Harmonic {
         let field = harmonic(&component);
         let size = Size::Grid { cells: component.len(), sweeps: field.windows };
         let trace = trace(space, &component, &field.potential);
-        let path = field.potential.ascend(&component, start).and_then(|positions| {
-            let cells: Vec<usize> = positions.into_iter().map(|at| component.cells[at] as usize).collect();
-            grid_path::path(space, query, &joined, &cells, self.shortcut)
-        });
+        let path = grid_path::ascent(space, query, &joined, (&component, &field.potential), start, self.shortcut);
         let outcome = path.map_or_else(|| Outcome::GaveUp("the field has a local maximum".into()), Outcome::Found);
         Run { outcome, trace, size, note: None }
     }
