@@ -6,11 +6,14 @@
 mod common;
 
 use common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
-use cplan::cspace::{Grid, Regions, outer_grid, regions};
-use cplan::field::Neighborhood;
+use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
+use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
-use cplan::plan::{GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility, Wavefront};
+use cplan::plan::{
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace,
+    Trapezoid, Visibility, Wavefront,
+};
 use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
 
@@ -18,7 +21,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 11] = [
+const PLANNERS: [(&str, Plan); 13] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -46,7 +49,23 @@ const PLANNERS: [(&str, Plan); 11] = [
         answered(&Harmonic { shortcut: false, ..Harmonic::default() }, &cells(scene), query)
     }),
     ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
+    ("oriented, relaxed", |scene, query| {
+        let direction = Direction::of([1.0, 0.5]).expect("not zero");
+        let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
+    ("altered preferences, relaxed", |scene, query| {
+        let equation = EquationChoice::AlteredPreference { elsewhere: 0.05 };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
 ];
+
+/// A field relaxed so far that it leads to the goal.
+fn relaxed(equation: EquationChoice) -> FieldPlanner {
+    let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-3, max_sweeps: 500 };
+    FieldPlanner { field, limits: Limits::High, shortcut: true }
+}
 
 /// Polygons grown by a margin far below the room in the scenes here.
 fn polygons(scene: &Scene, query: &Query) -> Regions {

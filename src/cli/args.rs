@@ -1,7 +1,8 @@
 //! The command line's words.
 
-use super::field_args::{FieldArgs, Variant};
+use super::field_args::FieldArgs;
 use super::search_args::SearchArgs;
+use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;

@@ -2,14 +2,13 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
-use super::field_args::Variant;
 use super::output::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::Picture;
 use crate::input;
 use crate::model::Problem;
 use crate::report::{Comparison, Row};
-use crate::solve::{Answer, Effort, Method, Verdict, solve};
+use crate::solve::{Answer, Method, Verdict, solve};
 use crate::trajectory::time;
 use std::time::Duration;
 
@@ -24,20 +23,18 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let problem = &loaded.problem;
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
-    let mut entries: Vec<_> = methods.into_iter().map(|method| (method.to_string(), method, None)).collect();
-    for Variant { label, method, field } in &args.with {
-        if let Some(lack) = field.lack(&problem.scene.workspace.preferences) {
-            return Err(Failure::Usage(lack));
-        }
-        entries.push((label.clone(), *method, field.planner(*method).map_err(Failure::Usage)?));
+    let mut entries: Vec<_> = methods.into_iter().map(|method| (method.to_string(), method, effort)).collect();
+    for variant in &args.with {
+        let effort = variant.effort(effort, &problem.scene.workspace.preferences).map_err(Failure::Usage)?;
+        entries.push((variant.label.clone(), variant.method, effort));
     }
     let mut answers = Vec::new();
     let mut rows = Vec::new();
-    for (label, method, field) in entries {
+    for (label, method, effort) in entries {
         if !args.quiet {
             output::say(&format!("{label} ..."));
         }
-        let answer = solve(problem, method, &Effort { field, ..effort }, &mut |text| {
+        let answer = solve(problem, method, &effort, &mut |text| {
             if !args.quiet {
                 output::say(text);
             }

@@ -7,7 +7,7 @@ use crate::field::{
 use crate::model::Preference;
 use crate::plan::{EquationChoice, FieldChoice, FieldPlanner};
 use crate::solve::Method;
-use clap::{Args, Parser, ValueEnum};
+use clap::{Args, ValueEnum};
 
 /// Equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -117,43 +117,6 @@ pub struct FieldArgs {
     /// Let each component of pull and push go through tanh (khatib).
     #[arg(long)]
     pub saturated: bool,
-}
-
-/// A planner with options, as one word of `compare`'s command line.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Variant {
-    /// As the user wrote it, single blanks between the words.
-    pub label: String,
-    /// The planner.
-    pub method: Method,
-    /// Its options.
-    pub field: FieldArgs,
-}
-
-/// The grammar of a variant.
-#[derive(Parser)]
-#[command(no_binary_name = true, disable_help_flag = true)]
-struct VariantGrammar {
-    planner: Method,
-    #[command(flatten)]
-    field: FieldArgs,
-}
-
-impl Variant {
-    /// Reads one.
-    ///
-    /// # Errors
-    /// What is wrong with it, in one line.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        let words: Vec<&str> = text.split_whitespace().collect();
-        let VariantGrammar { planner, field } = VariantGrammar::try_parse_from(&words).map_err(|error| {
-            let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            line.strip_prefix("error: ").unwrap_or(line).to_owned()
-        })?;
-        field.planner(planner)?;
-        Ok(Self { label: words.join(" "), method: planner, field })
-    }
 }
 
 /// Sweeps before the answer is what there is.

@@ -13,6 +13,7 @@ mod plan;
 mod recheck;
 mod search_args;
 mod summary;
+mod variant;
 mod verify;
 
 use args::{Cli, Command};

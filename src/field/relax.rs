@@ -78,6 +78,18 @@ const LOOKED_AT: usize = 16;
 
 /// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
 ///
+/// ```
+/// use cplan::field::*;
+///
+/// let kinds = [Cell::Goal, Cell::Free, Cell::Free, Cell::Obstacle].to_vec();
+/// let domain = Domain::new([1, 4], kinds, [Boundary::Reflecting; 2], Levels::PUBLISHED);
+/// let relaxation = Relaxation::sor(Factor::Given(1.1), Order::Corners(Lines::Rows));
+/// let stopping = Stopping { measure: Measure::SumOfChange, below: 1e-12, max_sweeps: 1_000 };
+/// let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping)?;
+/// assert!((field.values[1] - 1.0 / 3.0).abs() < 1e-9 && (field.values[2] - 2.0 / 3.0).abs() < 1e-9);
+/// # Ok::<(), RelaxError>(())
+/// ```
+///
 /// # Errors
 /// [`RelaxError::Refused`] where equation and domain differ in size, or a factor is not positive; [`RelaxError::Diverged`].
 /// A relaxation that neither diverges nor converges ends after `stopping.max_sweeps` (of each stage), and its

@@ -147,7 +147,7 @@ pub enum Trace {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
     /// The field was not relaxed to the tolerance asked for: the way through it is a way, but not the one that the
-    /// harmonic function would show.
+    /// solution of its equation would show.
     Unconverged {
         /// Passes over all cells, until the limit.
         sweeps: usize,

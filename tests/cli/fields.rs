@@ -164,17 +164,19 @@ fn compare_takes_rows_with_options() {
     let with = "harmonic  --field oriented --epsilon 0.5 --direction 0,-1";
     let mut command = place.command();
     command.arg("compare").args(shelf()).args(["--cells", "48", "--planner", "wavefront", "--json", "--quiet"]);
-    let done = command.args(["--with", with, "--with", "harmonic --field khatib"]).output().unwrap();
+    let done = command
+        .args(["--with", with, "--with", "harmonic --field khatib", "--with", "wavefront --search astar"])
+        .output()
+        .unwrap();
     let table: Value = serde_json::from_slice(&done.stdout).unwrap();
     let rows: Vec<&str> =
         table["planners"].as_array().unwrap().iter().map(|row| row["planner"].as_str().unwrap()).collect();
-    assert_eq!(
-        rows,
-        ["wavefront", "harmonic --field oriented --epsilon 0.5 --direction 0,-1", "harmonic --field khatib"]
-    );
+    let oriented = "harmonic --field oriented --epsilon 0.5 --direction 0,-1";
+    assert_eq!(rows, ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar"]);
     for (with, part) in [
         ("harmonic --field oriented", "needs --epsilon and --direction"),
         ("wavefront --field bvp", "needs --planner harmonic"),
+        ("harmonic --search bfs", "needs --planner wavefront"),
         ("magic", "no planner is called"),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
         ("", "not provided"),

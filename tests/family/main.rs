@@ -9,4 +9,5 @@ mod khatib;
 mod planner;
 mod product;
 mod promises;
+mod stopping;
 mod zones;
