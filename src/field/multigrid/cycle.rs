@@ -2,8 +2,8 @@
 
 use super::envelope::Envelope;
 use super::frame::Frame;
-use super::machine::{LANES, Machine};
 use super::galerkin::coarsen;
+use super::machine::{LANES, Machine};
 use super::smooth::{Smooth, Vectors};
 use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Rows, Transfer};
@@ -94,7 +94,14 @@ impl Hierarchy {
 }
 
 /// Smooths, and restricts what is left.
-fn descend<M: Machine, L: Smooth>(m: M, level: &L, transfer: &Transfer, upper: &mut Vectors, lower: &mut Vectors, rows: &mut Rows) {
+fn descend<M: Machine, L: Smooth>(
+    m: M,
+    level: &L,
+    transfer: &Transfer,
+    upper: &mut Vectors,
+    lower: &mut Vectors,
+    rows: &mut Rows,
+) {
     level.from_zero(m, upper);
     transfer.restrict(m, level, upper, rows, &mut lower.right);
 }

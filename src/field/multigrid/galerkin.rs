@@ -23,15 +23,18 @@ impl Halves {
     }
 
     fn read<M: Machine>(&mut self, m: M, line: &mut Line) {
-        m.run(#[inline(always)] || {
-        for ((even, odd), line) in self.even.parts().into_iter().zip(self.odd.parts()).zip(line.parts()) {
-            odd[0] = line[0];
-            let pairs = line[1..].as_chunks::<2>().0;
-            for ((even, odd), pair) in even[1..].iter_mut().zip(&mut odd[1..]).zip(pairs) {
-                [*even, *odd] = *pair;
-            }
-        }
-        });
+        m.run(
+            #[inline(always)]
+            || {
+                for ((even, odd), line) in self.even.parts().into_iter().zip(self.odd.parts()).zip(line.parts()) {
+                    odd[0] = line[0];
+                    let pairs = line[1..].as_chunks::<2>().0;
+                    for ((even, odd), pair) in even[1..].iter_mut().zip(&mut odd[1..]).zip(pairs) {
+                        [*even, *odd] = *pair;
+                    }
+                }
+            },
+        );
     }
 }
 
@@ -113,35 +116,44 @@ fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer
     let (s, x) = (&window.below.even, &window.below.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
     let row = transfer.coarse.row(i);
-    m.run(#[inline(always)] || {
-    for j in (0..row.len()).step_by(LANES) {
-        let at = row.start + j;
-        let inverse = m.inverse(m.load(&e.diagonal, j + 1) - m.load(&e.south, j + 1) - m.load(&nx.south, j + 1));
-        let west = m.load(&c.east, j + 1) + m.load(&e.south_west, j + 1) + m.load(&n.south_east, j + 1);
-        (west * inverse).store(&mut transfer.west, at);
-        let east = m.load(&e.east, j + 1) + m.load(&e.south_east, j + 1) + m.load(&n.south_west, j + 2);
-        (east * inverse).store(&mut transfer.east, at);
-        let inverse = m.inverse(m.load(&s.diagonal, j + 1) - m.load(&s.east, j + 1) - m.load(&x.east, j));
-        let north = m.load(&c.south, j + 1) + m.load(&e.south_west, j + 1) + m.load(&e.south_east, j);
-        (north * inverse).store(&mut transfer.north, at);
-        let south = m.load(&s.south, j + 1) + m.load(&s.south_east, j + 1) + m.load(&s.south_west, j + 1);
-        (south * inverse).store(&mut transfer.south, at);
-    }
-    });
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let at = row.start + j;
+                let inverse =
+                    m.inverse(m.load(&e.diagonal, j + 1) - m.load(&e.south, j + 1) - m.load(&nx.south, j + 1));
+                let west = m.load(&c.east, j + 1) + m.load(&e.south_west, j + 1) + m.load(&n.south_east, j + 1);
+                (west * inverse).store(&mut transfer.west, at);
+                let east = m.load(&e.east, j + 1) + m.load(&e.south_east, j + 1) + m.load(&n.south_west, j + 2);
+                (east * inverse).store(&mut transfer.east, at);
+                let inverse = m.inverse(m.load(&s.diagonal, j + 1) - m.load(&s.east, j + 1) - m.load(&x.east, j));
+                let north = m.load(&c.south, j + 1) + m.load(&e.south_west, j + 1) + m.load(&e.south_east, j);
+                (north * inverse).store(&mut transfer.north, at);
+                let south = m.load(&s.south, j + 1) + m.load(&s.south_east, j + 1) + m.load(&s.south_west, j + 1);
+                (south * inverse).store(&mut transfer.south, at);
+            }
+        },
+    );
 }
 
 /// Nothing is interpolated from a coarse cell that is no unknown. (Diagonal couplings past it would count for it.)
 fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
-    m.run(#[inline(always)] || {
-    for j in (0..row.len()).step_by(LANES) {
-        let (at, under) = (row.start + j, below + j);
-        let t = &mut *transfer;
-        for (part, from) in [(&mut t.west, at), (&mut t.east, at + 1), (&mut t.north, at), (&mut t.south, under)] {
-            (m.load(part, at) * m.load(unknown, from)).store(part, at);
-        }
-    }
-    });
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, under) = (row.start + j, below + j);
+                let t = &mut *transfer;
+                for (part, from) in
+                    [(&mut t.west, at), (&mut t.east, at + 1), (&mut t.north, at), (&mut t.south, under)]
+                {
+                    (m.load(part, at) * m.load(unknown, from)).store(part, at);
+                }
+            }
+        },
+    );
 }
 
 /// Weights of the cells in the middle of four coarse cells.
@@ -149,22 +161,33 @@ fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transf
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
-    m.run(#[inline(always)] || {
-    for j in (0..row.len()).step_by(LANES) {
-        let (at, under) = (row.start + j, below + j);
-        let inverse = m.inverse(m.load(&x.diagonal, j + 1));
-        let t = &transfer;
-        let corners = [
-            m.load(&c.south_east, j + 1) + m.load(&e.south, j + 1) * m.load(&t.west, at) + m.load(&s.east, j + 1) * m.load(&t.north, at),
-            m.load(&c.south_west, j + 2) + m.load(&e.south, j + 1) * m.load(&t.east, at) + m.load(&x.east, j + 1) * m.load(&t.north, at + 1),
-            m.load(&x.south_west, j + 1) + m.load(&x.south, j + 1) * m.load(&t.west, under) + m.load(&s.east, j + 1) * m.load(&t.south, at),
-            m.load(&x.south_east, j + 1) + m.load(&x.south, j + 1) * m.load(&t.east, under) + m.load(&x.east, j + 1) * m.load(&t.south, at + 1),
-        ];
-        for (part, corner) in transfer.corners.iter_mut().zip(corners) {
-            (corner * inverse).store(part, at);
-        }
-    }
-    });
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, under) = (row.start + j, below + j);
+                let inverse = m.inverse(m.load(&x.diagonal, j + 1));
+                let t = &transfer;
+                let corners = [
+                    m.load(&c.south_east, j + 1)
+                        + m.load(&e.south, j + 1) * m.load(&t.west, at)
+                        + m.load(&s.east, j + 1) * m.load(&t.north, at),
+                    m.load(&c.south_west, j + 2)
+                        + m.load(&e.south, j + 1) * m.load(&t.east, at)
+                        + m.load(&x.east, j + 1) * m.load(&t.north, at + 1),
+                    m.load(&x.south_west, j + 1)
+                        + m.load(&x.south, j + 1) * m.load(&t.west, under)
+                        + m.load(&s.east, j + 1) * m.load(&t.south, at),
+                    m.load(&x.south_east, j + 1)
+                        + m.load(&x.south, j + 1) * m.load(&t.east, under)
+                        + m.load(&x.east, j + 1) * m.load(&t.south, at + 1),
+                ];
+                for (part, corner) in transfer.corners.iter_mut().zip(corners) {
+                    (corner * inverse).store(part, at);
+                }
+            }
+        },
+    );
 }
 
 /// `A P` at the cells between the coarse cells of row `i`: towards the coarse cells at their west, east, south-west and
@@ -174,30 +197,33 @@ fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i:
     let (n, nx) = (&window.above.even, &window.above.odd);
     let t = &transfer;
     let (row, above) = (t.coarse.row(i), t.coarse.above(i));
-    m.run(#[inline(always)] || {
-    for j in (0..row.len()).step_by(LANES) {
-        let (at, over) = (row.start + j, above + j);
-        let (d, s, sx) = (m.load(&e.diagonal, j + 1), m.load(&e.south, j + 1), m.load(&nx.south, j + 1));
-        let (sw, se) = (m.load(&e.south_west, j + 1), m.load(&e.south_east, j + 1));
-        let west = d * m.load(&t.west, at)
-            - m.load(&c.east, j + 1)
-            - s * m.load(&t.corners[0], at)
-            - sx * m.load(&t.corners[2], over)
-            - sw * m.load(&t.north, at)
-            - m.load(&n.south_east, j + 1) * m.load(&t.south, over);
-        let east = d * m.load(&t.east, at)
-            - m.load(&e.east, j + 1)
-            - s * m.load(&t.corners[1], at)
-            - sx * m.load(&t.corners[3], over)
-            - se * m.load(&t.north, at + 1)
-            - m.load(&n.south_west, j + 2) * m.load(&t.south, over + 1);
-        let south_west = m.all(0.0) - s * m.load(&t.corners[2], at) - sw * m.load(&t.south, at);
-        let south_east = m.all(0.0) - s * m.load(&t.corners[3], at) - se * m.load(&t.south, at + 1);
-        for (seen, value) in seen.iter_mut().zip([west, east, south_west, south_east]) {
-            value.store(seen, j + 1);
-        }
-    }
-    });
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, over) = (row.start + j, above + j);
+                let (d, s, sx) = (m.load(&e.diagonal, j + 1), m.load(&e.south, j + 1), m.load(&nx.south, j + 1));
+                let (sw, se) = (m.load(&e.south_west, j + 1), m.load(&e.south_east, j + 1));
+                let west = d * m.load(&t.west, at)
+                    - m.load(&c.east, j + 1)
+                    - s * m.load(&t.corners[0], at)
+                    - sx * m.load(&t.corners[2], over)
+                    - sw * m.load(&t.north, at)
+                    - m.load(&n.south_east, j + 1) * m.load(&t.south, over);
+                let east = d * m.load(&t.east, at)
+                    - m.load(&e.east, j + 1)
+                    - s * m.load(&t.corners[1], at)
+                    - sx * m.load(&t.corners[3], over)
+                    - se * m.load(&t.north, at + 1)
+                    - m.load(&n.south_west, j + 2) * m.load(&t.south, over + 1);
+                let south_west = m.all(0.0) - s * m.load(&t.corners[2], at) - sw * m.load(&t.south, at);
+                let south_east = m.all(0.0) - s * m.load(&t.corners[3], at) - se * m.load(&t.south, at + 1);
+                for (seen, value) in seen.iter_mut().zip([west, east, south_west, south_east]) {
+                    value.store(seen, j + 1);
+                }
+            }
+        },
+    );
     for seen in seen {
         t.coarse.finish_ends(seen);
     }
@@ -205,7 +231,14 @@ fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i:
 
 /// Row `i` of `P^T A P`, and what it adds to the next. The cells in the middle of four coarse cells add nothing: `A P` is
 /// zero there, which is how their weights were chosen.
-fn products<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, between: &[Vec<f32>; 4], into: &mut Stencil, i: usize) {
+fn products<M: Machine, O>(
+    m: M,
+    window: &Window<O>,
+    transfer: &Transfer,
+    between: &[Vec<f32>; 4],
+    into: &mut Stencil,
+    i: usize,
+) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
@@ -213,59 +246,74 @@ fn products<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, betwee
     let (row, above, below) = (t.coarse.row(i), t.coarse.above(i), t.coarse.below(i));
     // Beyond an interval nothing is added, so that any row does for the last.
     let following = t.coarse.row((i + 1) % t.coarse.rows).start;
-    m.run(#[inline(always)] || {
-    for j in (0..row.len()).step_by(LANES) {
-        let (at, over, under, following) = (row.start + j, above + j, below + j, following + j);
-        let (west, east_before) = (m.load(&t.west, at), m.load(&t.east, at - 1));
-        let (north, south) = (m.load(&t.north, at), m.load(&t.south, at));
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, over, under, following) = (row.start + j, above + j, below + j, following + j);
+                let (west, east_before) = (m.load(&t.west, at), m.load(&t.east, at - 1));
+                let (north, south) = (m.load(&t.north, at), m.load(&t.south, at));
 
-        // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as couplings.
-        let (ce, cs, cse, csw) = (m.load(&c.east, j + 1), m.load(&c.south, j + 1), m.load(&c.south_east, j + 1), m.load(&c.south_west, j + 1));
-        let nsw = m.load(&nx.south_west, j + 1);
-        let own = m.load(&c.diagonal, j + 1)
-            - ce * west
-            - m.load(&e.east, j) * east_before
-            - cs * north
-            - m.load(&n.south, j + 1) * m.load(&t.south, over)
-            - cse * m.load(&t.corners[0], at)
-            - csw * m.load(&t.corners[1], at - 1)
-            - nsw * m.load(&t.corners[2], over)
-            - m.load(&nx.south_east, j) * m.load(&t.corners[3], over - 1);
-        let to_east = ce * m.load(&t.east, at) + cse * m.load(&t.corners[1], at) + nsw * m.load(&t.corners[3], over);
-        let to_south = cs * south + cse * m.load(&t.corners[2], at) + csw * m.load(&t.corners[3], at - 1);
-        let to_south_east = cse * m.load(&t.corners[3], at);
-        let to_south_west = csw * m.load(&t.corners[2], at - 1);
+                // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as couplings.
+                let (ce, cs, cse, csw) = (
+                    m.load(&c.east, j + 1),
+                    m.load(&c.south, j + 1),
+                    m.load(&c.south_east, j + 1),
+                    m.load(&c.south_west, j + 1),
+                );
+                let nsw = m.load(&nx.south_west, j + 1);
+                let own = m.load(&c.diagonal, j + 1)
+                    - ce * west
+                    - m.load(&e.east, j) * east_before
+                    - cs * north
+                    - m.load(&n.south, j + 1) * m.load(&t.south, over)
+                    - cse * m.load(&t.corners[0], at)
+                    - csw * m.load(&t.corners[1], at - 1)
+                    - nsw * m.load(&t.corners[2], over)
+                    - m.load(&nx.south_east, j) * m.load(&t.corners[3], over - 1);
+                let to_east =
+                    ce * m.load(&t.east, at) + cse * m.load(&t.corners[1], at) + nsw * m.load(&t.corners[3], over);
+                let to_south = cs * south + cse * m.load(&t.corners[2], at) + csw * m.load(&t.corners[3], at - 1);
+                let to_south_east = cse * m.load(&t.corners[3], at);
+                let to_south_west = csw * m.load(&t.corners[2], at - 1);
 
-        // At the cell south of it: north, south, and the eastern and western neighbours of those.
-        let (se, xe) = (m.load(&s.east, j + 1), m.load(&x.east, j));
-        let (sse, ssw, esw) = (m.load(&s.south_east, j + 1), m.load(&s.south_west, j + 1), m.load(&e.south_west, j + 1));
-        let s_north = m.load(&s.diagonal, j + 1) * north
-            - cs
-            - se * m.load(&t.corners[0], at)
-            - xe * m.load(&t.corners[1], at - 1)
-            - esw * west
-            - m.load(&e.south_east, j) * east_before;
-        let s_south = m.load(&s.diagonal, j + 1) * south
-            - m.load(&s.south, j + 1)
-            - se * m.load(&t.corners[2], at)
-            - xe * m.load(&t.corners[3], at - 1)
-            - sse * m.load(&t.west, under)
-            - ssw * m.load(&t.east, under - 1);
-        let s_north_east = se * m.load(&t.corners[1], at) + esw * m.load(&t.east, at);
-        let s_south_east = se * m.load(&t.corners[3], at) + sse * m.load(&t.east, under);
-        let s_south_west = xe * m.load(&t.corners[2], at - 1) + ssw * m.load(&t.west, under - 1);
+                // At the cell south of it: north, south, and the eastern and western neighbours of those.
+                let (se, xe) = (m.load(&s.east, j + 1), m.load(&x.east, j));
+                let (sse, ssw, esw) =
+                    (m.load(&s.south_east, j + 1), m.load(&s.south_west, j + 1), m.load(&e.south_west, j + 1));
+                let s_north = m.load(&s.diagonal, j + 1) * north
+                    - cs
+                    - se * m.load(&t.corners[0], at)
+                    - xe * m.load(&t.corners[1], at - 1)
+                    - esw * west
+                    - m.load(&e.south_east, j) * east_before;
+                let s_south = m.load(&s.diagonal, j + 1) * south
+                    - m.load(&s.south, j + 1)
+                    - se * m.load(&t.corners[2], at)
+                    - xe * m.load(&t.corners[3], at - 1)
+                    - sse * m.load(&t.west, under)
+                    - ssw * m.load(&t.east, under - 1);
+                let s_north_east = se * m.load(&t.corners[1], at) + esw * m.load(&t.east, at);
+                let s_south_east = se * m.load(&t.corners[3], at) + sse * m.load(&t.east, under);
+                let s_south_west = xe * m.load(&t.corners[2], at - 1) + ssw * m.load(&t.west, under - 1);
 
-        let [e_west, e_east, e_south_west, e_south_east] = between;
-        let diagonal = own + west * m.load(e_west, j + 1) + east_before * m.load(e_east, j) + north * s_north;
-        (m.load(&into.diagonal, at) + diagonal).store(&mut into.diagonal, at);
-        (m.load(&into.diagonal, following) + (south * s_south)).store(&mut into.diagonal, following);
-        (m.load(&into.east, at) + (to_east - west * m.load(e_east, j + 1) + north * s_north_east)).store(&mut into.east, at);
-        (m.load(&into.east, following) + (south * s_south_east)).store(&mut into.east, following);
-        let value = to_south - west * m.load(e_south_west, j + 1) - east_before * m.load(e_south_east, j) - north * s_south;
-        value.store(&mut into.south, at);
-        (to_south_east - west * m.load(e_south_east, j + 1) + north * s_south_east).store(&mut into.south_east, at);
-        let value = to_south_west - east_before * m.load(e_south_west, j) + north * s_south_west;
-        value.store(&mut into.south_west, at);
-    }
-    });
+                let [e_west, e_east, e_south_west, e_south_east] = between;
+                let diagonal = own + west * m.load(e_west, j + 1) + east_before * m.load(e_east, j) + north * s_north;
+                (m.load(&into.diagonal, at) + diagonal).store(&mut into.diagonal, at);
+                (m.load(&into.diagonal, following) + (south * s_south)).store(&mut into.diagonal, following);
+                (m.load(&into.east, at) + (to_east - west * m.load(e_east, j + 1) + north * s_north_east))
+                    .store(&mut into.east, at);
+                (m.load(&into.east, following) + (south * s_south_east)).store(&mut into.east, following);
+                let value = to_south
+                    - west * m.load(e_south_west, j + 1)
+                    - east_before * m.load(e_south_east, j)
+                    - north * s_south;
+                value.store(&mut into.south, at);
+                (to_south_east - west * m.load(e_south_east, j + 1) + north * s_south_east)
+                    .store(&mut into.south_east, at);
+                let value = to_south_west - east_before * m.load(e_south_west, j) + north * s_south_west;
+                value.store(&mut into.south_west, at);
+            }
+        },
+    );
 }

@@ -1,8 +1,8 @@
 //! Conjugate gradients.
 
+use super::conjugate::{Right, State};
 use super::cycle::{Hierarchy, Stack};
 use super::frame::{Ends, Frame};
-use super::conjugate::State;
 use super::machine::{Machine, Portable};
 use super::stencil::FivePoint;
 
@@ -46,7 +46,6 @@ pub struct Convergence {
 #[derive(Debug, Clone)]
 pub struct Workspace {
     pub(super) stack: Stack,
-    pub(super) values: Vec<f64>,
     pub(super) residual: Vec<f64>,
     pub(super) direction: Vec<f64>,
 }
@@ -89,7 +88,7 @@ impl Multigrid {
     pub fn workspace(&self) -> Workspace {
         let zeros = || vec![0.0; self.operator.frame.len()];
         let stack = self.hierarchy.stack(self.operator.frame);
-        Workspace { stack, values: zeros(), residual: zeros(), direction: zeros() }
+        Workspace { stack, residual: zeros(), direction: zeros() }
     }
 
     /// Solves for the right-hand side `right`, from the start that is in `values`, which must be finite; walls are
@@ -101,22 +100,31 @@ impl Multigrid {
     /// # Panics
     /// If a length is not the number of cells, or the workspace is of another grid.
     pub fn solve(&self, right: &[f64], values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
-        let frame = self.operator.frame;
-        let cells = frame.rows * frame.columns;
-        assert!(right.len() == cells && values.len() == cells, "one number a cell");
-        if cells == 0 {
+        assert!(right.len() == self.cells(), "one number a cell");
+        self.solve_for(Right::Given(right), values, tolerance, workspace)
+    }
+
+    fn cells(&self) -> usize {
+        self.operator.frame.rows * self.operator.frame.columns
+    }
+
+    fn solve_for(&self, right: Right, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
+        assert!(values.len() == self.cells(), "one number a cell");
+        assert!(workspace.residual.len() == self.operator.frame.len(), "a workspace of this grid");
+        if values.is_empty() {
             return Convergence { iterations: 0, error: 0.0, converged: true };
         }
-        let convergence = on_this_machine!(m => self.iterate(m, right, values, tolerance, workspace));
-        for (i, values) in values.chunks_exact_mut(frame.columns).enumerate() {
-            values.copy_from_slice(&workspace.values[frame.row(i)][..frame.columns]);
-        }
-        convergence
+        on_this_machine!(m => self.iterate(m, right, values, tolerance, workspace))
     }
 
     /// The iteration, on a machine.
     fn iterate<M: Machine>(
-        &self, m: M, right: &[f64], values: &[f64], tolerance: f64, workspace: &mut Workspace,
+        &self,
+        m: M,
+        right: Right,
+        values: &mut [f64],
+        tolerance: f64,
+        workspace: &mut Workspace,
     ) -> Convergence {
         let mut state = State::new(m, &self.operator, right, values, workspace);
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
@@ -150,11 +158,9 @@ impl Multigrid {
     /// field of the same goal among slightly different walls is a good start.
     ///
     /// # Panics
-    /// If a length is not the number of cells, or the workspace is of another grid.
+    /// If a length is not the number of cells, the goal no cell, or the workspace of another grid.
     pub fn goal(&self, goal: usize, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
-        let mut right = vec![0.0; values.len()];
-        right[goal] = 1.0;
-        let convergence = self.solve(&right, values, tolerance, workspace);
+        let convergence = self.solve_for(Right::Unit(goal), values, tolerance, workspace);
         let scale = values[goal];
         if scale > 0.0 {
             values.iter_mut().for_each(|value| *value /= scale);

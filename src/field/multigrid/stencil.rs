@@ -117,14 +117,17 @@ impl Operator for FivePoint {
         let Frame { rows, columns, width, ends, .. } = self.frame;
         let [_, middle, below] = self.frame.three(&self.free, i);
         let degree = m.all(self.degree as f32);
-        m.run(#[inline(always)] || {
-        for j in (0..width).step_by(LANES) {
-            let free = m.load(middle, j + 1);
-            (free * degree).store(&mut into.diagonal, j + 1);
-            (free * m.load(middle, j + 2)).store(&mut into.east, j + 1);
-            (free * m.load(below, j + 1)).store(&mut into.south, j + 1);
-        }
-        });
+        m.run(
+            #[inline(always)]
+            || {
+                for j in (0..width).step_by(LANES) {
+                    let free = m.load(middle, j + 1);
+                    (free * degree).store(&mut into.diagonal, j + 1);
+                    (free * m.load(middle, j + 2)).store(&mut into.east, j + 1);
+                    (free * m.load(below, j + 1)).store(&mut into.south, j + 1);
+                }
+            },
+        );
         let mut back = |at: usize| into.diagonal[at] -= middle[at];
         if ends[0] == Ends::Reflecting {
             for _ in 0..usize::from(i == 0) + usize::from(i + 1 == rows) {

@@ -78,15 +78,16 @@ impl Transfer {
     }
 
     /// `P^T` of the residual of the finer level.
-    pub fn restrict<M: Machine, L: Smooth>(
-        &self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32],
-    ) {
+    pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;
         let read = |i: usize, natural: &mut [f32], even: &mut [f32], odd: &mut [f32]| {
             level.residual(m, &upper.right, &upper.solution, i, &mut natural[1..=fine.width]);
             fine.finish_ends(&mut natural[..fine.width + 2]);
-            m.run(#[inline(always)] || split(&natural[1..=fine.width], &mut even[1..], &mut odd[1..]));
+            m.run(
+                #[inline(always)]
+                || split(&natural[1..=fine.width], &mut even[1..], &mut odd[1..]),
+            );
             odd[0] = natural[0];
         };
         if fine.is_joined_at_rows() && fine.rows.is_multiple_of(2) {
@@ -106,18 +107,23 @@ impl Transfer {
             }
             let (range, over) = (coarse.row(i), coarse.above(i));
             let [nw, ne, sw, se] = &self.corners;
-            m.run(#[inline(always)] || {
-                for j in (0..coarse.width).step_by(LANES) {
-                    let (at, over) = (range.start + j, over + j);
-                    let sum = m.load(even, j + 1)
-                        + (m.load(&self.west, at) * m.load(odd, j + 1) + m.load(&self.east, at - 1) * m.load(odd, j))
-                        + (m.load(&self.north, at) * m.load(&below[0], j + 1)
-                            + m.load(&self.south, over) * m.load(&above[0], j + 1))
-                        + (m.load(nw, at) * m.load(&below[1], j + 1) + m.load(ne, at - 1) * m.load(&below[1], j))
-                        + (m.load(sw, over) * m.load(&above[1], j + 1) + m.load(se, over - 1) * m.load(&above[1], j));
-                    sum.store(into, at);
-                }
-            });
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..coarse.width).step_by(LANES) {
+                        let (at, over) = (range.start + j, over + j);
+                        let sum = m.load(even, j + 1)
+                            + (m.load(&self.west, at) * m.load(odd, j + 1)
+                                + m.load(&self.east, at - 1) * m.load(odd, j))
+                            + (m.load(&self.north, at) * m.load(&below[0], j + 1)
+                                + m.load(&self.south, over) * m.load(&above[0], j + 1))
+                            + (m.load(nw, at) * m.load(&below[1], j + 1) + m.load(ne, at - 1) * m.load(&below[1], j))
+                            + (m.load(sw, over) * m.load(&above[1], j + 1)
+                                + m.load(se, over - 1) * m.load(&above[1], j));
+                        sum.store(into, at);
+                    }
+                },
+            );
         }
     }
 
@@ -128,22 +134,25 @@ impl Transfer {
         for i in 0..self.coarse.rows {
             let at = self.coarse.row(i).start;
             let under = self.coarse.below(i);
-            m.run(#[inline(always)] || {
-                for j in (0..self.coarse.width).step_by(LANES) {
-                    let (at, under) = (at + j, under + j);
-                    let (nw, ne) = (m.load(from, at), m.load(from, at + 1));
-                    let (sw, se) = (m.load(from, under), m.load(from, under + 1));
-                    nw.store(even, j);
-                    (m.load(&self.west, at) * nw + m.load(&self.east, at) * ne).store(odd, j);
-                    (m.load(&self.north, at) * nw + m.load(&self.south, at) * sw).store(&mut below[0], j);
-                    let upper = m.load(a, at) * nw + m.load(b, at) * ne;
-                    (upper + (m.load(c, at) * sw + m.load(d, at) * se)).store(&mut below[1], j);
-                }
-                join(even, odd, &mut onto[self.fine.row(2 * i)]);
-                if 2 * i + 1 < self.fine.rows {
-                    join(&below[0], &below[1], &mut onto[self.fine.row(2 * i + 1)]);
-                }
-            });
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..self.coarse.width).step_by(LANES) {
+                        let (at, under) = (at + j, under + j);
+                        let (nw, ne) = (m.load(from, at), m.load(from, at + 1));
+                        let (sw, se) = (m.load(from, under), m.load(from, under + 1));
+                        nw.store(even, j);
+                        (m.load(&self.west, at) * nw + m.load(&self.east, at) * ne).store(odd, j);
+                        (m.load(&self.north, at) * nw + m.load(&self.south, at) * sw).store(&mut below[0], j);
+                        let upper = m.load(a, at) * nw + m.load(b, at) * ne;
+                        (upper + (m.load(c, at) * sw + m.load(d, at) * se)).store(&mut below[1], j);
+                    }
+                    join(even, odd, &mut onto[self.fine.row(2 * i)]);
+                    if 2 * i + 1 < self.fine.rows {
+                        join(&below[0], &below[1], &mut onto[self.fine.row(2 * i + 1)]);
+                    }
+                },
+            );
         }
     }
 }
