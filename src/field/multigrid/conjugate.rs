@@ -57,6 +57,15 @@ impl<'a, M: Machine> State<'a, M> {
             }
         }
         frame.finish(&mut work.direction);
+        if let Right::Unit(cell) = right {
+            // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell is 1.
+            let ([above, middle, below], j) = (frame.three(&work.direction, cell / columns), cell % columns + 1);
+            let source = operator.degree * middle[j] - ((middle[j - 1] + middle[j + 1]) + (above[j] + below[j]));
+            if source > 0.0 {
+                values.iter_mut().for_each(|value| *value /= source);
+                work.direction.iter_mut().for_each(|value| *value /= source);
+            }
+        }
         let largest = m.run(
             #[inline(always)]
             || {

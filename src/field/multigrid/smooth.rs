@@ -40,24 +40,17 @@ pub(super) trait Smooth {
 }
 
 impl FivePoint {
-    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
-        let keep = m.all(1.0 - weight);
-        let take = m.all(weight / self.degree as f32);
-        m.run(
-            #[inline(always)]
-            || {
-                for i in 0..self.frame.rows {
-                    let [above, middle, below] = self.frame.three(from, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let sum = around(m, above, middle, below, j) + m.load(right, row.start + j);
-                        let free = m.load(&self.free, row.start + j);
-                        (keep * m.load(middle, j + 1) + take * free * sum).store(to, row.start + j);
-                    }
-                    self.frame.finish_row(to, i);
-                }
-            },
-        );
+    /// One step for row `i`, its ends excluded.
+    #[inline(always)]
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
+        let (keep, take) = (m.all(1.0 - weight), m.all(weight / self.degree as f32));
+        let [above, middle, below] = self.frame.three(from, i);
+        let row = self.frame.row(i);
+        for j in (0..row.len()).step_by(LANES) {
+            let sum = around(m, above, middle, below, j) + m.load(right, row.start + j);
+            let free = m.load(&self.free, row.start + j);
+            (keep * m.load(middle, j + 1) + take * free * sum).store(to, row.start + j);
+        }
     }
 }
 
@@ -90,8 +83,23 @@ impl Smooth for FivePoint {
     fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(m, WEIGHTS[1], right, solution, other);
-        self.step(m, WEIGHTS[0], right, other, solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
     }
 
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
@@ -124,23 +132,17 @@ impl Stencil {
                 + m.load(&self.south_west, over + 1) * m.load(above, j + 2))
     }
 
-    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
+    /// One step for row `i`, its ends excluded.
+    #[inline(always)]
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
         let (keep, take) = (m.all(1.0 - weight), m.all(weight));
-        m.run(
-            #[inline(always)]
-            || {
-                for i in 0..self.frame.rows {
-                    let of = self.frame.three(from, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let sum = self.around(m, of, i, j) + m.load(right, row.start + j);
-                        let inverse = m.load(&self.inverse, row.start + j);
-                        (keep * m.load(of[1], j + 1) + take * inverse * sum).store(to, row.start + j);
-                    }
-                    self.frame.finish_row(to, i);
-                }
-            },
-        );
+        let of = self.frame.three(from, i);
+        let row = self.frame.row(i);
+        for j in (0..row.len()).step_by(LANES) {
+            let sum = self.around(m, of, i, j) + m.load(right, row.start + j);
+            let inverse = m.load(&self.inverse, row.start + j);
+            (keep * m.load(of[1], j + 1) + take * inverse * sum).store(to, row.start + j);
+        }
     }
 }
 
@@ -180,8 +182,23 @@ impl Smooth for Stencil {
     fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(m, WEIGHTS[1], right, solution, other);
-        self.step(m, WEIGHTS[0], right, other, solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
     }
 
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {

@@ -171,3 +171,69 @@ impl Multigrid {
 
 /// What is put on the diagonal where nothing else keeps the problem from being singular.
 const SHIFT: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(target_arch = "x86_64")]
+    #[test]
+    fn vector_instructions_change_no_bit() {
+        let Some(fast) = pulp::x86::V3::try_new() else {
+            return;
+        };
+        let cells = [61, 83];
+        let free: Vec<bool> = (0..cells[0] * cells[1]).map(|at| at * 7 % 11 != 0 && at % 29 > 2).collect();
+        for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Reflecting, Ends::Joined]] {
+            let mut solver = Multigrid::new(cells, ends, &free, 0.0);
+            let [mut plain, mut vectors] = [0; 2].map(|_| vec![0.0; free.len()]);
+            let goal = Right::Unit(2000);
+            solver.hierarchy = Hierarchy::new(Portable, &solver.operator);
+            let one = solver.iterate(Portable, goal, &mut plain, 1e-9, &mut solver.workspace());
+            solver.hierarchy = Hierarchy::new(fast, &solver.operator);
+            let other = solver.iterate(fast, goal, &mut vectors, 1e-9, &mut solver.workspace());
+            assert_eq!(one, other);
+            assert_eq!(plain, vectors);
+        }
+    }
+
+    /// What conjugate gradients ask of a preconditioner, up to rounding in single precision.
+    #[test]
+    fn a_cycle_is_symmetric_and_positive_definite() {
+        let cells = [45, 37];
+        let free: Vec<bool> = (0..cells[0] * cells[1]).map(|at| at * 5 % 17 != 0 && at % 31 > 1).collect();
+        for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Joined, Ends::Reflecting]] {
+            let solver = Multigrid::new(cells, ends, &free, 0.0);
+            let frame = solver.operator.frame;
+            let vector = |seed: usize| {
+                let mut vector = vec![0.0_f32; frame.len()];
+                for i in 0..cells[0] {
+                    for j in 0..cells[1] {
+                        let random = ((i * 37 + j + seed) as f32 * 0.618_034).fract() - 0.5;
+                        vector[frame.row(i).start + j] = random * solver.operator.free[frame.row(i).start + j];
+                    }
+                }
+                frame.finish(&mut vector);
+                vector
+            };
+            let cycle = |right: &[f32]| {
+                let mut stack = solver.hierarchy.stack(frame);
+                stack.levels[0].right.copy_from_slice(right);
+                solver.hierarchy.cycle(Portable, &solver.operator, &mut stack);
+                stack.levels.swap_remove(0).solution
+            };
+            let dot = |a: &[f32], b: &[f32]| -> f64 {
+                let row = |i: usize| frame.row(i).start..frame.row(i).start + cells[1];
+                let cells = (0..cells[0]).flat_map(row);
+                cells.map(|at| f64::from(a[at]) * f64::from(b[at])).sum()
+            };
+            for seed in 0..8 {
+                let (x, y) = (vector(seed), vector(seed * 101 + 50));
+                let (zx, zy) = (cycle(&x), cycle(&y));
+                assert!(dot(&x, &zx) > 0.0 && dot(&y, &zy) > 0.0);
+                let size = (dot(&x, &zx) * dot(&y, &zy)).sqrt();
+                assert!((dot(&x, &zy) - dot(&y, &zx)).abs() < 1e-5 * size, "{} {}", dot(&x, &zy), dot(&y, &zx));
+            }
+        }
+    }
+}
