@@ -118,7 +118,7 @@ fn maze(rooms: usize, width: usize) -> ([usize; 2], Vec<bool>) {
             free[i * n + columns[0]..i * n + columns[1]].fill(true);
         }
     };
-    let mut path = vec![[0, 0]];
+    let mut path = vec![[0_usize, 0]];
     seen[0] = true;
     while let Some(&[i, j]) = path.last() {
         let steps = [[i.wrapping_sub(1), j], [i + 1, j], [i, j.wrapping_sub(1)], [i, j + 1]];

@@ -1,7 +1,8 @@
 //! The passes of conjugate gradients over their vectors, in double precision.
 
+use super::around::Around;
 use super::frame::Frame;
-use super::machine::{LANES, Machine, Pack};
+use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::solve::Workspace;
 use super::stencil::FivePoint;
 
@@ -70,16 +71,18 @@ impl<'a, M: Machine> State<'a, M> {
             #[inline(always)]
             || {
                 let mut largest = m.all_double(0.0);
+                let degree = m.all_double(operator.degree);
+                let count = frame.width / LANES;
                 for i in 0..frame.rows {
-                    let row = frame.row(i);
-                    let three = frame.three(&work.direction, i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let at = row.start + j;
-                        let free = m.double(m.load(&operator.free, at));
-                        let residual =
-                            (m.load_double(&work.residual, at) - applied(m, operator.degree, three, j)) * free;
-                        residual.store(&mut work.residual, at);
-                        largest = m.greater(largest, m.abs(residual));
+                    let start = frame.row(i).start;
+                    let around = Around::new(frame.three(&work.direction, i), count);
+                    let free = packs(&operator.free, start, count);
+                    let residual = packs_mut(&mut work.residual, start, count);
+                    for k in 0..count {
+                        let left = m.pack_double(&residual[k]) - around.applied(m, degree, k);
+                        let left = left * m.double(m.pack(&free[k]));
+                        left.store(&mut residual[k], 0);
+                        largest = m.greater(largest, m.abs(left));
                     }
                 }
                 greatest(largest)
@@ -120,8 +123,7 @@ impl<'a, M: Machine> State<'a, M> {
 
     /// Takes the next direction, `beta` times the last added; its energy, `p . A p`.
     pub fn turn(&mut self, beta: f64) -> f64 {
-        let (m, frame, degree, last) =
-            (self.m, self.operator.frame, self.operator.degree, self.operator.frame.width - LANES);
+        let (m, frame, degree) = (self.m, self.operator.frame, self.operator.degree);
         let Workspace { stack, direction, .. } = &mut *self.work;
         let finest = &stack.levels[0].solution;
         let tail = &self.tail;
@@ -129,23 +131,25 @@ impl<'a, M: Machine> State<'a, M> {
             #[inline(always)]
             || {
                 let (inverse, beta) = (m.all_double(1.0 / self.scale), m.all_double(beta));
-                let tail = m.load_double(tail, 0);
+                let (tail, degree, count) = (m.load_double(tail, 0), m.all_double(degree), frame.width / LANES);
                 let mut sum = m.all_double(0.0);
                 // The energy of a row as soon as the one below it is there.
                 for i in frame.ahead() {
                     if let Some(i) = i.made {
-                        for at in frame.row(i).step_by(LANES) {
-                            let old = m.load_double(direction, at);
-                            (m.double(m.load(finest, at)) * inverse + beta * old).store(direction, at);
+                        let start = frame.row(i).start;
+                        let (from, to) = (packs(finest, start, count), packs_mut(direction, start, count));
+                        for (from, to) in from.iter().zip(to) {
+                            (m.double(m.pack(from)) * inverse + beta * m.pack_double(to)).store(to, 0);
                         }
                         frame.finish_row(direction, i);
                     }
                     if let Some(i) = i.used {
-                        let three = frame.three(direction, i);
-                        for j in (0..last).step_by(LANES) {
-                            sum = sum + m.load_double(three[1], j + 1) * applied(m, degree, three, j);
+                        let around = Around::new(frame.three(direction, i), count);
+                        for k in 0..count - 1 {
+                            sum = sum + m.pack_double(&around.middle[k]) * around.applied(m, degree, k);
                         }
-                        sum = sum + m.load_double(three[1], last + 1) * applied(m, degree, three, last) * tail;
+                        let last = m.pack_double(&around.middle[count - 1]) * around.applied(m, degree, count - 1);
+                        sum = sum + last * tail;
                     }
                 }
                 total(sum)
@@ -160,50 +164,47 @@ impl<'a, M: Machine> State<'a, M> {
         let Workspace { stack, residual, direction } = &mut *self.work;
         let values = &mut *self.values;
         let right = &mut stack.levels[0].right;
+        let tail = &self.tail;
         m.run(
             #[inline(always)]
             || {
-                let (alpha, scale) = (m.all_double(alpha), m.all_double(self.scale));
+                let (alpha, scale, degree) = (m.all_double(alpha), m.all_double(self.scale), m.all_double(degree));
+                let (tail, count) = (m.load_double(tail, 0), frame.width / LANES);
                 let (mut change, mut most) = (m.all_double(0.0), m.all_double(0.0));
-                let mut tail_most = 0.0_f64;
                 for (i, values) in values.chunks_exact_mut(frame.columns).enumerate() {
-                    let row = frame.row(i);
-                    let three = frame.three(direction, i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let at = row.start + j;
-                        let moved = alpha * m.load_double(three[1], j + 1);
-                        change = m.greater(change, m.abs(moved));
-                        let place = &mut values[j..(j + LANES).min(frame.columns)];
-                        if place.len() == LANES {
-                            let value = m.load_double(place, 0) + moved;
-                            value.store(place, 0);
-                            most = m.greater(most, m.abs(value));
-                        } else {
-                            let moved = moved.lanes();
-                            for (value, moved) in place.iter_mut().zip(moved) {
-                                *value += moved;
-                                tail_most = tail_most.max(value.abs());
-                            }
-                        }
-                        let left = m.load_double(residual, at) - alpha * applied(m, degree, three, j);
-                        left.store(residual, at);
+                    let start = frame.row(i).start;
+                    let around = Around::new(frame.three(direction, i), count);
+                    let free = packs(&self.operator.free, start, count);
+                    let (residual, to) = (packs_mut(residual, start, count), packs_mut(right, start, count));
+                    for k in 0..count {
+                        let left = m.pack_double(&residual[k]) - alpha * around.applied(m, degree, k);
+                        left.store(&mut residual[k], 0);
                         let single = m.significant(m.single(left * scale), NEGLIGIBLE);
-                        (single * m.load(&self.operator.free, at)).store(right, at);
+                        (single * m.pack(&free[k])).store(&mut to[k], 0);
+                    }
+                    let (whole, rest) = values.as_chunks_mut::<LANES>();
+                    for (value, direction) in whole.iter_mut().zip(around.middle) {
+                        let moved = alpha * m.pack_double(direction);
+                        let new = m.pack_double(value) + moved;
+                        new.store(value, 0);
+                        change = m.greater(change, m.abs(moved));
+                        most = m.greater(most, m.abs(new));
+                    }
+                    if !rest.is_empty() {
+                        let mut padded = [0.0; LANES];
+                        padded[..rest.len()].copy_from_slice(rest);
+                        let moved = alpha * tail * m.pack_double(&around.middle[count - 1]);
+                        let new = m.pack_double(&padded) + moved;
+                        rest.copy_from_slice(&new.lanes()[..rest.len()]);
+                        change = m.greater(change, m.abs(moved));
+                        most = m.greater(most, m.abs(new));
                     }
                     frame.finish_row(right, i);
                 }
-                (greatest(change), greatest(most).max(tail_most))
+                (greatest(change), greatest(most))
             },
         )
     }
-}
-
-/// `degree u - sum of neighbours`.
-#[inline(always)]
-fn applied<M: Machine>(m: M, degree: f64, [above, middle, below]: [&[f64]; 3], j: usize) -> M::Double {
-    let sides = m.load_double(middle, j) + m.load_double(middle, j + 2);
-    let around = sides + (m.load_double(above, j + 1) + m.load_double(below, j + 1));
-    m.all_double(degree) * m.load_double(middle, j + 1) - around
 }
 
 /// The sum of the lanes, in their order.
