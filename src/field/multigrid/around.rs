@@ -39,11 +39,14 @@ impl Around<'_, f64> {
     }
 }
 
+/// Consecutive packs.
+type Packs<'a> = &'a [[f32; LANES]];
+
 /// A row and its eight neighbours, each with its coupling.
 pub(super) struct Nine<'a> {
-    pub middle: &'a [[f32; LANES]],
+    pub middle: Packs<'a>,
     /// Couplings and values: east, west, south, north, south-east, north-west, south-west, north-east.
-    terms: [(&'a [[f32; LANES]], &'a [[f32; LANES]]); 8],
+    terms: [(Packs<'a>, Packs<'a>); 8],
 }
 
 impl<'a> Nine<'a> {
@@ -72,7 +75,7 @@ impl<'a> Nine<'a> {
     #[inline(always)]
     pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
         let [a, b, c, d, e, f, g, h] = &self.terms;
-        let term = |term: &(&[[f32; LANES]], &[[f32; LANES]])| m.pack(&term.0[k]) * m.pack(&term.1[k]);
+        let term = |term: &(Packs, Packs)| m.pack(&term.0[k]) * m.pack(&term.1[k]);
         ((term(a) + term(b)) + (term(c) + term(d))) + ((term(e) + term(f)) + (term(g) + term(h)))
     }
 }

@@ -33,9 +33,9 @@ impl Vectors {
 /// What a cycle does on a level.
 pub(super) trait Smooth {
     /// Two steps from zero, for a right-hand side that has its frame.
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Two steps more, from a solution without frame.
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Row `i` of the residual, padding included.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
@@ -57,7 +57,7 @@ impl FivePoint {
 }
 
 impl Smooth for FivePoint {
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let inverse = 1.0 / self.degree as f32;
         let (own, next) = (m.all(OWN * inverse), m.all(AROUND * inverse * inverse));
         m.run(
@@ -79,7 +79,7 @@ impl Smooth for FivePoint {
         );
     }
 
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
         // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
@@ -135,7 +135,7 @@ impl Stencil {
 }
 
 impl Smooth for Stencil {
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         m.run(
             #[inline(always)]
@@ -167,7 +167,7 @@ impl Smooth for Stencil {
         );
     }
 
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
         // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
