@@ -75,13 +75,13 @@ impl Machine for V3 {
     }
 
     #[inline(always)]
-    fn load(self, from: &[f32], at: usize) -> Singles {
-        Singles(self, V3::as_simd_f32s(&from[at..at + LANES]).0[0])
+    fn pack(self, from: &[f32; LANES]) -> Singles {
+        Singles(self, V3::as_simd_f32s(from).0[0])
     }
 
     #[inline(always)]
-    fn load_double(self, from: &[f64], at: usize) -> Doubles {
-        let from = V3::as_simd_f64s(&from[at..at + LANES]).0;
+    fn pack_double(self, from: &[f64; LANES]) -> Doubles {
+        let from = V3::as_simd_f64s(from).0;
         Doubles(self, [from[0], from[1]])
     }
 

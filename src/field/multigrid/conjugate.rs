@@ -1,7 +1,8 @@
 //! The passes of conjugate gradients over their vectors, in double precision.
 
+use super::around::Around;
 use super::frame::Frame;
-use super::machine::{LANES, Machine, Pack};
+use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::solve::Workspace;
 use super::stencil::FivePoint;
 
@@ -9,11 +10,20 @@ use super::stencil::FivePoint;
 /// only become subnormal numbers, which are slow, along its way.
 const NEGLIGIBLE: f32 = 1e-25;
 
+/// A right-hand side.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Right<'a> {
+    Given(&'a [f64]),
+    /// 1 at one cell, 0 at the others.
+    Unit(usize),
+}
+
 /// The vectors in the course of a solve. Walls are no unknowns: the direction is 0 there, and what the residual is there
 /// is never looked at.
 pub(super) struct State<'a, M> {
     m: M,
     operator: &'a FivePoint,
+    values: &'a mut [f64],
     pub work: &'a mut Workspace,
     /// The residual is given to the preconditioner times this, which makes the greatest of the start 1.
     scale: f64,
@@ -23,45 +33,66 @@ pub(super) struct State<'a, M> {
 
 impl<'a, M: Machine> State<'a, M> {
     /// Reads right-hand side and start, and sets the right-hand side of the preconditioner.
-    pub fn new(m: M, operator: &'a FivePoint, right: &[f64], values: &[f64], work: &'a mut Workspace) -> Self {
+    pub fn new(m: M, operator: &'a FivePoint, right: Right, values: &'a mut [f64], work: &'a mut Workspace) -> Self {
         let frame = operator.frame;
         let columns = frame.columns;
-        for (i, (right, values)) in right.chunks_exact(columns).zip(values.chunks_exact(columns)).enumerate() {
+        // The start lies in `direction`, with its frame, until the residual is known.
+        for (i, values) in values.chunks_exact_mut(columns).enumerate() {
             let row = frame.row(i);
-            let free = &operator.free[row.clone()];
-            let only_free = |to: &mut [f64], from: &[f64]| {
-                for ((to, &from), &free) in to.iter_mut().zip(from).zip(free) {
-                    *to = if free > 0.0 { from } else { 0.0 };
+            let start = &mut work.direction[row.clone()];
+            for ((to, value), &free) in start.iter_mut().zip(values).zip(&operator.free[row.clone()]) {
+                *value = if free > 0.0 { *value } else { 0.0 };
+                *to = *value;
+            }
+            start[columns..].fill(0.0);
+            match right {
+                Right::Given(right) => {
+                    work.residual[row][..columns].copy_from_slice(&right[i * columns..(i + 1) * columns]);
                 }
-            };
-            only_free(&mut work.values[row.clone()], values);
-            only_free(&mut work.residual[row.clone()], right);
-            work.direction[row].fill(0.0);
+                Right::Unit(cell) => {
+                    work.residual[row.clone()].fill(0.0);
+                    if cell / columns == i {
+                        work.residual[row][cell % columns] = 1.0;
+                    }
+                }
+            }
         }
-        frame.finish(&mut work.values);
+        frame.finish(&mut work.direction);
+        if let Right::Unit(cell) = right {
+            // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell is 1.
+            let ([above, middle, below], j) = (frame.three(&work.direction, cell / columns), cell % columns + 1);
+            let source = operator.degree * middle[j] - ((middle[j - 1] + middle[j + 1]) + (above[j] + below[j]));
+            if source > 0.0 {
+                values.iter_mut().for_each(|value| *value /= source);
+                work.direction.iter_mut().for_each(|value| *value /= source);
+            }
+        }
         let largest = m.run(
             #[inline(always)]
             || {
                 let mut largest = m.all_double(0.0);
+                let degree = m.all_double(operator.degree);
+                let count = frame.width / LANES;
                 for i in 0..frame.rows {
-                    let row = frame.row(i);
-                    let three = frame.three(&work.values, i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let at = row.start + j;
-                        let free = m.double(m.load(&operator.free, at));
-                        let residual =
-                            (m.load_double(&work.residual, at) - applied(m, operator.degree, three, j)) * free;
-                        residual.store(&mut work.residual, at);
-                        largest = m.greater(largest, m.abs(residual));
+                    let start = frame.row(i).start;
+                    let around = Around::new(frame.three(&work.direction, i), count);
+                    let free = packs(&operator.free, start, count);
+                    let residual = packs_mut(&mut work.residual, start, count);
+                    for k in 0..count {
+                        let left = m.pack_double(&residual[k]) - around.applied(m, degree, k);
+                        let left = left * m.double(m.pack(&free[k]));
+                        left.store(&mut residual[k], 0);
+                        largest = m.greater(largest, m.abs(left));
                     }
                 }
                 greatest(largest)
             },
         );
+        work.direction.fill(0.0);
         let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
         let mut tail = [0.0; LANES];
         tail[..columns - (frame.width - LANES)].fill(1.0);
-        let mut state = Self { m, operator, work, scale, tail };
+        let mut state = Self { m, operator, values, work, scale, tail };
         state.step(0.0);
         state
     }
@@ -92,8 +123,7 @@ impl<'a, M: Machine> State<'a, M> {
 
     /// Takes the next direction, `beta` times the last added; its energy, `p . A p`.
     pub fn turn(&mut self, beta: f64) -> f64 {
-        let (m, frame, degree, last) =
-            (self.m, self.operator.frame, self.operator.degree, self.operator.frame.width - LANES);
+        let (m, frame, degree) = (self.m, self.operator.frame, self.operator.degree);
         let Workspace { stack, direction, .. } = &mut *self.work;
         let finest = &stack.levels[0].solution;
         let tail = &self.tail;
@@ -101,23 +131,25 @@ impl<'a, M: Machine> State<'a, M> {
             #[inline(always)]
             || {
                 let (inverse, beta) = (m.all_double(1.0 / self.scale), m.all_double(beta));
-                let tail = m.load_double(tail, 0);
+                let (tail, degree, count) = (m.load_double(tail, 0), m.all_double(degree), frame.width / LANES);
                 let mut sum = m.all_double(0.0);
                 // The energy of a row as soon as the one below it is there.
                 for i in frame.ahead() {
                     if let Some(i) = i.made {
-                        for at in frame.row(i).step_by(LANES) {
-                            let old = m.load_double(direction, at);
-                            (m.double(m.load(finest, at)) * inverse + beta * old).store(direction, at);
+                        let start = frame.row(i).start;
+                        let (from, to) = (packs(finest, start, count), packs_mut(direction, start, count));
+                        for (from, to) in from.iter().zip(to) {
+                            (m.double(m.pack(from)) * inverse + beta * m.pack_double(to)).store(to, 0);
                         }
                         frame.finish_row(direction, i);
                     }
                     if let Some(i) = i.used {
-                        let three = frame.three(direction, i);
-                        for j in (0..last).step_by(LANES) {
-                            sum = sum + m.load_double(three[1], j + 1) * applied(m, degree, three, j);
+                        let around = Around::new(frame.three(direction, i), count);
+                        for k in 0..count - 1 {
+                            sum = sum + m.pack_double(&around.middle[k]) * around.applied(m, degree, k);
                         }
-                        sum = sum + m.load_double(three[1], last + 1) * applied(m, degree, three, last) * tail;
+                        let last = m.pack_double(&around.middle[count - 1]) * around.applied(m, degree, count - 1);
+                        sum = sum + last * tail;
                     }
                 }
                 total(sum)
@@ -129,27 +161,43 @@ impl<'a, M: Machine> State<'a, M> {
     /// greatest value.
     pub fn step(&mut self, alpha: f64) -> (f64, f64) {
         let (m, frame, degree) = (self.m, self.operator.frame, self.operator.degree);
-        let Workspace { stack, values, residual, direction } = &mut *self.work;
+        let Workspace { stack, residual, direction } = &mut *self.work;
+        let values = &mut *self.values;
         let right = &mut stack.levels[0].right;
+        let tail = &self.tail;
         m.run(
             #[inline(always)]
             || {
-                let (alpha, scale) = (m.all_double(alpha), m.all_double(self.scale));
+                let (alpha, scale, degree) = (m.all_double(alpha), m.all_double(self.scale), m.all_double(degree));
+                let (tail, count) = (m.load_double(tail, 0), frame.width / LANES);
                 let (mut change, mut most) = (m.all_double(0.0), m.all_double(0.0));
-                for i in 0..frame.rows {
-                    let row = frame.row(i);
-                    let three = frame.three(direction, i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let at = row.start + j;
-                        let moved = alpha * m.load_double(three[1], j + 1);
-                        let value = m.load_double(values, at) + moved;
-                        value.store(values, at);
-                        change = m.greater(change, m.abs(moved));
-                        most = m.greater(most, m.abs(value));
-                        let left = m.load_double(residual, at) - alpha * applied(m, degree, three, j);
-                        left.store(residual, at);
+                for (i, values) in values.chunks_exact_mut(frame.columns).enumerate() {
+                    let start = frame.row(i).start;
+                    let around = Around::new(frame.three(direction, i), count);
+                    let free = packs(&self.operator.free, start, count);
+                    let (residual, to) = (packs_mut(residual, start, count), packs_mut(right, start, count));
+                    for k in 0..count {
+                        let left = m.pack_double(&residual[k]) - alpha * around.applied(m, degree, k);
+                        left.store(&mut residual[k], 0);
                         let single = m.significant(m.single(left * scale), NEGLIGIBLE);
-                        (single * m.load(&self.operator.free, at)).store(right, at);
+                        (single * m.pack(&free[k])).store(&mut to[k], 0);
+                    }
+                    let (whole, rest) = values.as_chunks_mut::<LANES>();
+                    for (value, direction) in whole.iter_mut().zip(around.middle) {
+                        let moved = alpha * m.pack_double(direction);
+                        let new = m.pack_double(value) + moved;
+                        new.store(value, 0);
+                        change = m.greater(change, m.abs(moved));
+                        most = m.greater(most, m.abs(new));
+                    }
+                    if !rest.is_empty() {
+                        let mut padded = [0.0; LANES];
+                        padded[..rest.len()].copy_from_slice(rest);
+                        let moved = alpha * tail * m.pack_double(&around.middle[count - 1]);
+                        let new = m.pack_double(&padded) + moved;
+                        rest.copy_from_slice(&new.lanes()[..rest.len()]);
+                        change = m.greater(change, m.abs(moved));
+                        most = m.greater(most, m.abs(new));
                     }
                     frame.finish_row(right, i);
                 }
@@ -157,14 +205,6 @@ impl<'a, M: Machine> State<'a, M> {
             },
         )
     }
-}
-
-/// `degree u - sum of neighbours`.
-#[inline(always)]
-fn applied<M: Machine>(m: M, degree: f64, [above, middle, below]: [&[f64]; 3], j: usize) -> M::Double {
-    let sides = m.load_double(middle, j) + m.load_double(middle, j + 2);
-    let around = sides + (m.load_double(above, j + 1) + m.load_double(below, j + 1));
-    m.all_double(degree) * m.load_double(middle, j + 1) - around
 }
 
 /// The sum of the lanes, in their order.

@@ -86,8 +86,8 @@ impl Hierarchy {
             let (upper, lower) = vectors.split_at_mut(k + 1);
             transfer.prolong(m, &lower[0].solution, rows, &mut upper[k].solution);
             match k.checked_sub(1) {
-                None => finest.again(m, &mut upper[0]),
-                Some(level) => self.levels[level].again(m, &mut upper[k]),
+                None => finest.go_on(m, &mut upper[0]),
+                Some(level) => self.levels[level].go_on(m, &mut upper[k]),
             }
         }
     }
@@ -102,7 +102,7 @@ fn descend<M: Machine, L: Smooth>(
     lower: &mut Vectors,
     rows: &mut Rows,
 ) {
-    level.from_zero(m, upper);
+    level.begin(m, upper);
     transfer.restrict(m, level, upper, rows, &mut lower.right);
 }
 

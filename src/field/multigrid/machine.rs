@@ -22,8 +22,22 @@ pub(super) trait Machine: Copy {
     /// Runs a kernel with the instructions of this machine. The kernel, and what it calls in its loops, must be inlined
     /// always: elsewhere those instructions would be calls.
     fn run<R>(self, kernel: impl FnOnce() -> R) -> R;
-    fn load(self, from: &[f32], at: usize) -> Self::Single;
-    fn load_double(self, from: &[f64], at: usize) -> Self::Double;
+    fn pack(self, from: &[f32; LANES]) -> Self::Single;
+    fn pack_double(self, from: &[f64; LANES]) -> Self::Double;
+
+    #[inline(always)]
+    fn load(self, from: &[f32], at: usize) -> Self::Single {
+        let mut pack = [0.0; LANES];
+        pack.copy_from_slice(&from[at..at + LANES]);
+        self.pack(&pack)
+    }
+
+    #[inline(always)]
+    fn load_double(self, from: &[f64], at: usize) -> Self::Double {
+        let mut pack = [0.0; LANES];
+        pack.copy_from_slice(&from[at..at + LANES]);
+        self.pack_double(&pack)
+    }
     /// The same number in all lanes.
     fn all(self, x: f32) -> Self::Single;
     fn all_double(self, x: f64) -> Self::Double;
@@ -35,6 +49,18 @@ pub(super) trait Machine: Copy {
     fn single(self, x: Self::Double) -> Self::Single;
     fn abs(self, x: Self::Double) -> Self::Double;
     fn greater(self, a: Self::Double, b: Self::Double) -> Self::Double;
+}
+
+/// `count` packs from a place on. Loops over several such slices of one length need no check of bounds.
+#[inline(always)]
+pub(super) fn packs<T>(from: &[T], at: usize, count: usize) -> &[[T; LANES]] {
+    &from[at..].as_chunks().0[..count]
+}
+
+/// The same to write to.
+#[inline(always)]
+pub(super) fn packs_mut<T>(from: &mut [T], at: usize, count: usize) -> &mut [[T; LANES]] {
+    &mut from[at..].as_chunks_mut().0[..count]
 }
 
 /// Any processor: what the compiler makes of loops of constant length.
@@ -106,17 +132,13 @@ impl Machine for Portable {
     }
 
     #[inline(always)]
-    fn load(self, from: &[f32], at: usize) -> Plain<f32> {
-        let mut pack = [0.0; LANES];
-        pack.copy_from_slice(&from[at..at + LANES]);
-        Plain(pack)
+    fn pack(self, from: &[f32; LANES]) -> Plain<f32> {
+        Plain(*from)
     }
 
     #[inline(always)]
-    fn load_double(self, from: &[f64], at: usize) -> Plain<f64> {
-        let mut pack = [0.0; LANES];
-        pack.copy_from_slice(&from[at..at + LANES]);
-        Plain(pack)
+    fn pack_double(self, from: &[f64; LANES]) -> Plain<f64> {
+        Plain(*from)
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@ mod machine;
 mod avx;
 mod seam;
 mod smooth;
+mod around;
 mod conjugate;
 mod solve;
 mod stencil;

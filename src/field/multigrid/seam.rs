@@ -16,6 +16,8 @@ pub(super) struct Seamless<'a, O> {
     /// The row before, and the last row with its new column.
     before: Line,
     last: Line,
+    /// The diagonal of the first row, with its new column.
+    first: Vec<f32>,
 }
 
 impl<'a, O: Operator> Seamless<'a, O> {
@@ -25,7 +27,7 @@ impl<'a, O: Operator> Seamless<'a, O> {
         let even = [fine.rows + usize::from(odd[0]), fine.columns + usize::from(odd[1])];
         let even = Frame::new(even, fine.ends).of_coefficients();
         let line = || Line::new(even.width + 2);
-        Self { operator, fine, even, odd, before: line(), last: line() }
+        Self { operator, fine, even, odd, before: line(), last: line(), first: line().diagonal }
     }
 
     /// Writes row `i`, its ends included.
@@ -41,6 +43,8 @@ impl<'a, O: Operator> Seamless<'a, O> {
         let end = self.fine.rows - 1;
         let mut last = std::mem::take(&mut self.last);
         if i == 0 || i >= end {
+            self.columns(m, 0, &mut last);
+            self.first.copy_from_slice(&last.diagonal);
             self.columns(m, end, &mut last);
         }
         if i <= end {
@@ -52,7 +56,8 @@ impl<'a, O: Operator> Seamless<'a, O> {
             for at in 1..=self.even.columns {
                 let south = [last.south[at], last.south_east[at], last.south_west[at]];
                 let north = [last.south[at], last.south_west[at + 1], last.south_east[at - 1]];
-                let coupling = (south[0] + 0.5 * (south[1] + south[2] + north[1] + north[2])).max(0.0);
+                let coupling = straight(south, north, [last.diagonal[at], self.first[at]]);
+                let (south, north) = if coupling > 0.0 { (south, north) } else { ([0.0; 3], [0.0; 3]) };
                 if i == 0 {
                     into.diagonal[at] += 2.0 * coupling - north.iter().sum::<f32>();
                 }
@@ -86,7 +91,8 @@ impl<'a, O: Operator> Seamless<'a, O> {
         let end = self.fine.columns;
         let east = [into.east[end], self.before.south_west[1], into.south_east[end]];
         let west = [into.east[end], self.before.south_east[end], into.south_west[1]];
-        let coupling = (east[0] + 0.5 * (east[1] + east[2] + west[1] + west[2])).max(0.0);
+        let coupling = straight(east, west, [into.diagonal[end], into.diagonal[1]]);
+        let (east, west) = if coupling > 0.0 { (east, west) } else { ([0.0; 3], [0.0; 3]) };
         into.diagonal[end] += 2.0 * coupling - east.iter().sum::<f32>();
         into.diagonal[1] += 2.0 * coupling - west.iter().sum::<f32>();
         into.diagonal[end + 1] = 4.0 * coupling;
@@ -99,6 +105,16 @@ impl<'a, O: Operator> Seamless<'a, O> {
         into.south_west[end + 1] = 0.0;
         into.parts().into_iter().for_each(|part| self.even.finish_ends(part));
     }
+}
+
+/// The straight coupling that stands for all across the seam at two cells: theirs, and half of each diagonal one, which
+/// has its other half at another pair. None where one of the two is no unknown: what diagonal couplings the other has
+/// then holds it to 0, on its diagonal as before.
+fn straight(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
+    if diagonals.iter().any(|&diagonal| diagonal <= 0.0) {
+        return 0.0;
+    }
+    (one[0] + 0.5 * (one[1] + one[2] + other[1] + other[2])).max(0.0)
 }
 
 /// Which axes are circles with an odd number of cells.

@@ -4,8 +4,9 @@
 //! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
 //! cycle is symmetric.
 
+use super::around::{Around, Nine};
 use super::frame::Frame;
-use super::machine::{LANES, Machine, Pack};
+use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::stencil::{FivePoint, Stencil};
 
 /// `1 / (1.25 +- 0.75 cos(pi / 4))`.
@@ -32,54 +33,45 @@ impl Vectors {
 /// What a cycle does on a level.
 pub(super) trait Smooth {
     /// Two steps from zero, for a right-hand side that has its frame.
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Two steps more, from a solution without frame.
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Row `i` of the residual, padding included.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
 
 impl FivePoint {
-    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
-        let keep = m.all(1.0 - weight);
-        let take = m.all(weight / self.degree as f32);
-        m.run(
-            #[inline(always)]
-            || {
-                for i in 0..self.frame.rows {
-                    let [above, middle, below] = self.frame.three(from, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let sum = around(m, above, middle, below, j) + m.load(right, row.start + j);
-                        let free = m.load(&self.free, row.start + j);
-                        (keep * m.load(middle, j + 1) + take * free * sum).store(to, row.start + j);
-                    }
-                    self.frame.finish_row(to, i);
-                }
-            },
-        );
+    /// One step for row `i`, its ends excluded.
+    #[inline(always)]
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
+        let (keep, take) = (m.all(1.0 - weight), m.all(weight / self.degree as f32));
+        let (row, count) = (self.frame.row(i), self.frame.width / LANES);
+        let around = Around::new(self.frame.three(from, i), count);
+        let [right, free] = [right, &self.free].map(|part| packs(part, row.start, count));
+        let to = packs_mut(to, row.start, count);
+        for k in 0..count {
+            let sum = around.sum(m, k) + m.pack(&right[k]);
+            (keep * m.pack(&around.middle[k]) + take * m.pack(&free[k]) * sum).store(&mut to[k], 0);
+        }
     }
 }
 
-/// Sum over the four neighbours.
-#[inline(always)]
-fn around<M: Machine>(m: M, above: &[f32], middle: &[f32], below: &[f32], j: usize) -> M::Single {
-    (m.load(middle, j) + m.load(middle, j + 2)) + (m.load(above, j + 1) + m.load(below, j + 1))
-}
-
 impl Smooth for FivePoint {
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let inverse = 1.0 / self.degree as f32;
         let (own, next) = (m.all(OWN * inverse), m.all(AROUND * inverse * inverse));
         m.run(
             #[inline(always)]
             || {
+                let count = self.frame.width / LANES;
                 for i in 0..self.frame.rows {
-                    let [above, middle, below] = self.frame.three(&vectors.right, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let sum = own * m.load(middle, j + 1) + next * around(m, above, middle, below, j);
-                        (sum * m.load(&self.free, row.start + j)).store(&mut vectors.solution, row.start + j);
+                    let start = self.frame.row(i).start;
+                    let around = Around::new(self.frame.three(&vectors.right, i), count);
+                    let free = packs(&self.free, start, count);
+                    let to = packs_mut(&mut vectors.solution, start, count);
+                    for k in 0..count {
+                        let sum = own * m.pack(&around.middle[k]) + next * around.sum(m, k);
+                        (sum * m.pack(&free[k])).store(&mut to[k], 0);
                     }
                     self.frame.finish_row(&mut vectors.solution, i);
                 }
@@ -87,23 +79,39 @@ impl Smooth for FivePoint {
         );
     }
 
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(m, WEIGHTS[1], right, solution, other);
-        self.step(m, WEIGHTS[0], right, other, solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
     }
 
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
         let degree = m.all(self.degree as f32);
-        let [above, middle, below] = self.frame.three(solution, i);
-        let row = self.frame.row(i);
         m.run(
             #[inline(always)]
             || {
-                for j in (0..row.len()).step_by(LANES) {
-                    let sum = m.load(right, row.start + j) + around(m, above, middle, below, j);
-                    (sum - degree * m.load(middle, j + 1)).store(out, j);
+                let count = self.frame.width / LANES;
+                let around = Around::new(self.frame.three(solution, i), count);
+                let (right, out) = (packs(right, self.frame.row(i).start, count), packs_mut(out, 0, count));
+                for k in 0..count {
+                    let sum = m.pack(&right[k]) + around.sum(m, k);
+                    (sum - degree * m.pack(&around.middle[k])).store(&mut out[k], 0);
                 }
             },
         );
@@ -111,41 +119,23 @@ impl Smooth for FivePoint {
 }
 
 impl Stencil {
-    /// Sum over the eight neighbours of coupling times value.
+    /// One step for row `i`, its ends excluded.
     #[inline(always)]
-    fn around<M: Machine>(&self, m: M, of: [&[f32]; 3], i: usize, j: usize) -> M::Single {
-        let [above, middle, below] = of;
-        let (at, over) = (self.frame.row(i).start + j, self.frame.above(i) + j);
-        (m.load(&self.east, at) * m.load(middle, j + 2) + m.load(&self.east, at - 1) * m.load(middle, j))
-            + (m.load(&self.south, at) * m.load(below, j + 1) + m.load(&self.south, over) * m.load(above, j + 1))
-            + (m.load(&self.south_east, at) * m.load(below, j + 2)
-                + m.load(&self.south_east, over - 1) * m.load(above, j))
-            + (m.load(&self.south_west, at) * m.load(below, j)
-                + m.load(&self.south_west, over + 1) * m.load(above, j + 2))
-    }
-
-    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
         let (keep, take) = (m.all(1.0 - weight), m.all(weight));
-        m.run(
-            #[inline(always)]
-            || {
-                for i in 0..self.frame.rows {
-                    let of = self.frame.three(from, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let sum = self.around(m, of, i, j) + m.load(right, row.start + j);
-                        let inverse = m.load(&self.inverse, row.start + j);
-                        (keep * m.load(of[1], j + 1) + take * inverse * sum).store(to, row.start + j);
-                    }
-                    self.frame.finish_row(to, i);
-                }
-            },
-        );
+        let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+        let nine = Nine::new(self, from, i);
+        let [right, inverse] = [right, &self.inverse].map(|part| packs(part, start, count));
+        let to = packs_mut(to, start, count);
+        for k in 0..count {
+            let sum = nine.sum(m, k) + m.pack(&right[k]);
+            (keep * m.pack(&nine.middle[k]) + take * m.pack(&inverse[k]) * sum).store(&mut to[k], 0);
+        }
     }
 }
 
 impl Smooth for Stencil {
-    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         m.run(
             #[inline(always)]
@@ -164,12 +154,12 @@ impl Smooth for Stencil {
             #[inline(always)]
             || {
                 for i in 0..self.frame.rows {
-                    let of = self.frame.three(other, i);
-                    let row = self.frame.row(i);
-                    for j in (0..row.len()).step_by(LANES) {
-                        let inverse = m.load(&self.inverse, row.start + j);
-                        let sum = own * m.load(of[1], j + 1) + next * inverse * self.around(m, of, i, j);
-                        sum.store(solution, row.start + j);
+                    let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+                    let nine = Nine::new(self, other, i);
+                    let (inverse, to) = (packs(&self.inverse, start, count), packs_mut(solution, start, count));
+                    for k in 0..count {
+                        let sum = own * m.pack(&nine.middle[k]) + next * m.pack(&inverse[k]) * nine.sum(m, k);
+                        sum.store(&mut to[k], 0);
                     }
                     self.frame.finish_row(solution, i);
                 }
@@ -177,23 +167,39 @@ impl Smooth for Stencil {
         );
     }
 
-    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(m, WEIGHTS[1], right, solution, other);
-        self.step(m, WEIGHTS[0], right, other, solution);
-    }
-
-    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
-        let of = self.frame.three(solution, i);
-        let row = self.frame.row(i);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
         m.run(
             #[inline(always)]
             || {
-                for j in (0..row.len()).step_by(LANES) {
-                    let at = row.start + j;
-                    let sum = m.load(right, at) + self.around(m, of, i, j);
-                    (sum - m.load(&self.diagonal, at) * m.load(of[1], j + 1)).store(out, j);
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
+    }
+
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+        m.run(
+            #[inline(always)]
+            || {
+                let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+                let nine = Nine::new(self, solution, i);
+                let [right, diagonal] = [right, &self.diagonal].map(|part| packs(part, start, count));
+                let out = packs_mut(out, 0, count);
+                for k in 0..count {
+                    let sum = m.pack(&right[k]) + nine.sum(m, k);
+                    (sum - m.pack(&diagonal[k]) * m.pack(&nine.middle[k])).store(&mut out[k], 0);
                 }
             },
         );
