@@ -16,7 +16,7 @@ mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
-pub use harmonic::{Field, harmonic, residual};
+pub use harmonic::{Field, harmonic, residual, rough_harmonic};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;

@@ -1,5 +1,6 @@
 //! The harmonic potential in windows, in order of falling values.
 
+use super::harmonic::decay;
 use super::multigrid::Ends;
 use super::network::Network;
 use super::potential::Scaled;
@@ -7,7 +8,7 @@ use super::wide::Wide;
 use super::{Component, Potential};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::f64::consts::{LN_2, PI};
+use std::f64::consts::LN_2;
 
 /// No window.
 const NONE: u32 = u32::MAX;
@@ -82,7 +83,6 @@ impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let room = component.room().widest;
         let widest = room.iter().copied().max().unwrap_or(0);
-        let theta = |room: u32| (2.0 - (PI / (2.0 * f64::from(room.max(1)))).cos()).acosh();
         let mut potential = Potential::zero(component.len());
         let mut front = BinaryHeap::new();
         for goal in 0..component.goals {
@@ -92,7 +92,7 @@ impl<'a> Peeling<'a> {
         Self {
             component,
             loss,
-            decay: (0..=widest).map(theta).collect(),
+            decay: (0..=widest).map(decay).collect(),
             room,
             potential,
             front,

@@ -7,7 +7,7 @@ use super::network::SIDES;
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Relative residual of a value at which it is precise: some roundings of the sum of four neighbours.
-const PRECISE: f64 = 16.0 * f64::EPSILON;
+const PRECISE: f64 = 64.0 * f64::EPSILON;
 
 /// Unknowns of a window: `(ground + number of neighbours) u = source + sum of the neighbours' u`.
 #[derive(Debug, Clone)]

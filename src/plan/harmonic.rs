@@ -3,7 +3,7 @@
 use super::attach::Joined;
 use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::field::{Component, Lattice, Potential, harmonic};
+use crate::field::{Component, Lattice, Potential, harmonic, rough_harmonic};
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
 /// circles) and climbs it by the greatest neighbour (Connolly, Grupen 1993).
@@ -48,7 +48,7 @@ impl Planner for Harmonic {
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             return Run {
                 outcome: Outcome::NoPath,
-                trace: trace(space, &component, &harmonic(&component).potential),
+                trace: trace(space, &component, &rough_harmonic(&component)),
                 size: Size::Grid { cells: component.len(), sweeps: 0 },
                 note: None,
             };
