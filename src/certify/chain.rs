@@ -1,8 +1,9 @@
 //! Chains of adjacent boxes.
 
 use super::boxes::{Cell, Door};
+use crate::geometry::Ordered;
 use crate::space::{Configuration, Topology};
-use std::cmp::{Ordering, Reverse};
+use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
 const NONE: u32 = u32::MAX;
@@ -90,24 +91,6 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// A length in a queue.
-#[derive(PartialEq)]
-struct Length(f64);
-
-impl Eq for Length {}
-
-impl PartialOrd for Length {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Length {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.0.total_cmp(&other.0)
-    }
-}
-
 /// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the doors is the
 /// shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
@@ -159,10 +142,10 @@ fn short(
     // Where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
     let mut parent = vec![NONE; boxes.count()];
-    let mut queue = BinaryHeap::from([Reverse((Length(0.0), from))]);
+    let mut queue = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
     let mut best = (f64::INFINITY, from);
     length[from as usize] = 0.0;
-    while let Some(Reverse((Length(so_far), index))) = queue.pop() {
+    while let Some(Reverse((Ordered(so_far), index))) = queue.pop() {
         if so_far >= best.0 {
             break;
         }
@@ -186,7 +169,7 @@ fn short(
                 length[next as usize] = longer;
                 entry[next as usize] = place - door.shift;
                 parent[next as usize] = index;
-                queue.push(Reverse((Length(longer), next)));
+                queue.push(Reverse((Ordered(longer), next)));
             }
         });
     }

@@ -214,3 +214,38 @@ impl Slabs {
         groups
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certify::Cell;
+    use crate::model::Pair;
+    use crate::space::Axis;
+    use std::f64::consts::PI;
+
+    /// A box all along one axis leaves two parts, which are one across the seam of the other axis if that is a circle.
+    #[test]
+    fn a_seam_joins_what_a_band_leaves() {
+        let turn = Axis::Circle;
+        let bounded = Axis::Interval { lower: -PI, upper: PI };
+        for band in [0, 1] {
+            let mut cell = Cell { lower: [-PI; 2], upper: [PI; 2] };
+            cell.lower[band] = 0.0;
+            cell.upper[band] = 1.0;
+            let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
+            let boxes = [StuckBox { cell, pair }];
+            let (mut below, mut above) = (Configuration::zeros(), Configuration::zeros());
+            below[band] = -2.0;
+            above[band] = 2.0;
+            for across in [turn, bounded] {
+                let mut axes = [turn; 2];
+                axes[band] = across;
+                let topology = Topology { axes };
+                let slabs = Slabs::new(&topology, &boxes);
+                let at = |q| slabs.locate(q).expect("no box holds it");
+                let joined = slabs.groups(&topology).equiv(at(below), at(above));
+                assert_eq!(joined, across.is_circle(), "band along axis {}", 1 - band);
+            }
+        }
+    }
+}

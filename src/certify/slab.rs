@@ -233,7 +233,10 @@ mod tests {
         };
         let shape = Shape::Polygon(piece.core().to_vec());
         let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
-        Scene::new(arm, Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0 })
+        Scene::new(
+            arm,
+            Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() },
+        )
     }
 
     proptest! {

@@ -2,13 +2,14 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
+use super::field_args::Variant;
 use super::output::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::Picture;
 use crate::input;
 use crate::model::Problem;
 use crate::report::{Comparison, Row};
-use crate::solve::{Answer, Method, Verdict, solve};
+use crate::solve::{Answer, Effort, Method, Verdict, solve};
 use crate::trajectory::time;
 use std::time::Duration;
 
@@ -23,18 +24,25 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let problem = &loaded.problem;
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
+    let mut entries: Vec<_> = methods.into_iter().map(|method| (method.to_string(), method, None)).collect();
+    for Variant { label, method, field } in &args.with {
+        if let Some(lack) = field.lack(&problem.scene.workspace.preferences) {
+            return Err(Failure::Usage(lack));
+        }
+        entries.push((label.clone(), *method, field.planner(*method).map_err(Failure::Usage)?));
+    }
     let mut answers = Vec::new();
     let mut rows = Vec::new();
-    for method in methods {
+    for (label, method, field) in entries {
         if !args.quiet {
-            output::say(&format!("{method} ..."));
+            output::say(&format!("{label} ..."));
         }
-        let answer = solve(problem, method, &effort, &mut |text| {
+        let answer = solve(problem, method, &Effort { field, ..effort }, &mut |text| {
             if !args.quiet {
                 output::say(text);
             }
         });
-        rows.push(row(problem, &answer, args.effort.period)?);
+        rows.push(row(problem, label, &answer, args.effort.period)?);
         answers.push(answer);
     }
     let comparison = Comparison { problem: output::title(problem), length_unit: length_unit(problem), rows };
@@ -60,10 +68,10 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     })
 }
 
-fn row(problem: &Problem, answer: &Answer, period: f64) -> Result<Row, Failure> {
+fn row(problem: &Problem, planner: String, answer: &Answer, period: f64) -> Result<Row, Failure> {
     let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
     let mut row = Row {
-        planner: answer.method.name().into(),
+        planner,
         outcome: "unknown".into(),
         length: None,
         clearance: None,
@@ -100,9 +108,10 @@ fn draw(
     file: &std::path::Path,
 ) -> Result<(), Failure> {
     let contours = output::contours(&problem.scene);
-    let paths = answers.iter().filter_map(|answer| match &answer.verdict {
+    let named = comparison.rows.iter().zip(answers);
+    let paths = named.filter_map(|(row, answer)| match &answer.verdict {
         Verdict::Found(certified) => {
-            Some((format!("{}: {:.3}", answer.method, certified.path().length()), certified.path()))
+            Some((format!("{}: {:.3}", row.planner, certified.path().length()), certified.path()))
         }
         _ => None,
     });

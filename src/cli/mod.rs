@@ -4,11 +4,14 @@ mod args;
 mod check;
 mod compare;
 mod failure;
+mod field_args;
+mod field_report;
 mod inspect;
 mod inspect_text;
 mod output;
 mod plan;
 mod recheck;
+mod search_args;
 mod summary;
 mod verify;
 

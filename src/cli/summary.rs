@@ -3,6 +3,7 @@
 use super::output::Sink;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint};
+use crate::plan::FieldPlanner;
 use crate::solve::{Answer, Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric};
 use crate::trajectory::Report;
@@ -68,7 +69,14 @@ pub fn range(joint: &Joint) -> String {
 }
 
 /// What was found, in some ten lines.
-pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], clock: &Clock) -> String {
+pub fn text(
+    loaded: &Loaded,
+    answer: &Answer,
+    report: &Report,
+    field: Option<&FieldPlanner>,
+    sinks: &[Sink],
+    clock: &Clock,
+) -> String {
     let scene = &loaded.problem.scene;
     let arm = &scene.arm;
     let mut lines: Vec<(&str, String)> = Vec::new();
@@ -88,8 +96,10 @@ pub fn text(loaded: &Loaded, answer: &Answer, report: &Report, sinks: &[Sink], c
     for &goal in &loaded.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
-    lines.push(("planner", format!("{}: {}", answer.method, answer.run.size)));
+    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
+    lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
+    lines.extend(field.map(|field| ("field", field.to_string())));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();

@@ -45,7 +45,8 @@ impl Component {
         let goals = cells.iter().take_while(|&&cell| wave.label(lattice, cell as usize) == 0).count();
         let neighbors = neighbors.collect();
         position.truncate((rows + 1) * (columns + 2));
-        let position = position.chunks_exact(columns + 2).skip(1).flat_map(|line| &line[1..=columns]).copied().collect();
+        let position =
+            position.chunks_exact(columns + 2).skip(1).flat_map(|line| &line[1..=columns]).copied().collect();
         Self { neighbors, cells, goals, levels: wave.levels, shape: [rows, columns], position }
     }
 

@@ -268,7 +268,12 @@ impl<'a> Peeling<'a> {
         if value > 0.0 {
             beyond = if share < 1.0 { beyond.max(value / (1.0 - share)).min(window.greatest) } else { window.greatest };
         }
-        if std::env::var_os("DBG").is_some() { eprintln!("value {value:e} share {share} beside {:e} greatest {:e} beyond {beyond:e}", window.beside, window.greatest); }
+        if std::env::var_os("DBG").is_some() {
+            eprintln!(
+                "value {value:e} share {share} beside {:e} greatest {:e} beyond {beyond:e}",
+                window.beside, window.greatest
+            );
+        }
         let mut taken = 0;
         let mut front = window.sources.clone();
         for (&position, &[u, e]) in window.cells.iter().zip(solution) {

@@ -49,7 +49,14 @@ impl Wide {
         Some(u.into_iter().zip(e).map(|(u, e)| [u, e + 1e-7]).collect())
     }
 
-    fn side(&self, inner: &Multigrid, workspace: &mut Workspace, side: usize, floor: f64, rounds: usize) -> Option<Vec<f64>> {
+    fn side(
+        &self,
+        inner: &Multigrid,
+        workspace: &mut Workspace,
+        side: usize,
+        floor: f64,
+        rounds: usize,
+    ) -> Option<Vec<f64>> {
         let source: Vec<f64> = self.source.iter().map(|source| source[side]).collect();
         let mut x = vec![0.0; source.len()];
         if source.iter().all(|&s| s == 0.0) {

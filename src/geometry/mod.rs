@@ -14,6 +14,7 @@ mod inset;
 mod intervals;
 mod meet;
 mod minkowski;
+mod ordered;
 mod penetration;
 mod polygon;
 mod predicates;
@@ -29,6 +30,7 @@ pub use inset::{clip, common, inset};
 pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
 pub use minkowski::{minkowski_difference, penetration_depth};
+pub use ordered::Ordered;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };

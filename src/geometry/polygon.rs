@@ -102,6 +102,24 @@ impl SimplePolygon {
         (0..n).all(|i| turn(&self.corners, i) != Orientation::Clockwise)
     }
 
+    /// Whether the closed polygon contains a point; exact. `O(n)`.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        let n = self.corners.len();
+        let mut inside = false;
+        for (i, &a) in self.corners.iter().enumerate() {
+            let b = self.corners[(i + 1) % n];
+            if point_on_segment(p, a, b) {
+                return true;
+            }
+            // Does the side cross the ray from `p` in the direction of x? Lower ends belong to sides, upper ones do not.
+            let rises = b.y > a.y;
+            let side = if rises { Orientation::CounterClockwise } else { Orientation::Clockwise };
+            inside ^= (a.y > p.y) != (b.y > p.y) && orientation(a, b, p) == side;
+        }
+        inside
+    }
+
     /// Strictly convex polygons with disjoint interiors whose union is this polygon; no new corners.
     ///
     /// At most four times as many as the least possible number: see [`decompose`].

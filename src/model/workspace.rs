@@ -1,5 +1,6 @@
 //! Obstacles in the plane.
 
+use super::Preference;
 use crate::geometry::{Convex, Point};
 
 /// Extent along the plane's normal, metres.
@@ -31,11 +32,13 @@ pub enum Shape {
     Circle {
         /// Its centre.
         center: Point,
-        /// Its radius, metres; positive.
+        /// Its radius, metres; 0 for a point.
         radius: f64,
     },
     /// A thin wall.
     Polyline(Vec<Point>),
+    /// The union of the obstacle's pieces, such as the occupied cells of a map.
+    Pieces,
 }
 
 /// Something the arm must not touch.
@@ -51,7 +54,7 @@ pub struct Obstacle {
     pub heights: Heights,
 }
 
-/// The obstacles and the distance to keep from them.
+/// The obstacles, the distance to keep from them, and where to be rather than elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workspace {
     /// Title.
@@ -60,4 +63,6 @@ pub struct Workspace {
     pub obstacles: Vec<Obstacle>,
     /// Least distance to keep from every obstacle, metres. With 0 any proven distance above zero will do.
     pub clearance: f64,
+    /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
+    pub preferences: Vec<Preference>,
 }

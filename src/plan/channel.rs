@@ -3,8 +3,8 @@
 use super::NONE;
 use super::decomposition::{Decomposition, Door};
 use super::terminals::Terminals;
-use crate::geometry::Point;
-use std::cmp::Ordering;
+use crate::geometry::{Ordered, Point};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Cells to pass, with the doors between them: one less than cells.
@@ -73,7 +73,7 @@ impl Adjacency {
         for &cell in start_cells {
             search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
         }
-        while let Some(Open { node, cost, .. }) = search.open.pop() {
+        while let Some(Reverse((_, node, Ordered(cost)))) = search.open.pop() {
             if cost > search.nodes[node as usize].cost {
                 continue;
             }
@@ -103,13 +103,9 @@ impl Node {
     const START: Self = Self { cost: 0.0, before: NONE, door: NONE, cell: NONE };
 }
 
-/// An entry of the open list; nodes beyond the cells are goals.
-#[derive(Debug, Clone, Copy)]
-struct Open {
-    estimate: f64,
-    cost: f64,
-    node: u32,
-}
+/// An entry of the open list: estimate, node (those beyond the cells are goals) and its cost when it was put there. Of
+/// equal estimates the least node comes first, so that the order is that of the input.
+type Open = Reverse<(Ordered, u32, Ordered)>;
 
 struct Search<'a> {
     adjacency: &'a Adjacency,
@@ -151,7 +147,7 @@ impl Search<'_> {
         if by.cost < self.nodes[node].cost {
             self.nodes[node] = by;
             let estimate = by.cost + self.terminals.straight_distance(at);
-            self.open.push(Open { estimate, cost: by.cost, node: node as u32 });
+            self.open.push(Reverse((Ordered(estimate), node as u32, Ordered(by.cost))));
         }
     }
 
@@ -180,25 +176,3 @@ impl Search<'_> {
         (if left == cell as usize { right } else { left }) as u32
     }
 }
-
-impl Ord for Open {
-    /// The least estimate is the greatest; of equal ones the least node, so that the order is that of the input.
-    fn cmp(&self, other: &Self) -> Ordering {
-        let by_estimate = other.estimate.total_cmp(&self.estimate);
-        by_estimate.then(other.node.cmp(&self.node)).then(other.cost.total_cmp(&self.cost))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}

@@ -3,8 +3,8 @@
 use super::NONE;
 use super::measure::Measure;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
-use crate::geometry::{Orientation, Point, cross, orientation};
-use std::cmp::Ordering;
+use crate::geometry::{Ordered, Orientation, Point, cross, orientation};
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// Two lines whose directions enclose less than this sine are not intersected: rounding would be magnified by its
@@ -47,7 +47,7 @@ struct Node {
     corner: u32,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Step {
     /// To look around at a node.
     Turn(u32),
@@ -57,13 +57,9 @@ enum Step {
     Arrive(u32),
 }
 
-/// An entry of the open list.
-#[derive(Debug, Clone, Copy)]
-struct Open {
-    estimate: f64,
-    number: u32,
-    step: Step,
-}
+/// An entry of the open list: estimate, whether it is an arrival, its number, and what to do. Of equal estimates an
+/// arrival comes first, then the latest.
+type Open = (Reverse<Ordered>, bool, u32, Step);
 
 impl<'a> TautSearch<'a> {
     pub fn new(mesh: &'a Mesh, measure: Measure, goals: &'a [Point]) -> Self {
@@ -111,7 +107,7 @@ impl<'a> TautSearch<'a> {
         seen.sort_unstable();
         seen.dedup();
         seen.into_iter().for_each(|corner| self.see(0, corner));
-        while let Some(Open { step, .. }) = self.open.pop() {
+        while let Some((.., step)) = self.open.pop() {
             match step {
                 Step::Arrive(node) => return Some(self.waypoints(node)),
                 Step::Turn(node) => self.turn(node),
@@ -168,7 +164,7 @@ impl<'a> TautSearch<'a> {
                         (left, estimates[1], right, estimates[0])
                     };
                     self.push_cone(root, worse, other);
-                    if self.open.peek().is_some_and(|open| open.estimate < best) {
+                    if self.open.peek().is_some_and(|&(Reverse(Ordered(least)), ..)| least < best) {
                         self.push_cone(root, better, best);
                         return;
                     }
@@ -244,7 +240,7 @@ impl<'a> TautSearch<'a> {
 
     fn push(&mut self, estimate: f64, step: Step) {
         self.pushed += 1;
-        self.open.push(Open { estimate, number: self.pushed, step });
+        self.open.push((Reverse(Ordered(estimate)), matches!(step, Step::Arrive(_)), self.pushed, step));
     }
 
     /// A lower bound on the way from `p` to the nearest goal.
@@ -282,26 +278,3 @@ fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Po
     let t = cross(line, from - a) / sine;
     a + edge * t.clamp(0.0, 1.0)
 }
-
-impl Ord for Open {
-    /// The least estimate is the greatest; of equal ones an arrival, then the latest.
-    fn cmp(&self, other: &Self) -> Ordering {
-        let arrives = |open: &Self| matches!(open.step, Step::Arrive(_));
-        let by_estimate = other.estimate.total_cmp(&self.estimate);
-        by_estimate.then(arrives(self).cmp(&arrives(other))).then(self.number.cmp(&other.number))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Open {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Open {}

@@ -2,52 +2,18 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
+use super::rungs::{Builder, Described, cells, margin, polygons, zoned_cells};
 use super::swift::{SLABS, checked};
-use super::{Answer, Method, Space, Stages, Verdict, subdivision};
-use crate::certify::{Connectivity, Rejection, certify, connectivity, slab_connectivity};
-use crate::cspace::{Grid, Regions, outer_grid, regions};
+use super::{Answer, Effort, Method, Space, Stages, Verdict, subdivision};
+use crate::certify::{CertifiedPath, Connectivity, Rejection, certify, connectivity, slab_connectivity};
 use crate::model::{Problem, Scene};
-use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
-use crate::space::Metric;
+use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility};
+use crate::space::{Metric, Path};
 use std::time::Instant;
-
-/// How much to try before the answer is unknown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
-    /// Attempts, each finer than the one before: a quarter of the margin, twice the cells along each axis.
-    pub levels: usize,
-    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach.
-    pub margin: f64,
-    /// First number of grid cells along each axis.
-    pub cells: usize,
-    /// Boxes for a proof that there is no path, and for planning by subdivision.
-    pub boxes: usize,
-    /// What makes a path short, for the visibility planner and for bounds.
-    pub metric: Metric,
-    /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
-    /// planner only).
-    pub gap: Option<f64>,
-}
-
-impl Default for Effort {
-    /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
-    fn default() -> Self {
-        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None }
-    }
-}
-
-/// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
-const MOST_CELLS: usize = 2048;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
-
-/// Share of a slide's stroke that counts as reach where that is smaller, as for a gantry's slender tool.
-const STROKE: f64 = 0.1;
-
-/// Turns of the universal cover to plan in, on either side of the start.
-const PERIODS: usize = 1;
 
 /// Answers `problem` with `method`. `progress` hears about attempts that failed.
 #[must_use]
@@ -55,15 +21,16 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
     match method {
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
-        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
-        Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        Method::Wavefront => climb(problem, method, effort, progress, &effort.wavefront, cells),
+        Method::Harmonic => match &effort.field {
+            Some(planner) => climb(problem, method, effort, progress, planner, zoned_cells),
+            None => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        },
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
 }
 
-/// Builds the space of one level; none when there is no finer one.
-type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
-
+/// Level after level, until a path is good enough or a proof is found.
 fn climb<P: Planner>(
     problem: &Problem,
     method: Method,
@@ -75,78 +42,110 @@ fn climb<P: Planner>(
 where
     P::Space: Into<Space> + Described + Admit,
 {
-    let clearance = problem.scene.workspace.clearance;
-    let mut stages = Stages::default();
+    let mut climb = Climb { problem, method, effort, stages: Stages::default(), path: None, bound: None };
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut verdict = None;
-    let mut best: Option<Bound> = None;
     for level in 0..effort.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(problem, effort, level) else { break };
         let map = planner.build(&space);
-        stages.build += clock.elapsed();
+        climb.stages.build += clock.elapsed();
         let clock = Instant::now();
         let ends = Ends::new(problem, &space);
         let run = match method {
             Method::Visibility => shortest_of_all(&ends, effort.metric, |query| planner.query(&space, &map, query)),
             _ => planner.query(&space, &map, &ends.query),
         };
-        stages.query += clock.elapsed();
-        let failure = match &run.outcome {
-            Outcome::Found(path) => {
-                let clock = Instant::now();
-                let judge = |path| certify(&problem.scene, path, clearance);
-                let straight = ends.past_stand_ins(path).and_then(|path| judge(path).ok());
-                let certified = straight.map_or_else(|| judge(ends.complete(path)), Ok);
-                stages.certify += clock.elapsed();
-                match certified {
-                    Ok(path) => {
-                        let bounded = (method == Method::Visibility).then(|| {
-                            let clock = Instant::now();
-                            let bound = bound(problem, path.path(), effort.metric, margin(problem, effort, level));
-                            stages.bound += clock.elapsed();
-                            bound
-                        });
-                        if best.zip(bounded).is_none_or(|(best, new)| new.upper < best.upper) {
-                            verdict = Some(Verdict::Found(path));
-                        }
-                        best = best.zip(bounded).map_or(bounded, |(best, new)| Some(best.and(new)));
-                        best.map_or_else(String::new, |bound| {
-                            format!("its path is longer than the bound by {}", percent(bound.gap()))
-                        })
-                    }
-                    Err(rejection) => format!("its path is not certified: {}", explain(&problem.scene, rejection)),
-                }
-            }
-            Outcome::NoPath => "no path in it".into(),
-            Outcome::GaveUp(reason) => reason.clone(),
-        };
-        let failure = format!("{}: {failure}", space.describe());
+        climb.stages.query += clock.elapsed();
+        let failure = climb.judge(&ends, &run.outcome, level).map(|failure| format!("{}: {failure}", space.describe()));
         last = Some((run, space));
-        let goes_on = best.zip(effort.gap).is_some_and(|(bound, gap)| bound.gap() > gap);
-        if verdict.is_some() && !goes_on {
-            break;
-        }
+        let Some(failure) = failure else { break };
         progress(&format!("{method}: {failure}"));
         history.push(failure);
-        if level == 0 && verdict.is_none() {
-            verdict = prove(problem, effort.boxes.min(FIRST_BOXES), &mut stages);
+        if level == 0 && climb.path.is_none() {
+            verdict = prove(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
             if verdict.is_some() {
                 break;
             }
         }
     }
+    let mut verdict = climb.path.take().map(Verdict::Found).or(verdict);
     if verdict.is_none() {
         progress(&format!("{method}: looking for a proof that there is no path"));
-        verdict = prove(problem, effort.boxes, &mut stages);
+        verdict = prove(problem, effort.boxes, &mut climb.stages);
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let verdict = verdict.unwrap_or_else(|| {
         let why = history.last().cloned().unwrap_or_default();
         Verdict::Unknown(format!("{method} found no certified path at its finest resolution ({why})"))
     });
-    Answer { method, verdict, bound: best, history, run, space: space.into(), stages }
+    Answer { method, verdict, bound: climb.bound, history, run, space: space.into(), stages: climb.stages }
+}
+
+/// What is known on the way up the ladder.
+struct Climb<'a> {
+    problem: &'a Problem,
+    method: Method,
+    effort: &'a Effort,
+    stages: Stages,
+    /// The best certified path so far.
+    path: Option<CertifiedPath>,
+    /// How far it is from the optimum at the most, by all levels together.
+    bound: Option<Bound>,
+}
+
+impl Climb<'_> {
+    /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
+    fn judge(&mut self, ends: &Ends, outcome: &Outcome, level: usize) -> Option<String> {
+        let proposal = match outcome {
+            Outcome::Found(path) => path,
+            Outcome::NoPath => return self.unless_content("no path in it".into()),
+            Outcome::GaveUp(reason) => return self.unless_content(reason.clone()),
+        };
+        match self.certified(ends, proposal) {
+            Ok(path) => {
+                self.keep(path, level);
+                let excess = self.bound.map_or_else(String::new, |bound| percent(bound.gap()));
+                self.unless_content(format!("its path is longer than the bound by {excess}"))
+            }
+            Err(rejection) => {
+                let why = explain(&self.problem.scene, rejection);
+                self.unless_content(format!("its path is not certified: {why}"))
+            }
+        }
+    }
+
+    /// `failure`, unless there is a path and no gap asked for that is still to be closed.
+    fn unless_content(&self, failure: String) -> Option<String> {
+        let wants_more = self.bound.zip(self.effort.gap).is_some_and(|(bound, gap)| bound.gap() > gap);
+        (self.path.is_none() || wants_more).then_some(failure)
+    }
+
+    /// The certified path from start to goal along a proposal between their stand-ins.
+    fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
+        let clock = Instant::now();
+        let judge = |path| certify(&self.problem.scene, path, self.problem.scene.workspace.clearance);
+        let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
+        let certified = straight.map_or_else(|| judge(ends.complete(proposal)), Ok);
+        self.stages.certify += clock.elapsed();
+        certified
+    }
+
+    /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
+    fn keep(&mut self, path: CertifiedPath, level: usize) {
+        let bounded = (self.method == Method::Visibility).then(|| {
+            let clock = Instant::now();
+            let margin = margin(self.problem, self.effort, level);
+            let bound = bound(self.problem, path.path(), self.effort.metric, margin);
+            self.stages.bound += clock.elapsed();
+            bound
+        });
+        if self.bound.zip(bounded).is_none_or(|(best, new)| new.upper < best.upper) {
+            self.path = Some(path);
+        }
+        self.bound = self.bound.zip(bounded).map_or(bounded, |(best, new)| Some(best.and(new)));
+    }
 }
 
 /// The run whose path is the shortest when it is completed. A planner measures to the stand-in of a goal, not to the goal:
@@ -180,54 +179,6 @@ fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict
     };
     stages.prove += clock.elapsed();
     proof.map(Verdict::Infeasible)
-}
-
-/// Polygons grown by the level's margin.
-fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
-    Some(regions(&problem.scene, margin(problem, effort, level), problem.start, PERIODS))
-}
-
-/// The level's margin, metres.
-fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
-    let arm = &problem.scene.arm;
-    let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
-    let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
-    effort.margin * scale * 0.25_f64.powi(level as i32)
-}
-
-/// Cells of the level's size.
-fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
-    let n = effort.cells << level;
-    (level == 0 || n <= MOST_CELLS).then(|| outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance))
-}
-
-/// A space in a few words.
-trait Described {
-    fn describe(&self) -> String;
-}
-
-impl Described for Regions {
-    fn describe(&self) -> String {
-        format!("polygons ({})", self.proves)
-    }
-}
-
-impl Described for Grid {
-    fn describe(&self) -> String {
-        format!("{} x {} cells", self.cells[0], self.cells[1])
-    }
-}
-
-impl From<Regions> for Space {
-    fn from(regions: Regions) -> Self {
-        Space::Regions(Box::new(regions))
-    }
-}
-
-impl From<Grid> for Space {
-    fn from(grid: Grid) -> Self {
-        Space::Grid(Box::new(grid))
-    }
 }
 
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {

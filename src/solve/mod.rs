@@ -6,14 +6,17 @@
 
 mod admission;
 mod bound;
+mod effort;
 mod ladder;
 mod method;
+mod rungs;
 mod shorten;
 mod subdivision;
 mod swift;
 
 pub use bound::{Bound, bound, percent};
-pub use ladder::{Effort, solve};
+pub use effort::Effort;
+pub use ladder::solve;
 pub use method::Method;
 pub use shorten::shorten;
 pub use swift::decide;

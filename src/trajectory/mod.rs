@@ -4,6 +4,7 @@
 //! either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
 
 mod csv;
+mod field;
 mod format;
 mod profile;
 mod result;
@@ -15,8 +16,9 @@ mod whole_file;
 mod tests;
 
 pub use csv::csv;
+pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
-pub use result::{INTERPOLATION, Optimum, Report, Status};
+pub use result::{INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory, time};
 pub use whole_file::{WriteError, check_writable, write_whole};

@@ -99,7 +99,7 @@ pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
 
 pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
     let obstacles = pieces.into_iter().enumerate().map(|(i, p)| obstacle(&format!("o{i}"), p)).collect();
-    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0 })
+    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// The benchmark problems with published truths: a 2R arm on the torus among four polygons.

@@ -52,7 +52,7 @@ pub fn world(kind: &str, seed: u64) -> Option<Problem> {
     while obstacles.len() < count as usize {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
     }
-    let workspace = Workspace { name: "random".into(), obstacles, clearance };
+    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
     let scene = Scene::new(arm, workspace);
     let start = free(&mut dice, &scene)?;
     let count = 1 + dice.below(3);

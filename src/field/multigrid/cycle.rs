@@ -1,8 +1,9 @@
 //! The hierarchy of levels and one V-cycle through it: the preconditioner.
 
 use super::envelope::Envelope;
-use super::frame::{Frame, LANES};
+use super::frame::Frame;
 use super::galerkin::coarsen;
+use super::machine::{LANES, Machine};
 use super::smooth::{Smooth, Vectors};
 use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Rows, Transfer};
@@ -30,20 +31,20 @@ pub(super) struct Stack {
 
 impl Hierarchy {
     /// Linear in the number of cells.
-    pub fn new(finest: &FivePoint) -> Self {
+    pub fn new<M: Machine>(m: M, finest: &FivePoint) -> Self {
         let (mut transfers, mut levels) = (Vec::new(), Vec::<Stencil>::new());
         let small = |frame: Frame| frame.rows * frame.columns <= BOTTOM;
         if small(finest.frame) {
-            return Self { transfers, levels, bottom: envelope(finest) };
+            return Self { transfers, levels, bottom: envelope(m, finest) };
         }
-        let (transfer, mut level) = coarsen(finest);
+        let (transfer, mut level) = coarsen(m, finest);
         transfers.push(transfer);
         while !small(level.frame) {
-            let (transfer, next) = coarsen(&level);
+            let (transfer, next) = coarsen(m, &level);
             transfers.push(transfer);
             levels.push(std::mem::replace(&mut level, next));
         }
-        let bottom = envelope(&level);
+        let bottom = envelope(m, &level);
         levels.push(level);
         Self { transfers, levels, bottom }
     }
@@ -60,14 +61,14 @@ impl Hierarchy {
     }
 
     /// One V-cycle from zero for the right-hand side of the finest level, which has its frame.
-    pub fn cycle(&self, finest: &FivePoint, stack: &mut Stack) {
+    pub fn cycle<M: Machine>(&self, m: M, finest: &FivePoint, stack: &mut Stack) {
         let Stack { levels: vectors, rows, bottom } = stack;
         for (k, transfer) in self.transfers.iter().enumerate() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
             let (upper, lower) = (&mut upper[k], &mut lower[0]);
             match k.checked_sub(1) {
-                None => descend(finest, transfer, upper, lower, rows),
-                Some(k) => descend(&self.levels[k], transfer, upper, lower, rows),
+                None => descend(m, finest, transfer, upper, lower, rows),
+                Some(k) => descend(m, &self.levels[k], transfer, upper, lower, rows),
             }
         }
         let frame = self.levels.last().map_or(finest.frame, |level| level.frame);
@@ -83,29 +84,35 @@ impl Hierarchy {
         frame.finish(&mut vectors[last].solution);
         for (k, transfer) in self.transfers.iter().enumerate().rev() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
-            transfer.prolong(&lower[0].solution, rows, &mut upper[k].solution);
+            transfer.prolong(m, &lower[0].solution, rows, &mut upper[k].solution);
             match k.checked_sub(1) {
-                None => finest.again(&mut upper[0]),
-                Some(level) => self.levels[level].again(&mut upper[k]),
+                None => finest.again(m, &mut upper[0]),
+                Some(level) => self.levels[level].again(m, &mut upper[k]),
             }
         }
     }
 }
 
 /// Smooths, and restricts what is left.
-fn descend<L: Smooth>(level: &L, transfer: &Transfer, upper: &mut Vectors, lower: &mut Vectors, rows: &mut Rows) {
-    level.from_zero(upper);
-    let Vectors { right, solution, .. } = upper;
-    transfer.restrict(|i, out| level.residual(right, solution, i, out), rows, &mut lower.right);
+fn descend<M: Machine, L: Smooth>(
+    m: M,
+    level: &L,
+    transfer: &Transfer,
+    upper: &mut Vectors,
+    lower: &mut Vectors,
+    rows: &mut Rows,
+) {
+    level.from_zero(m, upper);
+    transfer.restrict(m, level, upper, rows, &mut lower.right);
 }
 
 /// The factor of an operator.
-fn envelope<O: Operator>(operator: &O) -> Envelope {
+fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
     let Frame { rows, columns, width, .. } = operator.frame();
     let mut entries = vec![Vec::new(); rows * columns];
     let mut line = Line::new(width + 2 + LANES);
     for i in 0..rows {
-        operator.line(i, &mut line);
+        operator.line(m, i, &mut line);
         for j in 0..columns {
             let here = i * columns + j;
             entries[here].push((here, f64::from(line.diagonal[j + 1])));

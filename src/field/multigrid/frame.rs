@@ -1,9 +1,7 @@
 //! How cells lie in memory: rows padded to whole vectors, in a frame that says what is beyond the ends.
 
-use std::ops::{Add, Mul, Range, Sub};
-
-/// Rows are padded to a multiple of this many cells. Loops over whole rows then need no remainder.
-pub(super) const LANES: usize = 8;
+use super::machine::LANES;
+use std::ops::Range;
 
 /// What lies beyond the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,6 +71,7 @@ impl Frame {
     }
 
     /// Sets the frame as far as it depends on row `i`.
+    #[inline]
     pub fn finish_row<T: Copy + Default>(&self, data: &mut [T], i: usize) {
         self.finish_ends(&mut data[self.framed(i)]);
         let (above, below) = (0, (self.rows + 1) * self.stride);
@@ -100,6 +99,7 @@ impl Frame {
     }
 
     /// Sets the cell before and the one after a row.
+    #[inline]
     pub fn finish_ends<T: Copy + Default>(&self, framed: &mut [T]) {
         let last = self.columns;
         (framed[0], framed[last + 1]) = match self.ends[1] {
@@ -116,59 +116,25 @@ impl Frame {
         }
     }
 
-    /// The order in which rows can be made when a row is used as soon as the one after it is there: on a circle the last
-    /// row goes first, since it is the one above the first.
-    pub fn starts_with_last(&self) -> bool {
-        self.ends[0] == Ends::Joined && self.rows > 1
+    /// Whether the last row is the one above the first.
+    pub fn is_joined_at_rows(&self) -> bool {
+        self.ends[0] == Ends::Joined
+    }
+
+    /// An order in which each row is made once, and used once as soon as the rows around it are made: the row before is
+    /// then still in the cache. On a circle the last row is made first, since it is the one above the first.
+    pub fn ahead(&self) -> impl Iterator<Item = Ahead> + use<> {
+        let rows = self.rows;
+        let first = (self.is_joined_at_rows() && rows > 1).then(|| Ahead { made: Some(rows - 1), used: None });
+        let last = if first.is_some() { rows - 1 } else { rows };
+        let rest = (0..=rows).map(move |i| Ahead { made: (i < last).then_some(i), used: i.checked_sub(1) });
+        first.into_iter().chain(rest)
     }
 }
 
-/// Some neighbouring cells of a row, handled together; compiles to vector instructions.
+/// A step of [`Frame::ahead`]: first `made`, then `used`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pack(pub [f32; LANES]);
-
-impl Pack {
-    pub const ZERO: Self = Self([0.0; LANES]);
-
-    #[inline(always)]
-    pub fn load(from: &[f32], at: usize) -> Self {
-        let mut pack = [0.0; LANES];
-        pack.copy_from_slice(&from[at..at + LANES]);
-        Self(pack)
-    }
-
-    #[inline(always)]
-    pub fn store(self, to: &mut [f32], at: usize) {
-        to[at..at + LANES].copy_from_slice(&self.0);
-    }
-
-    /// Where it is positive its reciprocal, elsewhere 0.
-    #[inline(always)]
-    pub fn inverse(self) -> Self {
-        Self(self.0.map(|x| if x > 0.0 { 1.0 / x } else { 0.0 }))
-    }
-}
-
-impl Add for Pack {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
-    }
-}
-
-impl Sub for Pack {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
-    }
-}
-
-impl Mul for Pack {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
-    }
+pub(super) struct Ahead {
+    pub made: Option<usize>,
+    pub used: Option<usize>,
 }

@@ -5,7 +5,8 @@
 //! the cells in odd rows and columns then get the values that solve their own equation. In the open that is bilinear
 //! interpolation; nothing is interpolated across a wall, however thin, on any level, since couplings say where walls are.
 
-use super::frame::{Ends, Frame, LANES, Pack};
+use super::frame::{Ends, Frame};
+use super::machine::{LANES, Machine, Pack};
 use super::seam::Seamless;
 use super::stencil::{Line, Operator, Stencil};
 use super::transfer::Transfer;
@@ -21,14 +22,19 @@ impl Halves {
         Self { even: Line::new(len), odd: Line::new(len) }
     }
 
-    fn read(&mut self, line: &mut Line) {
-        for ((even, odd), line) in self.even.parts().into_iter().zip(self.odd.parts()).zip(line.parts()) {
-            odd[0] = line[0];
-            let pairs = line[1..].as_chunks::<2>().0;
-            for ((even, odd), pair) in even[1..].iter_mut().zip(&mut odd[1..]).zip(pairs) {
-                [*even, *odd] = *pair;
-            }
-        }
+    fn read<M: Machine>(&mut self, m: M, line: &mut Line) {
+        m.run(
+            #[inline(always)]
+            || {
+                for ((even, odd), line) in self.even.parts().into_iter().zip(self.odd.parts()).zip(line.parts()) {
+                    odd[0] = line[0];
+                    let pairs = line[1..].as_chunks::<2>().0;
+                    for ((even, odd), pair) in even[1..].iter_mut().zip(&mut odd[1..]).zip(pairs) {
+                        [*even, *odd] = *pair;
+                    }
+                }
+            },
+        );
     }
 }
 
@@ -43,60 +49,60 @@ struct Window<'a, O> {
 
 impl<'a, O: Operator> Window<'a, O> {
     /// Before the first row.
-    fn new(operator: &'a O, coarse: Frame) -> Self {
+    fn new<M: Machine>(m: M, operator: &'a O, coarse: Frame) -> Self {
         let halves = || Halves::new(coarse.width + 2);
         let from = Seamless::new(operator);
         let line = Line::new(2 * coarse.width + 4 + LANES);
         let mut window = Self { from, line, above: halves(), middle: halves(), below: halves() };
         if coarse.ends[0] == Ends::Joined {
-            window.from.line(2 * coarse.rows - 1, &mut window.line);
-            window.below.read(&mut window.line);
+            window.from.line(m, 2 * coarse.rows - 1, &mut window.line);
+            window.below.read(m, &mut window.line);
         }
         window
     }
 
     /// To the rows around row `2 i`.
-    fn advance(&mut self, i: usize) {
+    fn advance<M: Machine>(&mut self, m: M, i: usize) {
         std::mem::swap(&mut self.above, &mut self.below);
-        self.from.line(2 * i, &mut self.line);
-        self.middle.read(&mut self.line);
-        self.from.line(2 * i + 1, &mut self.line);
-        self.below.read(&mut self.line);
+        self.from.line(m, 2 * i, &mut self.line);
+        self.middle.read(m, &mut self.line);
+        self.from.line(m, 2 * i + 1, &mut self.line);
+        self.below.read(m, &mut self.line);
     }
 }
 
 /// Coarsens `operator`.
-pub(super) fn coarsen<O: Operator>(operator: &O) -> (Transfer, Stencil) {
+pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer, Stencil) {
     let fine = operator.frame();
     let coarse = Frame::new([fine.rows.div_ceil(2), fine.columns.div_ceil(2)], fine.ends).of_coefficients();
     let mut transfer = Transfer::new(fine, coarse);
-    let mut window = Window::new(operator, coarse);
+    let mut window = Window::new(m, operator, coarse);
     let mut unknown = vec![0.0; coarse.len()];
     for i in 0..coarse.rows {
-        window.advance(i);
-        line_weights(&window, &mut transfer, i);
+        window.advance(m, i);
+        line_weights(m, &window, &mut transfer, i);
         let even = &window.middle.even.diagonal[1..];
         let unknown = &mut unknown[coarse.row(i)];
         unknown.iter_mut().zip(even).for_each(|(to, &diagonal)| *to = if diagonal > 0.0 { 1.0 } else { 0.0 });
     }
     coarse.finish(&mut unknown);
     for i in 0..coarse.rows {
-        keep_unknowns(&mut transfer, &unknown, i);
+        keep_unknowns(m, &mut transfer, &unknown, i);
     }
     transfer.finish();
     let mut stencil = Stencil::new(coarse);
-    let mut window = Window::new(operator, coarse);
+    let mut window = Window::new(m, operator, coarse);
     for i in 0..coarse.rows {
-        window.advance(i);
-        center_weights(&window, &mut transfer, i);
+        window.advance(m, i);
+        center_weights(m, &window, &mut transfer, i);
     }
     transfer.finish();
-    let mut window = Window::new(operator, coarse);
+    let mut window = Window::new(m, operator, coarse);
     let mut between = [(); 4].map(|()| vec![0.0; coarse.width + 2]);
     for i in 0..coarse.rows {
-        window.advance(i);
-        seen_between(&window, &transfer, i, &mut between);
-        products(&window, &transfer, &between, &mut stencil, i);
+        window.advance(m, i);
+        seen_between(m, &window, &transfer, i, &mut between);
+        products(m, &window, &transfer, &between, &mut stencil, i);
     }
     stencil.finish();
     transfer.drop_seams();
@@ -105,97 +111,119 @@ pub(super) fn coarsen<O: Operator>(operator: &O) -> (Transfer, Stencil) {
 }
 
 /// Weights of the cells between two coarse cells of row `i`, or of rows `i` and `i + 1`.
-fn line_weights<O>(window: &Window<O>, transfer: &mut Transfer, i: usize) {
+fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
     let row = transfer.coarse.row(i);
-    for j in (0..row.len()).step_by(LANES) {
-        let (here, next) = (|part: &Vec<f32>| Pack::load(part, j + 1), |part: &Vec<f32>| Pack::load(part, j + 2));
-        let before = |part: &Vec<f32>| Pack::load(part, j);
-        let at = row.start + j;
-        let inverse = (here(&e.diagonal) - here(&e.south) - here(&nx.south)).inverse();
-        let west = here(&c.east) + here(&e.south_west) + here(&n.south_east);
-        (west * inverse).store(&mut transfer.west, at);
-        let east = here(&e.east) + here(&e.south_east) + next(&n.south_west);
-        (east * inverse).store(&mut transfer.east, at);
-        let inverse = (here(&s.diagonal) - here(&s.east) - before(&x.east)).inverse();
-        let north = here(&c.south) + here(&e.south_west) + before(&e.south_east);
-        (north * inverse).store(&mut transfer.north, at);
-        let south = here(&s.south) + here(&s.south_east) + here(&s.south_west);
-        (south * inverse).store(&mut transfer.south, at);
-    }
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let at = row.start + j;
+                let inverse =
+                    m.inverse(m.load(&e.diagonal, j + 1) - m.load(&e.south, j + 1) - m.load(&nx.south, j + 1));
+                let west = m.load(&c.east, j + 1) + m.load(&e.south_west, j + 1) + m.load(&n.south_east, j + 1);
+                (west * inverse).store(&mut transfer.west, at);
+                let east = m.load(&e.east, j + 1) + m.load(&e.south_east, j + 1) + m.load(&n.south_west, j + 2);
+                (east * inverse).store(&mut transfer.east, at);
+                let inverse = m.inverse(m.load(&s.diagonal, j + 1) - m.load(&s.east, j + 1) - m.load(&x.east, j));
+                let north = m.load(&c.south, j + 1) + m.load(&e.south_west, j + 1) + m.load(&e.south_east, j);
+                (north * inverse).store(&mut transfer.north, at);
+                let south = m.load(&s.south, j + 1) + m.load(&s.south_east, j + 1) + m.load(&s.south_west, j + 1);
+                (south * inverse).store(&mut transfer.south, at);
+            }
+        },
+    );
 }
 
 /// Nothing is interpolated from a coarse cell that is no unknown. (Diagonal couplings past it would count for it.)
-fn keep_unknowns(transfer: &mut Transfer, unknown: &[f32], i: usize) {
+fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
-    for j in (0..row.len()).step_by(LANES) {
-        let (at, under) = (row.start + j, below + j);
-        let keep =
-            |part: &mut Vec<f32>, from: usize| (Pack::load(part, at) * Pack::load(unknown, from)).store(part, at);
-        keep(&mut transfer.west, at);
-        keep(&mut transfer.east, at + 1);
-        keep(&mut transfer.north, at);
-        keep(&mut transfer.south, under);
-    }
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, under) = (row.start + j, below + j);
+                let t = &mut *transfer;
+                for (part, from) in
+                    [(&mut t.west, at), (&mut t.east, at + 1), (&mut t.north, at), (&mut t.south, under)]
+                {
+                    (m.load(part, at) * m.load(unknown, from)).store(part, at);
+                }
+            }
+        },
+    );
 }
 
 /// Weights of the cells in the middle of four coarse cells.
-fn center_weights<O>(window: &Window<O>, transfer: &mut Transfer, i: usize) {
+fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
-    for j in (0..row.len()).step_by(LANES) {
-        let (here, next) = (|part: &Vec<f32>| Pack::load(part, j + 1), |part: &Vec<f32>| Pack::load(part, j + 2));
-        let (at, under) = (row.start + j, below + j);
-        let weight = |part: &Vec<f32>, at: usize| Pack::load(part, at);
-        let inverse = here(&x.diagonal).inverse();
-        let t = &transfer;
-        let corners = [
-            here(&c.south_east) + here(&e.south) * weight(&t.west, at) + here(&s.east) * weight(&t.north, at),
-            next(&c.south_west) + here(&e.south) * weight(&t.east, at) + here(&x.east) * weight(&t.north, at + 1),
-            here(&x.south_west) + here(&x.south) * weight(&t.west, under) + here(&s.east) * weight(&t.south, at),
-            here(&x.south_east) + here(&x.south) * weight(&t.east, under) + here(&x.east) * weight(&t.south, at + 1),
-        ];
-        for (part, corner) in transfer.corners.iter_mut().zip(corners) {
-            (corner * inverse).store(part, at);
-        }
-    }
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, under) = (row.start + j, below + j);
+                let inverse = m.inverse(m.load(&x.diagonal, j + 1));
+                let t = &transfer;
+                let corners = [
+                    m.load(&c.south_east, j + 1)
+                        + m.load(&e.south, j + 1) * m.load(&t.west, at)
+                        + m.load(&s.east, j + 1) * m.load(&t.north, at),
+                    m.load(&c.south_west, j + 2)
+                        + m.load(&e.south, j + 1) * m.load(&t.east, at)
+                        + m.load(&x.east, j + 1) * m.load(&t.north, at + 1),
+                    m.load(&x.south_west, j + 1)
+                        + m.load(&x.south, j + 1) * m.load(&t.west, under)
+                        + m.load(&s.east, j + 1) * m.load(&t.south, at),
+                    m.load(&x.south_east, j + 1)
+                        + m.load(&x.south, j + 1) * m.load(&t.east, under)
+                        + m.load(&x.east, j + 1) * m.load(&t.south, at + 1),
+                ];
+                for (part, corner) in transfer.corners.iter_mut().zip(corners) {
+                    (corner * inverse).store(part, at);
+                }
+            }
+        },
+    );
 }
 
 /// `A P` at the cells between the coarse cells of row `i`: towards the coarse cells at their west, east, south-west and
 /// south-east.
-fn seen_between<O>(window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut [Vec<f32>; 4]) {
+fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut [Vec<f32>; 4]) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
     let t = &transfer;
     let (row, above) = (t.coarse.row(i), t.coarse.above(i));
-    for j in (0..row.len()).step_by(LANES) {
-        let (here, next) = (|part: &Vec<f32>| Pack::load(part, j + 1), |part: &Vec<f32>| Pack::load(part, j + 2));
-        let (at, over) = (row.start + j, above + j);
-        let weight = |part: &Vec<f32>, at: usize| Pack::load(part, at);
-        let corner = |k: usize, at: usize| Pack::load(&t.corners[k], at);
-        let (d, s, sx) = (here(&e.diagonal), here(&e.south), here(&nx.south));
-        let (sw, se) = (here(&e.south_west), here(&e.south_east));
-        let west = d * weight(&t.west, at)
-            - here(&c.east)
-            - s * corner(0, at)
-            - sx * corner(2, over)
-            - sw * weight(&t.north, at)
-            - here(&n.south_east) * weight(&t.south, over);
-        let east = d * weight(&t.east, at)
-            - here(&e.east)
-            - s * corner(1, at)
-            - sx * corner(3, over)
-            - se * weight(&t.north, at + 1)
-            - next(&n.south_west) * weight(&t.south, over + 1);
-        let south_west = Pack::ZERO - s * corner(2, at) - sw * weight(&t.south, at);
-        let south_east = Pack::ZERO - s * corner(3, at) - se * weight(&t.south, at + 1);
-        for (seen, value) in seen.iter_mut().zip([west, east, south_west, south_east]) {
-            value.store(seen, j + 1);
-        }
-    }
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, over) = (row.start + j, above + j);
+                let (d, s, sx) = (m.load(&e.diagonal, j + 1), m.load(&e.south, j + 1), m.load(&nx.south, j + 1));
+                let (sw, se) = (m.load(&e.south_west, j + 1), m.load(&e.south_east, j + 1));
+                let west = d * m.load(&t.west, at)
+                    - m.load(&c.east, j + 1)
+                    - s * m.load(&t.corners[0], at)
+                    - sx * m.load(&t.corners[2], over)
+                    - sw * m.load(&t.north, at)
+                    - m.load(&n.south_east, j + 1) * m.load(&t.south, over);
+                let east = d * m.load(&t.east, at)
+                    - m.load(&e.east, j + 1)
+                    - s * m.load(&t.corners[1], at)
+                    - sx * m.load(&t.corners[3], over)
+                    - se * m.load(&t.north, at + 1)
+                    - m.load(&n.south_west, j + 2) * m.load(&t.south, over + 1);
+                let south_west = m.all(0.0) - s * m.load(&t.corners[2], at) - sw * m.load(&t.south, at);
+                let south_east = m.all(0.0) - s * m.load(&t.corners[3], at) - se * m.load(&t.south, at + 1);
+                for (seen, value) in seen.iter_mut().zip([west, east, south_west, south_east]) {
+                    value.store(seen, j + 1);
+                }
+            }
+        },
+    );
     for seen in seen {
         t.coarse.finish_ends(seen);
     }
@@ -203,7 +231,14 @@ fn seen_between<O>(window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut
 
 /// Row `i` of `P^T A P`, and what it adds to the next. The cells in the middle of four coarse cells add nothing: `A P` is
 /// zero there, which is how their weights were chosen.
-fn products<O>(window: &Window<O>, transfer: &Transfer, between: &[Vec<f32>; 4], into: &mut Stencil, i: usize) {
+fn products<M: Machine, O>(
+    m: M,
+    window: &Window<O>,
+    transfer: &Transfer,
+    between: &[Vec<f32>; 4],
+    into: &mut Stencil,
+    i: usize,
+) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
@@ -211,61 +246,74 @@ fn products<O>(window: &Window<O>, transfer: &Transfer, between: &[Vec<f32>; 4],
     let (row, above, below) = (t.coarse.row(i), t.coarse.above(i), t.coarse.below(i));
     // Beyond an interval nothing is added, so that any row does for the last.
     let following = t.coarse.row((i + 1) % t.coarse.rows).start;
-    for j in (0..row.len()).step_by(LANES) {
-        let (here, before) = (|part: &Vec<f32>| Pack::load(part, j + 1), |part: &Vec<f32>| Pack::load(part, j));
-        let (at, over, under, following) = (row.start + j, above + j, below + j, following + j);
-        let weight = |part: &Vec<f32>, at: usize| Pack::load(part, at);
-        let corner = |k: usize, at: usize| Pack::load(&t.corners[k], at);
-        let (west, east_before) = (weight(&t.west, at), weight(&t.east, at - 1));
-        let (north, south) = (weight(&t.north, at), weight(&t.south, at));
+    m.run(
+        #[inline(always)]
+        || {
+            for j in (0..row.len()).step_by(LANES) {
+                let (at, over, under, following) = (row.start + j, above + j, below + j, following + j);
+                let (west, east_before) = (m.load(&t.west, at), m.load(&t.east, at - 1));
+                let (north, south) = (m.load(&t.north, at), m.load(&t.south, at));
 
-        // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as couplings.
-        let (ce, cs, cse, csw) = (here(&c.east), here(&c.south), here(&c.south_east), here(&c.south_west));
-        let nsw = here(&nx.south_west);
-        let own = here(&c.diagonal)
-            - ce * west
-            - before(&e.east) * east_before
-            - cs * north
-            - here(&n.south) * weight(&t.south, over)
-            - cse * corner(0, at)
-            - csw * corner(1, at - 1)
-            - nsw * corner(2, over)
-            - before(&nx.south_east) * corner(3, over - 1);
-        let to_east = ce * weight(&t.east, at) + cse * corner(1, at) + nsw * corner(3, over);
-        let to_south = cs * south + cse * corner(2, at) + csw * corner(3, at - 1);
-        let to_south_east = cse * corner(3, at);
-        let to_south_west = csw * corner(2, at - 1);
+                // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as couplings.
+                let (ce, cs, cse, csw) = (
+                    m.load(&c.east, j + 1),
+                    m.load(&c.south, j + 1),
+                    m.load(&c.south_east, j + 1),
+                    m.load(&c.south_west, j + 1),
+                );
+                let nsw = m.load(&nx.south_west, j + 1);
+                let own = m.load(&c.diagonal, j + 1)
+                    - ce * west
+                    - m.load(&e.east, j) * east_before
+                    - cs * north
+                    - m.load(&n.south, j + 1) * m.load(&t.south, over)
+                    - cse * m.load(&t.corners[0], at)
+                    - csw * m.load(&t.corners[1], at - 1)
+                    - nsw * m.load(&t.corners[2], over)
+                    - m.load(&nx.south_east, j) * m.load(&t.corners[3], over - 1);
+                let to_east =
+                    ce * m.load(&t.east, at) + cse * m.load(&t.corners[1], at) + nsw * m.load(&t.corners[3], over);
+                let to_south = cs * south + cse * m.load(&t.corners[2], at) + csw * m.load(&t.corners[3], at - 1);
+                let to_south_east = cse * m.load(&t.corners[3], at);
+                let to_south_west = csw * m.load(&t.corners[2], at - 1);
 
-        // At the cell south of it: north, south, and the eastern and western neighbours of those.
-        let (se, xe) = (here(&s.east), before(&x.east));
-        let (sse, ssw, esw) = (here(&s.south_east), here(&s.south_west), here(&e.south_west));
-        let s_north = here(&s.diagonal) * north
-            - cs
-            - se * corner(0, at)
-            - xe * corner(1, at - 1)
-            - esw * west
-            - before(&e.south_east) * east_before;
-        let s_south = here(&s.diagonal) * south
-            - here(&s.south)
-            - se * corner(2, at)
-            - xe * corner(3, at - 1)
-            - sse * weight(&t.west, under)
-            - ssw * weight(&t.east, under - 1);
-        let s_north_east = se * corner(1, at) + esw * weight(&t.east, at);
-        let s_south_east = se * corner(3, at) + sse * weight(&t.east, under);
-        let s_south_west = xe * corner(2, at - 1) + ssw * weight(&t.west, under - 1);
+                // At the cell south of it: north, south, and the eastern and western neighbours of those.
+                let (se, xe) = (m.load(&s.east, j + 1), m.load(&x.east, j));
+                let (sse, ssw, esw) =
+                    (m.load(&s.south_east, j + 1), m.load(&s.south_west, j + 1), m.load(&e.south_west, j + 1));
+                let s_north = m.load(&s.diagonal, j + 1) * north
+                    - cs
+                    - se * m.load(&t.corners[0], at)
+                    - xe * m.load(&t.corners[1], at - 1)
+                    - esw * west
+                    - m.load(&e.south_east, j) * east_before;
+                let s_south = m.load(&s.diagonal, j + 1) * south
+                    - m.load(&s.south, j + 1)
+                    - se * m.load(&t.corners[2], at)
+                    - xe * m.load(&t.corners[3], at - 1)
+                    - sse * m.load(&t.west, under)
+                    - ssw * m.load(&t.east, under - 1);
+                let s_north_east = se * m.load(&t.corners[1], at) + esw * m.load(&t.east, at);
+                let s_south_east = se * m.load(&t.corners[3], at) + sse * m.load(&t.east, under);
+                let s_south_west = xe * m.load(&t.corners[2], at - 1) + ssw * m.load(&t.west, under - 1);
 
-        let [e_west, e_east, e_south_west, e_south_east] = between;
-        let add = |part: &mut Vec<f32>, at: usize, value: Pack| (Pack::load(part, at) + value).store(part, at);
-        let diagonal = own + west * here(e_west) + east_before * before(e_east) + north * s_north;
-        add(&mut into.diagonal, at, diagonal);
-        add(&mut into.diagonal, following, south * s_south);
-        add(&mut into.east, at, to_east - west * here(e_east) + north * s_north_east);
-        add(&mut into.east, following, south * s_south_east);
-        let value = to_south - west * here(e_south_west) - east_before * before(e_south_east) - north * s_south;
-        value.store(&mut into.south, at);
-        (to_south_east - west * here(e_south_east) + north * s_south_east).store(&mut into.south_east, at);
-        let value = to_south_west - east_before * before(e_south_west) + north * s_south_west;
-        value.store(&mut into.south_west, at);
-    }
+                let [e_west, e_east, e_south_west, e_south_east] = between;
+                let diagonal = own + west * m.load(e_west, j + 1) + east_before * m.load(e_east, j) + north * s_north;
+                (m.load(&into.diagonal, at) + diagonal).store(&mut into.diagonal, at);
+                (m.load(&into.diagonal, following) + (south * s_south)).store(&mut into.diagonal, following);
+                (m.load(&into.east, at) + (to_east - west * m.load(e_east, j + 1) + north * s_north_east))
+                    .store(&mut into.east, at);
+                (m.load(&into.east, following) + (south * s_south_east)).store(&mut into.east, following);
+                let value = to_south
+                    - west * m.load(e_south_west, j + 1)
+                    - east_before * m.load(e_south_east, j)
+                    - north * s_south;
+                value.store(&mut into.south, at);
+                (to_south_east - west * m.load(e_south_east, j + 1) + north * s_south_east)
+                    .store(&mut into.south_east, at);
+                let value = to_south_west - east_before * m.load(e_south_west, j) + north * s_south_west;
+                value.store(&mut into.south_west, at);
+            }
+        },
+    );
 }

@@ -13,8 +13,12 @@ mod cycle;
 mod envelope;
 mod frame;
 mod galerkin;
+mod machine;
+#[cfg(target_arch = "x86_64")]
+mod avx;
 mod seam;
 mod smooth;
+mod conjugate;
 mod solve;
 mod stencil;
 mod transfer;

@@ -1,6 +1,7 @@
 //! Circles with an odd number of cells, as the coarsening wants them: even.
 
 use super::frame::{Ends, Frame};
+use super::machine::Machine;
 use super::stencil::{Line, Operator};
 
 /// An operator with one more column or row at the seam of each circle of odd size, in the middle of the couplings across
@@ -28,10 +29,10 @@ impl<'a, O: Operator> Seamless<'a, O> {
     }
 
     /// Writes row `i`, its ends included.
-    pub fn line(&mut self, i: usize, into: &mut Line) {
+    pub fn line<M: Machine>(&mut self, m: M, i: usize, into: &mut Line) {
         if !self.odd[0] {
             if i < self.fine.rows {
-                self.columns(i, into);
+                self.columns(m, i, into);
             } else {
                 into.parts().into_iter().for_each(|part| part.fill(0.0));
             }
@@ -40,10 +41,10 @@ impl<'a, O: Operator> Seamless<'a, O> {
         let end = self.fine.rows - 1;
         let mut last = std::mem::take(&mut self.last);
         if i == 0 || i >= end {
-            self.columns(end, &mut last);
+            self.columns(m, end, &mut last);
         }
         if i <= end {
-            self.columns(i, into);
+            self.columns(m, i, into);
         } else {
             into.parts().into_iter().for_each(|part| part.fill(0.0));
         }
@@ -73,13 +74,13 @@ impl<'a, O: Operator> Seamless<'a, O> {
     }
 
     /// Writes row `i` of the operator, with the new column if there is one.
-    fn columns(&mut self, i: usize, into: &mut Line) {
-        self.operator.line(i, into);
+    fn columns<M: Machine>(&mut self, m: M, i: usize, into: &mut Line) {
+        self.operator.line(m, i, into);
         if !self.odd[1] {
             return;
         }
         match i.checked_sub(1).or(if self.fine.ends[0] == Ends::Joined { Some(self.fine.rows - 1) } else { None }) {
-            Some(above) => self.operator.line(above, &mut self.before),
+            Some(above) => self.operator.line(m, above, &mut self.before),
             None => self.before.parts().into_iter().for_each(|part| part.fill(0.0)),
         }
         let end = self.fine.columns;

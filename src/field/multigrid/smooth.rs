@@ -4,7 +4,8 @@
 //! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
 //! cycle is symmetric.
 
-use super::frame::{Frame, LANES, Pack};
+use super::frame::Frame;
+use super::machine::{LANES, Machine, Pack};
 use super::stencil::{FivePoint, Stencil};
 
 /// `1 / (1.25 +- 0.75 cos(pi / 4))`.
@@ -31,138 +32,170 @@ impl Vectors {
 /// What a cycle does on a level.
 pub(super) trait Smooth {
     /// Two steps from zero, for a right-hand side that has its frame.
-    fn from_zero(&self, vectors: &mut Vectors);
+    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Two steps more, from a solution without frame.
-    fn again(&self, vectors: &mut Vectors);
+    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Row `i` of the residual, padding included.
-    fn residual(&self, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
 
 impl FivePoint {
-    #[inline(always)]
-    fn step(&self, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
-        let keep = Pack([1.0 - weight; LANES]);
-        let take = Pack([weight / self.degree as f32; LANES]);
-        for i in 0..self.frame.rows {
-            let [above, middle, below] = self.frame.three(from, i);
-            let row = self.frame.row(i);
-            for j in (0..row.len()).step_by(LANES) {
-                let sum = around(above, middle, below, j) + Pack::load(right, row.start + j);
-                let free = Pack::load(&self.free, row.start + j);
-                (keep * Pack::load(middle, j + 1) + take * free * sum).store(to, row.start + j);
-            }
-            self.frame.finish_row(to, i);
-        }
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
+        let keep = m.all(1.0 - weight);
+        let take = m.all(weight / self.degree as f32);
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let [above, middle, below] = self.frame.three(from, i);
+                    let row = self.frame.row(i);
+                    for j in (0..row.len()).step_by(LANES) {
+                        let sum = around(m, above, middle, below, j) + m.load(right, row.start + j);
+                        let free = m.load(&self.free, row.start + j);
+                        (keep * m.load(middle, j + 1) + take * free * sum).store(to, row.start + j);
+                    }
+                    self.frame.finish_row(to, i);
+                }
+            },
+        );
     }
 }
 
 /// Sum over the four neighbours.
 #[inline(always)]
-fn around(above: &[f32], middle: &[f32], below: &[f32], j: usize) -> Pack {
-    (Pack::load(middle, j) + Pack::load(middle, j + 2)) + (Pack::load(above, j + 1) + Pack::load(below, j + 1))
+fn around<M: Machine>(m: M, above: &[f32], middle: &[f32], below: &[f32], j: usize) -> M::Single {
+    (m.load(middle, j) + m.load(middle, j + 2)) + (m.load(above, j + 1) + m.load(below, j + 1))
 }
 
 impl Smooth for FivePoint {
-    fn from_zero(&self, vectors: &mut Vectors) {
+    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let inverse = 1.0 / self.degree as f32;
-        let (own, next) = (Pack([OWN * inverse; LANES]), Pack([AROUND * inverse * inverse; LANES]));
-        for i in 0..self.frame.rows {
-            let [above, middle, below] = self.frame.three(&vectors.right, i);
-            let row = self.frame.row(i);
-            for j in (0..row.len()).step_by(LANES) {
-                let sum = own * Pack::load(middle, j + 1) + next * around(above, middle, below, j);
-                (sum * Pack::load(&self.free, row.start + j)).store(&mut vectors.solution, row.start + j);
-            }
-            self.frame.finish_row(&mut vectors.solution, i);
-        }
+        let (own, next) = (m.all(OWN * inverse), m.all(AROUND * inverse * inverse));
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let [above, middle, below] = self.frame.three(&vectors.right, i);
+                    let row = self.frame.row(i);
+                    for j in (0..row.len()).step_by(LANES) {
+                        let sum = own * m.load(middle, j + 1) + next * around(m, above, middle, below, j);
+                        (sum * m.load(&self.free, row.start + j)).store(&mut vectors.solution, row.start + j);
+                    }
+                    self.frame.finish_row(&mut vectors.solution, i);
+                }
+            },
+        );
     }
 
-    fn again(&self, vectors: &mut Vectors) {
+    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(WEIGHTS[1], right, solution, other);
-        self.step(WEIGHTS[0], right, other, solution);
+        self.step(m, WEIGHTS[1], right, solution, other);
+        self.step(m, WEIGHTS[0], right, other, solution);
     }
 
-    #[inline(always)]
-    fn residual(&self, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
-        let degree = Pack([self.degree as f32; LANES]);
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+        let degree = m.all(self.degree as f32);
         let [above, middle, below] = self.frame.three(solution, i);
         let row = self.frame.row(i);
-        for j in (0..row.len()).step_by(LANES) {
-            let sum = Pack::load(right, row.start + j) + around(above, middle, below, j);
-            (sum - degree * Pack::load(middle, j + 1)).store(out, j);
-        }
+        m.run(
+            #[inline(always)]
+            || {
+                for j in (0..row.len()).step_by(LANES) {
+                    let sum = m.load(right, row.start + j) + around(m, above, middle, below, j);
+                    (sum - degree * m.load(middle, j + 1)).store(out, j);
+                }
+            },
+        );
     }
 }
 
 impl Stencil {
     /// Sum over the eight neighbours of coupling times value.
     #[inline(always)]
-    fn around(&self, of: [&[f32]; 3], i: usize, j: usize) -> Pack {
+    fn around<M: Machine>(&self, m: M, of: [&[f32]; 3], i: usize, j: usize) -> M::Single {
         let [above, middle, below] = of;
         let (at, over) = (self.frame.row(i).start + j, self.frame.above(i) + j);
-        let term = |part: &[f32], at: usize, of: &[f32], j: usize| Pack::load(part, at) * Pack::load(of, j);
-        (term(&self.east, at, middle, j + 2) + term(&self.east, at - 1, middle, j))
-            + (term(&self.south, at, below, j + 1) + term(&self.south, over, above, j + 1))
-            + (term(&self.south_east, at, below, j + 2) + term(&self.south_east, over - 1, above, j))
-            + (term(&self.south_west, at, below, j) + term(&self.south_west, over + 1, above, j + 2))
+        (m.load(&self.east, at) * m.load(middle, j + 2) + m.load(&self.east, at - 1) * m.load(middle, j))
+            + (m.load(&self.south, at) * m.load(below, j + 1) + m.load(&self.south, over) * m.load(above, j + 1))
+            + (m.load(&self.south_east, at) * m.load(below, j + 2)
+                + m.load(&self.south_east, over - 1) * m.load(above, j))
+            + (m.load(&self.south_west, at) * m.load(below, j)
+                + m.load(&self.south_west, over + 1) * m.load(above, j + 2))
     }
 
-    #[inline(always)]
-    fn step(&self, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
-        let (keep, take) = (Pack([1.0 - weight; LANES]), Pack([weight; LANES]));
-        for i in 0..self.frame.rows {
-            let of = self.frame.three(from, i);
-            let row = self.frame.row(i);
-            for j in (0..row.len()).step_by(LANES) {
-                let sum = self.around(of, i, j) + Pack::load(right, row.start + j);
-                let inverse = Pack::load(&self.inverse, row.start + j);
-                (keep * Pack::load(of[1], j + 1) + take * inverse * sum).store(to, row.start + j);
-            }
-            self.frame.finish_row(to, i);
-        }
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32]) {
+        let (keep, take) = (m.all(1.0 - weight), m.all(weight));
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let of = self.frame.three(from, i);
+                    let row = self.frame.row(i);
+                    for j in (0..row.len()).step_by(LANES) {
+                        let sum = self.around(m, of, i, j) + m.load(right, row.start + j);
+                        let inverse = m.load(&self.inverse, row.start + j);
+                        (keep * m.load(of[1], j + 1) + take * inverse * sum).store(to, row.start + j);
+                    }
+                    self.frame.finish_row(to, i);
+                }
+            },
+        );
     }
 }
 
 impl Smooth for Stencil {
-    fn from_zero(&self, vectors: &mut Vectors) {
+    fn from_zero<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
-        for i in 0..self.frame.rows {
-            let row = self.frame.row(i);
-            for at in row.step_by(LANES) {
-                (Pack::load(&self.inverse, at) * Pack::load(right, at)).store(other, at);
-            }
-            self.frame.finish_row(other, i);
-        }
-        let (own, next) = (Pack([OWN; LANES]), Pack([AROUND; LANES]));
-        for i in 0..self.frame.rows {
-            let of = self.frame.three(other, i);
-            let row = self.frame.row(i);
-            for j in (0..row.len()).step_by(LANES) {
-                let inverse = Pack::load(&self.inverse, row.start + j);
-                let sum = own * Pack::load(of[1], j + 1) + next * inverse * self.around(of, i, j);
-                sum.store(solution, row.start + j);
-            }
-            self.frame.finish_row(solution, i);
-        }
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let row = self.frame.row(i);
+                    for at in row.step_by(LANES) {
+                        (m.load(&self.inverse, at) * m.load(right, at)).store(other, at);
+                    }
+                    self.frame.finish_row(other, i);
+                }
+            },
+        );
+        let (own, next) = (m.all(OWN), m.all(AROUND));
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let of = self.frame.three(other, i);
+                    let row = self.frame.row(i);
+                    for j in (0..row.len()).step_by(LANES) {
+                        let inverse = m.load(&self.inverse, row.start + j);
+                        let sum = own * m.load(of[1], j + 1) + next * inverse * self.around(m, of, i, j);
+                        sum.store(solution, row.start + j);
+                    }
+                    self.frame.finish_row(solution, i);
+                }
+            },
+        );
     }
 
-    fn again(&self, vectors: &mut Vectors) {
+    fn again<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        self.step(WEIGHTS[1], right, solution, other);
-        self.step(WEIGHTS[0], right, other, solution);
+        self.step(m, WEIGHTS[1], right, solution, other);
+        self.step(m, WEIGHTS[0], right, other, solution);
     }
 
-    #[inline(always)]
-    fn residual(&self, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
         let of = self.frame.three(solution, i);
         let row = self.frame.row(i);
-        for j in (0..row.len()).step_by(LANES) {
-            let at = row.start + j;
-            let sum = Pack::load(right, at) + self.around(of, i, j);
-            (sum - Pack::load(&self.diagonal, at) * Pack::load(of[1], j + 1)).store(out, j);
-        }
+        m.run(
+            #[inline(always)]
+            || {
+                for j in (0..row.len()).step_by(LANES) {
+                    let at = row.start + j;
+                    let sum = m.load(right, at) + self.around(m, of, i, j);
+                    (sum - m.load(&self.diagonal, at) * m.load(of[1], j + 1)).store(out, j);
+                }
+            },
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! Symmetric nine-point operators, and the rows of them that coarsening reads.
 
-use super::frame::{Ends, Frame, LANES, Pack};
+use super::frame::{Ends, Frame};
+use super::machine::{LANES, Machine, Pack};
 
 /// `(A u)_p = d_p u_p - sum of c_pq u_q` over the eight neighbours `q`. Each coupling `c` is kept once, at the first of
 /// its two cells; it is 0 where a cell is no unknown.
@@ -68,7 +69,7 @@ impl Line {
 pub(super) trait Operator {
     fn frame(&self) -> Frame;
     /// Writes row `i`, its ends included.
-    fn line(&self, i: usize, into: &mut Line);
+    fn line<M: Machine>(&self, m: M, i: usize, into: &mut Line);
 }
 
 impl Operator for Stencil {
@@ -76,7 +77,7 @@ impl Operator for Stencil {
         self.frame
     }
 
-    fn line(&self, i: usize, into: &mut Line) {
+    fn line<M: Machine>(&self, _: M, i: usize, into: &mut Line) {
         let range = self.frame.framed(i);
         let from = [&self.diagonal, &self.east, &self.south, &self.south_east, &self.south_west];
         for (into, from) in into.parts().into_iter().zip(from) {
@@ -112,16 +113,21 @@ impl Operator for FivePoint {
         self.frame
     }
 
-    fn line(&self, i: usize, into: &mut Line) {
+    fn line<M: Machine>(&self, m: M, i: usize, into: &mut Line) {
         let Frame { rows, columns, width, ends, .. } = self.frame;
         let [_, middle, below] = self.frame.three(&self.free, i);
-        let degree = Pack([self.degree as f32; LANES]);
-        for j in (0..width).step_by(LANES) {
-            let free = Pack::load(middle, j + 1);
-            (free * degree).store(&mut into.diagonal, j + 1);
-            (free * Pack::load(middle, j + 2)).store(&mut into.east, j + 1);
-            (free * Pack::load(below, j + 1)).store(&mut into.south, j + 1);
-        }
+        let degree = m.all(self.degree as f32);
+        m.run(
+            #[inline(always)]
+            || {
+                for j in (0..width).step_by(LANES) {
+                    let free = m.load(middle, j + 1);
+                    (free * degree).store(&mut into.diagonal, j + 1);
+                    (free * m.load(middle, j + 2)).store(&mut into.east, j + 1);
+                    (free * m.load(below, j + 1)).store(&mut into.south, j + 1);
+                }
+            },
+        );
         let mut back = |at: usize| into.diagonal[at] -= middle[at];
         if ends[0] == Ends::Reflecting {
             for _ in 0..usize::from(i == 0) + usize::from(i + 1 == rows) {

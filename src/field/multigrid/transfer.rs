@@ -1,7 +1,9 @@
 //! Between a level and the next coarser one.
 
-use super::frame::{Frame, LANES, Pack};
+use super::frame::Frame;
+use super::machine::{LANES, Machine, Pack};
 use super::seam::odd_circles;
+use super::smooth::{Smooth, Vectors};
 
 /// Interpolation weights, kept at the coarse cell that is north or west of the cell they are for, and its transpose.
 #[derive(Debug, Clone)]
@@ -75,19 +77,20 @@ impl Transfer {
         }
     }
 
-    /// `P^T` of a fine vector that is given row by row: `row(i, out)` writes row `i` to `out`.
-    #[inline(always)]
-    pub fn restrict(&self, row: impl Fn(usize, &mut [f32]), rows: &mut Rows, into: &mut [f32]) {
+    /// `P^T` of the residual of the finer level.
+    pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;
         let read = |i: usize, natural: &mut [f32], even: &mut [f32], odd: &mut [f32]| {
-            row(i, &mut natural[1..=fine.width]);
+            level.residual(m, &upper.right, &upper.solution, i, &mut natural[1..=fine.width]);
             fine.finish_ends(&mut natural[..fine.width + 2]);
-            split(&natural[1..=fine.width], &mut even[1..], &mut odd[1..]);
+            m.run(
+                #[inline(always)]
+                || split(&natural[1..=fine.width], &mut even[1..], &mut odd[1..]),
+            );
             odd[0] = natural[0];
         };
-        let last = fine.starts_with_last() && fine.rows.is_multiple_of(2);
-        if last {
+        if fine.is_joined_at_rows() && fine.rows.is_multiple_of(2) {
             let [even, odd] = below;
             read(fine.rows - 1, natural, even, odd);
         } else {
@@ -103,43 +106,53 @@ impl Transfer {
                 below.iter_mut().for_each(|part| part.fill(0.0));
             }
             let (range, over) = (coarse.row(i), coarse.above(i));
-            for j in (0..coarse.width).step_by(LANES) {
-                let (at, over) = (range.start + j, over + j);
-                let term =
-                    |weight: &[f32], at: usize, from: &[f32], j: usize| Pack::load(weight, at) * Pack::load(from, j);
-                let sum = Pack::load(even, j + 1)
-                    + (term(&self.west, at, odd, j + 1) + term(&self.east, at - 1, odd, j))
-                    + (term(&self.north, at, &below[0], j + 1) + term(&self.south, over, &above[0], j + 1))
-                    + (term(&self.corners[0], at, &below[1], j + 1) + term(&self.corners[1], at - 1, &below[1], j))
-                    + (term(&self.corners[2], over, &above[1], j + 1) + term(&self.corners[3], over - 1, &above[1], j));
-                sum.store(into, at);
-            }
+            let [nw, ne, sw, se] = &self.corners;
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..coarse.width).step_by(LANES) {
+                        let (at, over) = (range.start + j, over + j);
+                        let sum = m.load(even, j + 1)
+                            + (m.load(&self.west, at) * m.load(odd, j + 1)
+                                + m.load(&self.east, at - 1) * m.load(odd, j))
+                            + (m.load(&self.north, at) * m.load(&below[0], j + 1)
+                                + m.load(&self.south, over) * m.load(&above[0], j + 1))
+                            + (m.load(nw, at) * m.load(&below[1], j + 1) + m.load(ne, at - 1) * m.load(&below[1], j))
+                            + (m.load(sw, over) * m.load(&above[1], j + 1)
+                                + m.load(se, over - 1) * m.load(&above[1], j));
+                        sum.store(into, at);
+                    }
+                },
+            );
         }
     }
 
     /// Adds `P` of a coarse vector with its frame to a fine vector.
-    #[inline(always)]
-    pub fn prolong(&self, from: &[f32], rows: &mut Rows, onto: &mut [f32]) {
+    pub fn prolong<M: Machine>(&self, m: M, from: &[f32], rows: &mut Rows, onto: &mut [f32]) {
+        let Rows { even, odd, below, .. } = rows;
+        let [a, b, c, d] = &self.corners;
         for i in 0..self.coarse.rows {
             let at = self.coarse.row(i).start;
             let under = self.coarse.below(i);
-            for j in (0..self.coarse.width).step_by(LANES) {
-                let (at, under) = (at + j, under + j);
-                let (nw, ne) = (Pack::load(from, at), Pack::load(from, at + 1));
-                let (sw, se) = (Pack::load(from, under), Pack::load(from, under + 1));
-                let weight = |part: &[f32]| Pack::load(part, at);
-                nw.store(&mut rows.even, j);
-                (weight(&self.west) * nw + weight(&self.east) * ne).store(&mut rows.odd, j);
-                (weight(&self.north) * nw + weight(&self.south) * sw).store(&mut rows.below[0], j);
-                let [a, b, c, d] = &self.corners;
-                (weight(a) * nw + weight(b) * ne + (weight(c) * sw + weight(d) * se)).store(&mut rows.below[1], j);
-            }
-            let range = self.fine.row(2 * i);
-            join(&rows.even, &rows.odd, &mut onto[range]);
-            if 2 * i + 1 < self.fine.rows {
-                let range = self.fine.row(2 * i + 1);
-                join(&rows.below[0], &rows.below[1], &mut onto[range]);
-            }
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..self.coarse.width).step_by(LANES) {
+                        let (at, under) = (at + j, under + j);
+                        let (nw, ne) = (m.load(from, at), m.load(from, at + 1));
+                        let (sw, se) = (m.load(from, under), m.load(from, under + 1));
+                        nw.store(even, j);
+                        (m.load(&self.west, at) * nw + m.load(&self.east, at) * ne).store(odd, j);
+                        (m.load(&self.north, at) * nw + m.load(&self.south, at) * sw).store(&mut below[0], j);
+                        let upper = m.load(a, at) * nw + m.load(b, at) * ne;
+                        (upper + (m.load(c, at) * sw + m.load(d, at) * se)).store(&mut below[1], j);
+                    }
+                    join(even, odd, &mut onto[self.fine.row(2 * i)]);
+                    if 2 * i + 1 < self.fine.rows {
+                        join(&below[0], &below[1], &mut onto[self.fine.row(2 * i + 1)]);
+                    }
+                },
+            );
         }
     }
 }

@@ -1,13 +1,12 @@
 //! Which two joints move, where the others stand, and which link is the tip.
 
 use super::document::Document;
-use super::limits::{Limits, Range, find};
+use super::held::Held;
 use super::tree::Tree;
 use crate::input::error::{Defect, InputError, quoted};
 use crate::input::world::World;
-use crate::space::Axis;
 use toml::Spanned;
-use urdf_rs::{JointType, Mimic};
+use urdf_rs::JointType;
 
 /// The choice that turns a robot into a two-joint arm. Indices into the file's lists.
 #[derive(Debug)]
@@ -52,13 +51,6 @@ pub(super) fn with_joints(
     Ok(Chain { joints, tip, values, held, notes })
 }
 
-/// Values of all joints, and which of them are held where it matters.
-struct Held {
-    values: Vec<f64>,
-    held: Vec<usize>,
-    notes: Vec<String>,
-}
-
 /// Whether all else that the world's `[robot]` table says goes with these two joints.
 pub(super) fn admits(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> bool {
     Chooser { document, tree, world }.names_exist().is_ok() && with_joints(document, tree, world, joints).is_ok()
@@ -79,10 +71,11 @@ pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
     movable.iter().flat_map(|a| carried(*a)).collect()
 }
 
-struct Chooser<'a> {
-    document: &'a Document,
-    tree: &'a Tree,
-    world: &'a World,
+/// Sees to it that the choice is sound.
+pub(super) struct Chooser<'a> {
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub world: &'a World,
 }
 
 /// Whether a joint has one value that it can move by.
@@ -96,15 +89,15 @@ pub(super) fn type_name(joint: &urdf_rs::Joint) -> String {
 }
 
 impl Chooser<'_> {
-    fn all(&self) -> &[urdf_rs::Joint] {
+    pub(super) fn all(&self) -> &[urdf_rs::Joint] {
         &self.document.robot.joints
     }
 
-    fn joint(&self, name: &str) -> Option<usize> {
+    pub(super) fn joint(&self, name: &str) -> Option<usize> {
         self.all().iter().position(|j| j.name == name)
     }
 
-    fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Defect {
+    pub(super) fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Defect {
         self.world.source.defect_at(place.span(), message)
     }
 
@@ -261,31 +254,12 @@ impl Chooser<'_> {
         Ok(())
     }
 
-    fn mimic_defect(&self, joint: usize, message: &str) -> Defect {
+    pub(super) fn mimic_defect(&self, joint: usize, message: &str) -> Defect {
         let place = &self.document.joints[joint];
         let message = format!("joint \"{}\" {message}", self.all()[joint].name);
         self.document
             .defect_at(place.mimic.as_ref().unwrap_or(&place.at), message)
             .cure("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
-    }
-
-    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Defect> {
-        self.joint(&mimic.joint).ok_or_else(|| {
-            let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
-            self.mimic_defect(joint, &message)
-        })
-    }
-
-    /// The joint at the end of a chain of mimics.
-    fn leader(&self, joint: usize) -> Result<usize, Defect> {
-        let mut at = joint;
-        for _ in 0..=self.all().len() {
-            match &self.all()[at].mimic {
-                None => return Ok(at),
-                Some(mimic) => at = self.followed(at, mimic)?,
-            }
-        }
-        Err(self.mimic_defect(joint, "follows itself: the mimics form a cycle"))
     }
 
     fn tip(&self, joints: [usize; 2]) -> Result<usize, Defect> {
@@ -311,104 +285,9 @@ impl Chooser<'_> {
         let depth = |l: &usize| (self.tree.path_to(*l).len(), std::cmp::Reverse(*l));
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }
-
-    fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
-        for name in self.world.robot.fixed.keys() {
-            if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
-                let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
-                return Err(self
-                    .in_world(name, message)
-                    .cure("leave it out of `fixed`, or choose other `joints`")
-                    .into());
-            }
-        }
-        let mut values = vec![0.0; self.all().len()];
-        let (mut held, mut notes) = (Vec::new(), Vec::new());
-        for (j, joint) in self.all().iter().enumerate() {
-            if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
-                continue;
-            }
-            values[j] = self.held_at(j)?;
-            if self.tree.path_to(self.tree.child[chosen[1]]).contains(&j)
-                || self.tree.carries(chosen[0], self.tree.child[j])
-            {
-                held.push(j);
-                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
-            }
-        }
-        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| is_movable(joint)) {
-            if joint.mimic.is_none() {
-                continue;
-            }
-            let mut value = Affine { factor: 1.0, offset: 0.0 };
-            let leader = self.leader(j)?;
-            let mut at = j;
-            while let Some(mimic) = &self.all()[at].mimic {
-                value = value.after(mimic);
-                at = self.followed(at, mimic)?;
-            }
-            if let Some(name) = self.world.robot.fixed.keys().find(|n| *n.get_ref() == joint.name) {
-                let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
-                return Err(self.in_world(name, message).cure("give the value of the joint that it mimics").into());
-            }
-            values[j] = value.factor * values[leader] + value.offset;
-            if self.tree.carries(chosen[0], self.tree.child[j]) {
-                let leader = &self.all()[leader].name;
-                held.push(j);
-                notes.push(format!(
-                    "joint \"{}\" follows joint \"{leader}\": held at {} {}",
-                    joint.name,
-                    values[j],
-                    unit(joint)
-                ));
-            }
-        }
-        Ok(Held { values, held, notes })
-    }
-
-    /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
-    fn held_at(&self, index: usize) -> Result<f64, Defect> {
-        let joint = &self.all()[index];
-        let range = Limits { document: self.document, world: self.world }.range(index)?;
-        let Some(value) = find(&self.world.robot.fixed, &joint.name) else {
-            return Ok(match range {
-                Range::Known(Axis::Interval { lower, upper }) => 0f64.clamp(lower, upper),
-                Range::Known(Axis::Circle) | Range::Unset(_) => 0.0,
-            });
-        };
-        let number = *value.get_ref();
-        if !number.is_finite() {
-            return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
-        }
-        match range {
-            Range::Known(Axis::Interval { lower, upper }) if number < lower || number > upper => {
-                let unit = unit(joint);
-                let message = format!(
-                    "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
-                    joint.name
-                );
-                Err(self.in_world(value, message).cure("choose a value within, or override [robot] limits"))
-            }
-            _ => Ok(number),
-        }
-    }
 }
 
 /// Unit of a joint's value.
 pub(super) fn unit(joint: &urdf_rs::Joint) -> &'static str {
     if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
-}
-
-/// `factor * x + offset`, composed along a chain of mimics.
-struct Affine {
-    factor: f64,
-    offset: f64,
-}
-
-impl Affine {
-    /// Puts a mimic's own map before this one.
-    fn after(self, mimic: &Mimic) -> Self {
-        let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
-        Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
-    }
 }

@@ -14,6 +14,7 @@ mod bodies;
 mod chain;
 mod document;
 mod foreign;
+mod held;
 mod ignored;
 mod limits;
 mod mesh;

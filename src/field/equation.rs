@@ -1,0 +1,160 @@
+//! Which equation a field fulfils.
+//!
+//! All are of the form `lap p + <b, grad p> = 0`, `b = epsilon v` a drift: `p` is what a random walk with that drift can
+//! expect of the values of obstacles and goals. Lengths are counted in cells, so `epsilon` is a number per cell.
+
+use super::Domain;
+use std::fmt;
+
+/// How the slope in a drift term is discretised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Difference {
+    /// `(p_+ - p_-) / 2`: of second order, monotone only for `|b_k| < 2` along each axis. Beyond that a value is no mean
+    /// of its neighbours' any more: relaxations may diverge, fields may have minima inside.
+    #[default]
+    Central,
+    /// The difference towards where the drift comes from: of first order, monotone for every drift.
+    Upwind,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Central => "central differences",
+            Self::Upwind => "upwind differences",
+        })
+    }
+}
+
+/// A direction in the plane of joint values: a unit vector.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction([f64; 2]);
+
+impl Direction {
+    /// The direction of a vector; none of one without length, and of what is no number.
+    #[must_use]
+    pub fn of(vector: [f64; 2]) -> Option<Self> {
+        let greatest = vector[0].abs().max(vector[1].abs());
+        // Scaled first, so that lengths neither overflow nor vanish.
+        let scaled = vector.map(|x| x / greatest);
+        let length = scaled[0].hypot(scaled[1]);
+        (greatest > 0.0 && length.is_finite()).then(|| Self(scaled.map(|x| x / length)))
+    }
+
+    /// Its components along the first and the second joint.
+    #[must_use]
+    pub fn components(self) -> [f64; 2] {
+        self.0
+    }
+
+    /// `epsilon v`.
+    #[must_use]
+    pub fn drift(self, epsilon: f64) -> [f64; 2] {
+        self.0.map(|v| epsilon * v)
+    }
+}
+
+/// An equation for the values of free cells. Arrays have one entry a cell of the domain, those of fixed cells are not
+/// looked at.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Equation {
+    /// `lap p = 0` (Connolly, Grupen 1993).
+    Harmonic,
+    /// `lap p + epsilon <v, grad p> = 0`, the same everywhere (Prestes 2003).
+    Oriented {
+        /// `v`.
+        direction: Direction,
+        /// `epsilon`, per cell.
+        epsilon: f64,
+        /// How.
+        difference: Difference,
+    },
+    /// The same with a drift of its own in every cell, 0 where there is none: around robots (Faria 2006, see
+    /// [`around`]), or in regions.
+    LocallyOriented {
+        /// `epsilon v`, per cell.
+        drift: Vec<[f64; 2]>,
+        /// How.
+        difference: Difference,
+    },
+    /// Preferences: `v` is the normalised gradient of the converged harmonic field, up towards obstacles, and `epsilon`
+    /// that of each cell's region: positive makes the region less attractive, negative more (Prestes, Idiart 2009).
+    /// Relaxed in two stages, the first harmonic.
+    Preference {
+        /// One a cell.
+        epsilon: Vec<f64>,
+        /// How.
+        difference: Difference,
+    },
+    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, `h` the mean of the four neighbours and
+    /// `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. Not linear: the drift climbs the field itself. In two stages, too.
+    ///
+    /// That is with obstacles high. Where they are low the sign before `epsilon` turns: with `u = 1 - p` the mean becomes
+    /// `1 - h` and `d` stays, so `u = h - epsilon / 4 d`.
+    AlteredPreference {
+        /// One a cell.
+        epsilon: Vec<f64>,
+    },
+}
+
+/// A disc of cells with a drift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Influence {
+    /// Its centre, as (fractions of) row and column; whole numbers are centres of cells.
+    pub center: [f64; 2],
+    /// In cells.
+    pub radius: f64,
+    /// `epsilon v`.
+    pub drift: [f64; 2],
+}
+
+/// The drift of [`Equation::LocallyOriented`] around robots: each cell has that of the nearest one, if it lies nearer
+/// than that one's radius. `O(cells * influences)`.
+#[must_use]
+pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
+    let columns = domain.cells()[1];
+    let nearest = |cell: usize| {
+        let at = [(cell / columns) as f64, (cell % columns) as f64];
+        let distance = |i: &Influence| (at[0] - i.center[0]).hypot(at[1] - i.center[1]);
+        let nearest = influences.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        (distance(nearest) < nearest.radius).then_some(nearest.drift)
+    };
+    (0..domain.kinds().len()).map(|cell| nearest(cell).unwrap_or_default()).collect()
+}
+
+impl Equation {
+    /// Whether a cell's value is a mean of its neighbours' with weights that are not negative, whatever the values are.
+    /// Then no value leaves the range of the fixed ones, and the goals are the only minima.
+    #[must_use]
+    pub fn is_monotone(&self) -> bool {
+        let small = |epsilon: f64| epsilon.abs() < 2.0;
+        match self {
+            Self::Harmonic => true,
+            Self::Oriented { difference: Difference::Upwind, .. }
+            | Self::LocallyOriented { difference: Difference::Upwind, .. }
+            | Self::Preference { difference: Difference::Upwind, .. } => true,
+            Self::Oriented { direction, epsilon, .. } => direction.drift(*epsilon).into_iter().all(small),
+            Self::LocallyOriented { drift, .. } => drift.iter().flatten().copied().all(small),
+            Self::Preference { epsilon, .. } | Self::AlteredPreference { epsilon } => {
+                epsilon.iter().copied().all(small)
+            }
+        }
+    }
+
+    /// What keeps it from being an equation on this domain, if anything.
+    pub(super) fn defect(&self, domain: &Domain) -> Option<String> {
+        let cells = domain.kinds().len();
+        let (count, finite) = match self {
+            Self::Harmonic => (cells, true),
+            Self::Oriented { epsilon, .. } => (cells, epsilon.is_finite()),
+            Self::LocallyOriented { drift, .. } => (drift.len(), drift.iter().flatten().all(|b| b.is_finite())),
+            Self::Preference { epsilon, .. } | Self::AlteredPreference { epsilon } => {
+                (epsilon.len(), epsilon.iter().all(|e| e.is_finite()))
+            }
+        };
+        if count != cells {
+            return Some(format!("the equation has {count} cells, the domain {cells}"));
+        }
+        (!finite).then(|| "epsilon must be a finite number".into())
+    }
+}

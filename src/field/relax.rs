@@ -1,0 +1,322 @@
+//! Relaxing an equation on a domain.
+
+use super::relaxation::{Relaxation, Scheme};
+use super::stencil::{Altered, Mean, Stencil, Weighted};
+use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
+use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
+use std::fmt;
+
+/// A relaxed field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relaxed {
+    /// One a cell; those of obstacles and goals are their levels.
+    pub values: Vec<f64>,
+    /// How each stage ended: with preferences the first is the harmonic field that they start from; otherwise there is one.
+    pub stages: Vec<Convergence>,
+}
+
+impl Relaxed {
+    /// Passes over all cells, of all stages.
+    #[must_use]
+    pub fn sweeps(&self) -> usize {
+        self.stages.iter().map(|stage| stage.sweeps).sum()
+    }
+
+    /// Whether every stage converged.
+    #[must_use]
+    pub fn converged(&self) -> bool {
+        self.stages.iter().all(|stage| stage.converged)
+    }
+
+    /// The measure in the very last sweep.
+    #[must_use]
+    pub fn change(&self) -> f64 {
+        self.stages.last().map_or(f64::INFINITY, |stage| stage.change)
+    }
+}
+
+/// Why there is no relaxed field.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RelaxError {
+    /// What was asked for makes no sense: why, in words.
+    Refused(String),
+    /// Values grew without bound, or are numbers no more.
+    Diverged {
+        /// Passes over all cells until it was noticed.
+        sweeps: usize,
+        /// The first cell with such a value, as row and column.
+        cell: [usize; 2],
+        /// That value.
+        value: f64,
+        /// What the reason may be, and what to do, in words.
+        hint: String,
+    },
+}
+
+impl fmt::Display for RelaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Refused(reason) => f.write_str(reason),
+            Self::Diverged { sweeps, cell: [i, j], value, hint } => {
+                write!(
+                    f,
+                    "the relaxation diverged: after {sweeps} sweeps cell ({i}, {j}) has the value {value:e}; {hint}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for RelaxError {}
+
+/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
+/// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
+const BEYOND: f64 = 1e100;
+
+/// Every so many sweeps values are looked at for divergence.
+const LOOKED_AT: usize = 16;
+
+/// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
+///
+/// # Errors
+/// [`RelaxError::Refused`] where equation and domain differ in size, or a factor is not positive; [`RelaxError::Diverged`].
+/// A relaxation that neither diverges nor converges ends after `stopping.max_sweeps` (of each stage), and its
+/// [`Convergence`] says so.
+pub fn relax(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+) -> Result<Relaxed, RelaxError> {
+    relax_from(domain, equation, relaxation, stopping, domain.start())
+}
+
+/// Relaxes from other values, such as those of a field for obstacles that have moved a little since. Those of obstacles
+/// and goals are set to their levels.
+///
+/// # Errors
+/// As [`relax`], and where there is not one value a cell.
+pub fn relax_from(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+) -> Result<Relaxed, RelaxError> {
+    if let Some(defect) = equation.defect(domain) {
+        return Err(RelaxError::Refused(defect));
+    }
+    if start.len() != domain.kinds().len() {
+        return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
+    }
+    let factor = relaxation.factor(domain.cells());
+    if !(factor.is_finite() && factor > 0.0) {
+        return Err(RelaxError::Refused(format!("a relaxation factor must be positive, this one is {factor}")));
+    }
+    if let Some([low, high]) = relaxation.clamp
+        && (low > high || low.is_nan() || high.is_nan())
+    {
+        return Err(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
+    }
+    let mut engine = Engine::new(domain, equation, relaxation, stopping, start);
+    match equation {
+        Equation::Harmonic => engine.harmonic()?,
+        Equation::Oriented { direction, epsilon, difference } => {
+            let drift = direction.drift(*epsilon);
+            engine.linear(|_| drift, *difference)?;
+        }
+        Equation::LocallyOriented { drift, difference } => engine.linear(|cell| drift[cell], *difference)?,
+        Equation::Preference { epsilon, difference } => {
+            engine.harmonic()?;
+            let direction = normalized_gradient(domain, &engine.values);
+            engine.linear(|cell| direction[cell].map(|v| epsilon[cell] * v), *difference)?;
+        }
+        Equation::AlteredPreference { epsilon } => {
+            engine.harmonic()?;
+            let quarter = 0.25 * domain.levels().orientation();
+            let strength = engine.unknowns.iter().map(|&cell| quarter * epsilon[cell as usize]).collect();
+            engine.run(&Altered { strength })?;
+        }
+    }
+    engine.values.pop();
+    Ok(Relaxed { values: engine.values, stages: engine.stages })
+}
+
+/// The direction in which each free cell's value rises towards that of obstacles, by central differences; 0 where values
+/// around it are level.
+fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
+    let levels = domain.levels();
+    let at = |cell: usize| {
+        if domain.kinds()[cell] != Cell::Free {
+            return [0.0; 2];
+        }
+        let [a, b, c, d] = domain.neighbors(cell).map(|neighbor| match neighbor {
+            Neighbor::Cell(next) => values[next],
+            Neighbor::Limit => levels.obstacle,
+            Neighbor::Mirror => values[cell],
+        });
+        Direction::of([b - a, d - c].map(|rise| levels.orientation() * rise)).map_or([0.0; 2], Direction::components)
+    };
+    (0..domain.kinds().len()).map(at).collect()
+}
+
+/// A field under way.
+struct Engine<'a> {
+    domain: &'a Domain,
+    equation: &'a Equation,
+    relaxation: &'a Relaxation,
+    stopping: &'a Stopping,
+    /// One a cell, and last that of obstacles, for what lies beyond limits.
+    values: Vec<f64>,
+    /// Greatest absolute value before the first sweep.
+    greatest: f64,
+    /// The free cells that have neighbours, rising.
+    unknowns: Vec<u32>,
+    /// Places of their neighbours' values.
+    around: Vec<[u32; 4]>,
+    stages: Vec<Convergence>,
+}
+
+impl<'a> Engine<'a> {
+    fn new(
+        domain: &'a Domain,
+        equation: &'a Equation,
+        relaxation: &'a Relaxation,
+        stopping: &'a Stopping,
+        start: Vec<f64>,
+    ) -> Self {
+        let kinds = domain.kinds();
+        let limit = kinds.len() as u32;
+        // A cell that has no neighbour but itself keeps its value.
+        let alone = |cell: usize| domain.neighbors(cell) == [Neighbor::Mirror; 4];
+        let unknown = |cell: usize| kinds[cell] == Cell::Free && !alone(cell);
+        let unknowns: Vec<u32> = (0..limit).filter(|&cell| unknown(cell as usize)).collect();
+        let around = unknowns.iter().map(|&cell| {
+            domain.neighbors(cell as usize).map(|neighbor| match neighbor {
+                Neighbor::Cell(next) => next as u32,
+                Neighbor::Limit => limit,
+                Neighbor::Mirror => cell,
+            })
+        });
+        let around = around.collect();
+        let mut values = start;
+        for (value, &kind) in values.iter_mut().zip(kinds) {
+            *value = domain.fixed(kind).unwrap_or(*value);
+        }
+        values.push(domain.levels().obstacle);
+        let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new() }
+    }
+
+    fn harmonic(&mut self) -> Result<(), RelaxError> {
+        if self.has_mirrors() { self.linear(|_| [0.0; 2], Difference::Central) } else { self.run(&Mean) }
+    }
+
+    fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
+        let stencil = Weighted::new(self.domain, &self.unknowns, drift, difference);
+        self.run(&stencil)
+    }
+
+    fn has_mirrors(&self) -> bool {
+        self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1)
+    }
+
+    /// One stage.
+    fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
+        match self.stopping.measure {
+            Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, Sum>(stencil),
+            Measure::SumOfSquares => self.stage::<S, Squares>(stencil),
+            Measure::GreatestChange => self.stage::<S, Greatest>(stencil),
+            Measure::GreatestRelativeChange => self.stage::<S, Relative>(stencil),
+        }
+    }
+
+    fn stage<S: Stencil, T: Tally>(&mut self, stencil: &S) -> Result<(), RelaxError> {
+        let Self { relaxation, stopping, .. } = *self;
+        let factor = relaxation.factor(self.domain.cells());
+        let passes = match relaxation.scheme {
+            Scheme::Simultaneous { .. } => Vec::new(),
+            Scheme::Successive { order, .. } => order.passes(self.domain.cells(), &self.unknowns),
+        };
+        let step = Step { stencil, factor, clamp: relaxation.clamp };
+        let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
+        let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
+        let mut before = f64::INFINITY;
+        while !stage.converged && stage.sweeps < stopping.max_sweeps {
+            let total = match passes.len() {
+                0 => self.at_once::<S, T>(&step, &mut next),
+                count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),
+            };
+            stage.sweeps += 1;
+            stage.change = if stopping.measure == Measure::DifferenceOfSums { (total - before).abs() } else { total };
+            before = total;
+            stage.converged = stage.change < stopping.below || total == 0.0;
+            if stage.sweeps.is_multiple_of(LOOKED_AT) || stage.converged || stage.sweeps == stopping.max_sweeps {
+                self.look_for_divergence(stage.sweeps)?;
+            }
+        }
+        self.stages.push(stage);
+        Ok(())
+    }
+
+    fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> f64 {
+        let mut total = 0.0;
+        for (k, next) in next.iter_mut().enumerate() {
+            let old = self.values[self.unknowns[k] as usize];
+            *next = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
+            total = T::add(total, old, *next);
+        }
+        for (&cell, &new) in self.unknowns.iter().zip(&*next) {
+            self.values[cell as usize] = new;
+        }
+        total
+    }
+
+    fn in_turn<S: Stencil, T: Tally>(&mut self, step: &Step<S>, pass: &[u32]) -> f64 {
+        let mut total = 0.0;
+        for &k in pass {
+            let k = k as usize;
+            let cell = self.unknowns[k] as usize;
+            let old = self.values[cell];
+            let new = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
+            self.values[cell] = new;
+            total = T::add(total, old, new);
+        }
+        total
+    }
+
+    fn look_for_divergence(&self, sweeps: usize) -> Result<(), RelaxError> {
+        let lost = |&&cell: &&u32| {
+            let value = self.values[cell as usize];
+            value.is_nan() || value.abs() > BEYOND * self.greatest
+        };
+        let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
+        let (cell, columns) = (cell as usize, self.domain.cells()[1]);
+        let factor = self.relaxation.factor(self.domain.cells());
+        let hint = if !self.equation.is_monotone() {
+            "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
+             epsilon"
+                .into()
+        } else {
+            format!("the factor {factor:.4} is too great for this equation")
+        };
+        Err(RelaxError::Diverged { sweeps, cell: [cell / columns, cell % columns], value: self.values[cell], hint })
+    }
+}
+
+/// How far a cell goes.
+struct Step<'a, S> {
+    stencil: &'a S,
+    factor: f64,
+    clamp: Option<[f64; 2]>,
+}
+
+impl<S: Stencil> Step<'_, S> {
+    fn new_value(&self, position: usize, old: f64, around: [f64; 4]) -> f64 {
+        let asked = self.stencil.asked(position, old, around);
+        // With factor 1 exactly what is asked, without the rounding of a detour.
+        let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
+        // Not `clamp`: the bounds are checked once, for all cells.
+        self.clamp.map_or(new, |[low, high]| new.max(low).min(high))
+    }
+}

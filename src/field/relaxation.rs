@@ -1,0 +1,237 @@
+//! How cells take turns and how far each goes.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+/// A relaxation: in a sweep every free cell goes towards the value that its neighbours ask for.
+///
+/// Jacobi's has no order, since all cells go at once; so an order for it cannot be written down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relaxation {
+    /// Who goes when, and how far.
+    pub scheme: Scheme,
+    /// New values are brought into this range, if any: over-relaxation leaves the range of the fixed values at first.
+    pub clamp: Option<[f64; 2]>,
+}
+
+/// Who goes when, and how far: a cell's new value is `old + factor * (asked for - old)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Scheme {
+    /// All cells at once, from the values of the sweep before (Jacobi; weighted if the factor is not 1).
+    Simultaneous {
+        /// Factor 1 is Jacobi's; weighted Jacobi's are between 0 and 1.
+        factor: f64,
+    },
+    /// One after the other, each from the newest values.
+    Successive {
+        /// 1 is Gauss-Seidel; other factors make successive over-relaxation (SOR).
+        factor: Factor,
+        /// In this order.
+        order: Order,
+    },
+}
+
+/// Factor of a successive relaxation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Factor {
+    /// This one.
+    Given(f64),
+    /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)`, `m x n` the number of cells: the best one for
+    /// Laplace's equation in an empty rectangle (Young 1954).
+    Formula,
+}
+
+impl Factor {
+    /// The number, for a domain of so many cells.
+    #[must_use]
+    pub fn value(self, cells: [usize; 2]) -> f64 {
+        match self {
+            Self::Given(factor) => factor,
+            Self::Formula => {
+                // A domain of one cell would have c = -2, and no need of over-relaxation.
+                let c = cells.map(|n| (PI / n as f64).cos()).iter().sum::<f64>().max(0.0);
+                4.0 / (2.0 + (4.0 - c * c).max(0.0).sqrt())
+            }
+        }
+    }
+}
+
+/// In which order cells go. Whatever the order, every cell goes once a sweep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// Line by line, the same in every sweep.
+    Lines(Scan),
+    /// Line by line from another corner in each sweep: `(0, 0)`, then the end of the first line, the beginning of the
+    /// last, the end of the last ("simultaneous" with Deicu 2012, whose sweeps are counted one by one, too).
+    Corners(Lines),
+    /// All cells whose indices have an even sum, then the others. On circles of odd length neighbours across the seam
+    /// have the same colour; they go one after the other all the same.
+    RedBlack,
+}
+
+/// What a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Lines {
+    /// Cells with one value of the first joint.
+    #[default]
+    Rows,
+    /// Cells with one value of the second joint.
+    Columns,
+}
+
+/// A way through all cells, line by line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Scan {
+    /// Cells of a line follow one another.
+    pub lines: Lines,
+    /// Whether the index along each axis falls instead of rising.
+    pub falling: [bool; 2],
+}
+
+impl Scan {
+    /// Row by row, indices rising.
+    pub const ROWS: Self = Self { lines: Lines::Rows, falling: [false; 2] };
+}
+
+impl Relaxation {
+    /// Jacobi's.
+    pub const JACOBI: Self = Self::weighted_jacobi(1.0);
+
+    /// Jacobi's with a factor.
+    #[must_use]
+    pub const fn weighted_jacobi(factor: f64) -> Self {
+        Self { scheme: Scheme::Simultaneous { factor }, clamp: None }
+    }
+
+    /// Gauss and Seidel's.
+    #[must_use]
+    pub const fn gauss_seidel(order: Order) -> Self {
+        Self::sor(Factor::Given(1.0), order)
+    }
+
+    /// Successive over-relaxation.
+    #[must_use]
+    pub const fn sor(factor: Factor, order: Order) -> Self {
+        Self { scheme: Scheme::Successive { factor, order }, clamp: None }
+    }
+
+    /// The same with new values brought into a range.
+    #[must_use]
+    pub const fn clamped(self, range: [f64; 2]) -> Self {
+        Self { clamp: Some(range), ..self }
+    }
+
+    /// The factor on a domain of so many cells.
+    #[must_use]
+    pub fn factor(&self, cells: [usize; 2]) -> f64 {
+        match self.scheme {
+            Scheme::Simultaneous { factor } => factor,
+            Scheme::Successive { factor, .. } => factor.value(cells),
+        }
+    }
+}
+
+impl fmt::Display for Relaxation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.scheme {
+            Scheme::Simultaneous { factor: 1.0 } => write!(f, "jacobi")?,
+            Scheme::Simultaneous { factor } => write!(f, "weighted-jacobi, factor {factor}")?,
+            Scheme::Successive { factor: Factor::Given(1.0), order } => write!(f, "gauss-seidel, {order}")?,
+            Scheme::Successive { factor: Factor::Given(factor), order } => write!(f, "sor, {order}, factor {factor}")?,
+            Scheme::Successive { factor: Factor::Formula, order } => write!(f, "sor, {order}")?,
+        }
+        self.clamp.map_or(Ok(()), |[low, high]| write!(f, ", clamped to {low}..{high}"))
+    }
+}
+
+impl fmt::Display for Order {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Lines(Scan { lines: Lines::Rows, .. }) => "rows",
+            Self::Lines(Scan { lines: Lines::Columns, .. }) => "columns",
+            Self::Corners(_) => "corners",
+            Self::RedBlack => "red-black",
+        })
+    }
+}
+
+impl Order {
+    /// The way through `unknowns` (indices of cells, rising) in each sweep, as positions among them; after the last it
+    /// begins anew.
+    pub(super) fn passes(self, cells: [usize; 2], unknowns: &[u32]) -> Vec<Vec<u32>> {
+        let sorted = |key: &dyn Fn([usize; 2]) -> [usize; 2]| {
+            let mut positions: Vec<u32> = (0..unknowns.len() as u32).collect();
+            let at = |k: u32| {
+                [0, 1].map(|axis| {
+                    let cell = unknowns[k as usize] as usize;
+                    if axis == 0 { cell / cells[1] } else { cell % cells[1] }
+                })
+            };
+            // Stable, so that cells with the same key keep their order.
+            positions.sort_by_key(|&k| key(at(k)));
+            positions
+        };
+        let scan = |Scan { lines, falling }: Scan| {
+            sorted(&|at| {
+                let [i, j] = [0, 1].map(|axis| if falling[axis] { cells[axis] - at[axis] } else { at[axis] });
+                if lines == Lines::Rows { [i, j] } else { [j, i] }
+            })
+        };
+        match self {
+            Self::Lines(way) => vec![scan(way)],
+            Self::Corners(lines) => {
+                let [across, along] = if lines == Lines::Rows { [0, 1] } else { [1, 0] };
+                let corners = [[false, false], [false, true], [true, false], [true, true]];
+                let from = corners.map(|[last_line, end]| {
+                    let mut falling = [false; 2];
+                    (falling[across], falling[along]) = (last_line, end);
+                    scan(Scan { lines, falling })
+                });
+                from.into()
+            }
+            Self::RedBlack => vec![sorted(&|[i, j]| [(i + j) % 2, 0])],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cells of a 2 x 3 domain in the order of each sweep.
+    fn ways(order: Order) -> Vec<Vec<u32>> {
+        order.passes([2, 3], &[0, 1, 2, 3, 4, 5])
+    }
+
+    #[test]
+    fn sweeps_visit_cells_in_the_order_that_their_names_say() {
+        assert_eq!(ways(Order::Lines(Scan::ROWS)), [[0, 1, 2, 3, 4, 5]]);
+        assert_eq!(ways(Order::Lines(Scan { lines: Lines::Rows, falling: [true, false] })), [[3, 4, 5, 0, 1, 2]]);
+        assert_eq!(ways(Order::Lines(Scan { lines: Lines::Columns, falling: [false; 2] })), [[0, 3, 1, 4, 2, 5]]);
+        assert_eq!(
+            ways(Order::Corners(Lines::Rows)),
+            [[0, 1, 2, 3, 4, 5], [2, 1, 0, 5, 4, 3], [3, 4, 5, 0, 1, 2], [5, 4, 3, 2, 1, 0]]
+        );
+        assert_eq!(
+            ways(Order::Corners(Lines::Columns)),
+            [[0, 3, 1, 4, 2, 5], [3, 0, 4, 1, 5, 2], [2, 5, 1, 4, 0, 3], [5, 2, 4, 1, 3, 0]]
+        );
+        assert_eq!(ways(Order::RedBlack), [[0, 2, 4, 1, 3, 5]]);
+    }
+
+    #[test]
+    fn sweeps_pass_over_what_is_not_sought() {
+        assert_eq!(Order::Corners(Lines::Rows).passes([2, 3], &[1, 5])[3], [1, 0]);
+        assert_eq!(Order::RedBlack.passes([2, 3], &[1, 2]), [[1, 0]]);
+    }
+
+    #[test]
+    fn the_formula_gives_the_best_factor_of_a_square() {
+        // With m = n: 2 / (1 + sin(pi / n)).
+        for n in [3, 10, 100] {
+            let best = 2.0 / (1.0 + (PI / n as f64).sin());
+            assert!((Factor::Formula.value([n, n]) - best).abs() < 1e-12);
+        }
+        assert_eq!(Factor::Formula.value([1, 1]), 1.0);
+    }
+}

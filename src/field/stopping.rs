@@ -1,0 +1,75 @@
+//! When a relaxation ends.
+
+/// What is measured in a sweep; `change` is the difference between a value after and before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// Sum of `|change|`.
+    SumOfChange,
+    /// Sum of `change^2`.
+    SumOfSquares,
+    /// Difference between the sum of `|change|` and that of the sweep before. (Two equal sums of any size end the
+    /// relaxation: the literature uses it, that does not make it a good rule.)
+    DifferenceOfSums,
+    /// Greatest `|change|`.
+    GreatestChange,
+    /// Greatest `|change| / |value after|`: the only one that sees what happens where values are small.
+    GreatestRelativeChange,
+}
+
+/// When a relaxation ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stopping {
+    /// What is measured.
+    pub measure: Measure,
+    /// It has converged when the measure falls below this, and when a sweep changes nothing at all.
+    pub below: f64,
+    /// It ends after so many sweeps anyway.
+    pub max_sweeps: usize,
+}
+
+/// How a relaxation ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Convergence {
+    /// Passes over all cells.
+    pub sweeps: usize,
+    /// The measure in the last of them; infinite before the first.
+    pub change: f64,
+    /// Whether the measure fell below what was asked for.
+    pub converged: bool,
+}
+
+/// Sums up the changes of a sweep.
+pub(super) trait Tally {
+    /// The measure so far, with one more value.
+    fn add(total: f64, old: f64, new: f64) -> f64;
+}
+
+pub(super) struct Sum;
+pub(super) struct Squares;
+pub(super) struct Greatest;
+pub(super) struct Relative;
+
+impl Tally for Sum {
+    fn add(total: f64, old: f64, new: f64) -> f64 {
+        total + (new - old).abs()
+    }
+}
+
+impl Tally for Squares {
+    fn add(total: f64, old: f64, new: f64) -> f64 {
+        total + (new - old) * (new - old)
+    }
+}
+
+impl Tally for Greatest {
+    fn add(total: f64, old: f64, new: f64) -> f64 {
+        total.max((new - old).abs())
+    }
+}
+
+impl Tally for Relative {
+    fn add(total: f64, old: f64, new: f64) -> f64 {
+        // Nothing over nothing is NaN, which `max` passes over: no change. To 0 from anything else is infinite.
+        total.max((new - old).abs() / new.abs())
+    }
+}

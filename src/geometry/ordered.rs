@@ -1,0 +1,27 @@
+//! Numbers that can be keys.
+
+use std::cmp::Ordering;
+
+/// A double in the total order of IEEE 754, for heaps and sorted keys, which floating point by itself cannot be in.
+#[derive(Debug, Clone, Copy)]
+pub struct Ordered(pub f64);
+
+impl Ord for Ordered {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Ordered {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Ordered {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Ordered {}

@@ -1,0 +1,81 @@
+//! The world file's `[[preference]]`.
+
+use super::error::Defect;
+use super::world::{Number, Numbers, Reader};
+use crate::geometry::{Point, SimplePolygon};
+use crate::model::{Preference, Region};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// `[[preference]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PreferenceTable {
+    name: Option<String>,
+    epsilon: Number,
+    direction: Option<Numbers>,
+    configurations: Option<Spanned<Vec<Numbers>>>,
+    polygon: Option<Spanned<Vec<Numbers>>>,
+}
+
+/// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
+const WIDEST: f64 = 100.0;
+
+impl PreferenceTable {
+    /// The preference, the `index`-th of its file.
+    ///
+    /// # Errors
+    /// On values that are not finite, a direction without length, and not exactly one region, which is a simple polygon.
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Defect> {
+        let given = table.get_ref();
+        let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
+        let what = format!("preference \"{name}\"");
+        let epsilon = reader.finite(&given.epsilon, &format!("{what}, epsilon"))?;
+        let direction = given.direction.as_ref().map(|d| direction(reader, d, &what)).transpose()?;
+        let region = match (&given.configurations, &given.polygon) {
+            (Some(corners), None) => Region::Configurations(configurations(reader, corners, &what)?),
+            (None, Some(corners)) => Region::Tip(polygon(reader, corners, &what)?),
+            (configurations, _) => {
+                let found = if configurations.is_some() { "both" } else { "neither" };
+                let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
+                let cure = "configurations = [[q1, q2], ...] in joint values, or polygon = [[x, y], ...] for the tip";
+                return Err(reader.source.defect_at(table.span(), message).cure(cure));
+            }
+        };
+        Ok(Preference { name, region, epsilon, direction })
+    }
+}
+
+fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
+    let vector = reader.two(numbers, &format!("{what}, direction"))?;
+    let length = vector[0].hypot(vector[1]);
+    // Below the square root of the least normal number its components would lose their digits.
+    if length < 1e-150 {
+        return Err(reader.source.defect_at(numbers.span(), format!("{what}: the direction has no length")));
+    }
+    Ok(vector.map(|x| x / length))
+}
+
+fn configurations(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<SimplePolygon, Defect> {
+    let polygon = polygon(reader, corners, what)?;
+    let is_wide = |k: usize| {
+        let values = || polygon.corners().iter().map(|corner| corner[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > WIDEST
+    };
+    if is_wide(0) || is_wide(1) {
+        let message = format!("{what} is too wide (at most {WIDEST} in joint values)");
+        return Err(reader
+            .source
+            .defect_at(corners.span(), message)
+            .cure("angles are radians; circles repeat themselves"));
+    }
+    Ok(polygon)
+}
+
+fn polygon(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<SimplePolygon, Defect> {
+    let points: Vec<Point> = reader.points(corners, what)?;
+    SimplePolygon::new(points).map_err(|defect| {
+        let message = format!("{what} is not a simple polygon: {defect}");
+        reader.source.defect_at(corners.span(), message).cure("list the corners in order round the region, each once")
+    })
+}

@@ -1,0 +1,131 @@
+//! Where the joints stand that do not move: as the world says, at rest, or as a mimic makes them.
+
+use super::chain::{Chooser, is_movable, unit};
+use super::limits::{Limits, Range, find};
+use crate::input::error::{Defect, InputError};
+use crate::space::Axis;
+use urdf_rs::Mimic;
+
+/// Values of all joints, and which of them are held where it matters.
+pub(super) struct Held {
+    pub values: Vec<f64>,
+    pub held: Vec<usize>,
+    pub notes: Vec<String>,
+}
+
+impl Chooser<'_> {
+    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Defect> {
+        self.joint(&mimic.joint).ok_or_else(|| {
+            let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
+            self.mimic_defect(joint, &message)
+        })
+    }
+
+    /// The joint at the end of a chain of mimics.
+    pub(super) fn leader(&self, joint: usize) -> Result<usize, Defect> {
+        let mut at = joint;
+        for _ in 0..=self.all().len() {
+            match &self.all()[at].mimic {
+                None => return Ok(at),
+                Some(mimic) => at = self.followed(at, mimic)?,
+            }
+        }
+        Err(self.mimic_defect(joint, "follows itself: the mimics form a cycle"))
+    }
+
+    /// The value of every joint, and what to say about those that matter.
+    pub(super) fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
+        for name in self.world.robot.fixed.keys() {
+            if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
+                let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
+                return Err(self
+                    .in_world(name, message)
+                    .cure("leave it out of `fixed`, or choose other `joints`")
+                    .into());
+            }
+        }
+        let mut values = vec![0.0; self.all().len()];
+        let (mut held, mut notes) = (Vec::new(), Vec::new());
+        for (j, joint) in self.all().iter().enumerate() {
+            if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
+                continue;
+            }
+            values[j] = self.held_at(j)?;
+            if self.tree.path_to(self.tree.child[chosen[1]]).contains(&j)
+                || self.tree.carries(chosen[0], self.tree.child[j])
+            {
+                held.push(j);
+                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
+            }
+        }
+        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| is_movable(joint)) {
+            if joint.mimic.is_none() {
+                continue;
+            }
+            let mut value = Affine { factor: 1.0, offset: 0.0 };
+            let leader = self.leader(j)?;
+            let mut at = j;
+            while let Some(mimic) = &self.all()[at].mimic {
+                value = value.after(mimic);
+                at = self.followed(at, mimic)?;
+            }
+            if let Some(name) = self.world.robot.fixed.keys().find(|n| *n.get_ref() == joint.name) {
+                let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
+                return Err(self.in_world(name, message).cure("give the value of the joint that it mimics").into());
+            }
+            values[j] = value.factor * values[leader] + value.offset;
+            if self.tree.carries(chosen[0], self.tree.child[j]) {
+                let leader = &self.all()[leader].name;
+                held.push(j);
+                notes.push(format!(
+                    "joint \"{}\" follows joint \"{leader}\": held at {} {}",
+                    joint.name,
+                    values[j],
+                    unit(joint)
+                ));
+            }
+        }
+        Ok(Held { values, held, notes })
+    }
+
+    /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
+    fn held_at(&self, index: usize) -> Result<f64, Defect> {
+        let joint = &self.all()[index];
+        let range = Limits { document: self.document, world: self.world }.range(index)?;
+        let Some(value) = find(&self.world.robot.fixed, &joint.name) else {
+            return Ok(match range {
+                Range::Known(Axis::Interval { lower, upper }) => 0f64.clamp(lower, upper),
+                Range::Known(Axis::Circle) | Range::Unset(_) => 0.0,
+            });
+        };
+        let number = *value.get_ref();
+        if !number.is_finite() {
+            return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
+        }
+        match range {
+            Range::Known(Axis::Interval { lower, upper }) if number < lower || number > upper => {
+                let unit = unit(joint);
+                let message = format!(
+                    "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
+                    joint.name
+                );
+                Err(self.in_world(value, message).cure("choose a value within, or override [robot] limits"))
+            }
+            _ => Ok(number),
+        }
+    }
+}
+
+/// `factor * x + offset`, composed along a chain of mimics.
+struct Affine {
+    factor: f64,
+    offset: f64,
+}
+
+impl Affine {
+    /// Puts a mimic's own map before this one.
+    fn after(self, mimic: &Mimic) -> Self {
+        let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+        Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
+    }
+}

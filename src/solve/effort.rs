@@ -1,0 +1,42 @@
+//! How hard to try.
+
+use crate::plan::{FieldPlanner, Wavefront};
+use crate::space::Metric;
+
+/// How much to try before the answer is unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Attempts, each finer than the one before: a quarter of the margin, twice the cells along each axis.
+    pub levels: usize,
+    /// First margin by which polygonal obstacles are grown, as a share of the arm's reach.
+    pub margin: f64,
+    /// First number of grid cells along each axis.
+    pub cells: usize,
+    /// Boxes for a proof that there is no path, and for planning by subdivision.
+    pub boxes: usize,
+    /// What makes a path short, for the visibility planner and for bounds.
+    pub metric: Metric,
+    /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
+    /// planner only).
+    pub gap: Option<f64>,
+    /// How the wavefront planner searches its grid.
+    pub wavefront: Wavefront,
+    /// The field to follow in place of the default one (harmonic planner only).
+    pub field: Option<FieldPlanner>,
+}
+
+impl Default for Effort {
+    /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
+    fn default() -> Self {
+        Self {
+            levels: 6,
+            margin: 1e-3,
+            cells: 256,
+            boxes: 200_000,
+            metric: Metric::Euclidean,
+            gap: None,
+            wavefront: Wavefront::default(),
+            field: None,
+        }
+    }
+}

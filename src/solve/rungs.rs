@@ -1,0 +1,82 @@
+//! The representation of each level: finer and finer approximations of one configuration space.
+
+use super::{Effort, Space};
+use crate::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
+use crate::model::Problem;
+
+/// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
+const MOST_CELLS: usize = 2048;
+
+/// Share of a slide's stroke that counts as reach where that is smaller, as for a gantry's slender tool.
+const STROKE: f64 = 0.1;
+
+/// Turns of the universal cover to plan in, on either side of the start.
+const PERIODS: usize = 1;
+
+/// Builds the space of one level; none when there is no finer one.
+pub(super) type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
+
+/// Polygons grown by the level's margin.
+pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
+    Some(regions(&problem.scene, margin(problem, effort, level), problem.start, PERIODS))
+}
+
+/// The level's margin, metres.
+pub(super) fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
+    let arm = &problem.scene.arm;
+    let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
+    let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
+    effort.margin * scale * 0.25_f64.powi(level as i32)
+}
+
+/// Cells of the level's size.
+pub(super) fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
+    let n = effort.cells << level;
+    (level == 0 || n <= MOST_CELLS).then(|| outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance))
+}
+
+/// The same with the workspace's preferences.
+pub(super) fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
+    cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+}
+
+/// A space in a few words.
+pub(super) trait Described {
+    fn describe(&self) -> String;
+}
+
+impl Described for Regions {
+    fn describe(&self) -> String {
+        format!("polygons ({})", self.proves)
+    }
+}
+
+impl Described for Grid {
+    fn describe(&self) -> String {
+        format!("{} x {} cells", self.cells[0], self.cells[1])
+    }
+}
+
+impl Described for ZonedGrid {
+    fn describe(&self) -> String {
+        self.grid.describe()
+    }
+}
+
+impl From<Regions> for Space {
+    fn from(regions: Regions) -> Self {
+        Space::Regions(Box::new(regions))
+    }
+}
+
+impl From<Grid> for Space {
+    fn from(grid: Grid) -> Self {
+        Space::Grid(Box::new(grid))
+    }
+}
+
+impl From<ZonedGrid> for Space {
+    fn from(zoned: ZonedGrid) -> Self {
+        zoned.grid.into()
+    }
+}
