@@ -137,7 +137,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
             let (one, two, across) = ([i + di, j], [i, j + dj], [i + di, j + dj]);
             let least = [i.min(i + di), j.min(j + dj)];
             let divided_here = self.rises(least) == (di == dj);
-            let triangles = if divided_here { [Some([one, across]), Some([across, two])] } else { [Some([one, two]), None] };
+            let triangles =
+                if divided_here { [Some([one, across]), Some([across, two])] } else { [Some([one, two]), None] };
             triangles.into_iter().flatten()
         })
     }
@@ -196,7 +197,9 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
             let ([along, inward], slope) = self.gradient([a, b, c]);
             (c, along, inward, Scaled { mantissa: slope, exponent: self.scale_of([a, b, c]) })
         });
-        let steeper = |x: Scaled, y: Scaled| x.mantissa_at(x.exponent.max(y.exponent)) > y.mantissa_at(x.exponent.max(y.exponent));
+        let steeper = |x: Scaled, y: Scaled| {
+            x.mantissa_at(x.exponent.max(y.exponent)) > y.mantissa_at(x.exponent.max(y.exponent))
+        };
         let into = match (one.2 > 0.0, two.2 > 0.0) {
             (true, true) => Some(if steeper(two.3, one.3) { two } else { one }),
             (true, false) => Some(one),

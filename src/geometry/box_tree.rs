@@ -63,7 +63,9 @@ fn meet(a: &Bounds, b: &Bounds) -> bool {
 
 fn build(boxes: &[Bounds], order: &mut [u32], nodes: &mut Vec<(Bounds, u32)>) {
     let join = |a: Bounds, k: &u32| [a[0].inf(&boxes[*k as usize][0]), a[1].sup(&boxes[*k as usize][1])];
-    let cover = order.iter().fold([Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)], join);
+    let cover = order
+        .iter()
+        .fold([Point::new(f64::INFINITY, f64::INFINITY), Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY)], join);
     let node = nodes.len();
     nodes.push((cover, 0));
     if order.len() > LEAF {
