@@ -10,14 +10,23 @@ use std::f64::consts::{LN_2, PI};
 pub struct Field {
     /// Its values: the greater, the nearer to a goal in that sense.
     pub potential: Potential,
-    /// In how many parts it was solved.
+    /// In how many windows it was solved.
     pub windows: usize,
 }
 
-/// Added to a cell's number of neighbours.
+/// What is added to a cell's four neighbours: a walk dies with a probability of a quarter of this, 3e-14, at each step. So
+/// every value is less than the mean of its neighbours by more than all rounding, and one of them is strictly greater,
+/// also where the harmonic function is level: without any walls, or where symmetry makes all four neighbours equal.
+/// Values are less than the harmonic function's by that part of themselves for each step that a walk takes to the goal:
+/// by less than a millionth for ten million steps.
 pub(super) const LOSS: f64 = f64::EPSILON * 512.0;
 
-/// The harmonic potential on a component.
+/// The harmonic potential on a component, in relative precision at any distance: values may be `1e-50000`.
+///
+/// Solved in windows in order of falling values; narrow ones by elimination without subtractions, wide rooms by
+/// multigrid. Each value agrees with its neighbours' mean to 1.5e-14 of itself ([`residual`]), which is less than what
+/// walks lose a step: every cell that is no goal has a strictly greater neighbour ([`Potential::navigates`]).
+/// Some 300 ns a cell in mazes and corridors; wide rooms cost a few solves by [`super::multigrid::Multigrid`].
 #[must_use]
 pub fn harmonic(component: &Component) -> Field {
     let Peeling { potential, windows, .. } = Peeling::new(component, LOSS).run();
