@@ -4,9 +4,7 @@ use super::rows::Rows;
 use super::{Grid, Proves};
 use crate::geometry::ROUNDING;
 use crate::model::{Scene, on_axis};
-use crate::space::Axis;
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 /// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
 /// some 1e-13 of a cell.
@@ -18,7 +16,7 @@ const WIDENING: f64 = 1e-9;
 pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let rows = Rows::new(scene);
     let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
-    let columns = Cells::new(grid.topology.axes[1], cells[1]);
+    let columns = Columns::new(&grid);
     let bands = rows.bands(clearance);
     let mut intervals = Vec::new();
     for i in 0..cells[0] {
@@ -32,9 +30,7 @@ pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid 
         for index in rows.second_link_pairs() {
             intervals.clear();
             let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
-            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| {
-                row[columns.centers(start, end)].fill(true);
-            });
+            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
         }
     }
     grid
@@ -58,40 +54,34 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let motions: Vec<f64> = rows.second_link_pairs().map(|index| rows.motion(index, h1 / 2.0, kept)).collect();
     grid.proves = Proves::Outer { margin: margin(&rows, &motions, [h1, h2], clearance) };
 
-    let bands = rows.bands(kept).merged;
-    let [first, second] = grid.topology.axes;
-    let turns: &[f64] = if first.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
+    let columns = Columns::new(&grid);
+    let bands = rows.bands(kept);
+    let axis = grid.topology.axes[0];
+    let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
+    let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
     let half = h1 / 2.0 + WIDENING;
-    let values: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
-    let elbows: Vec<_> = values
-        .iter()
-        .map(|&q1| {
-            let banned =
-                |band: &[f64; 2]| turns.iter().any(|turn| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half);
-            (!bands.iter().any(banned)).then(|| rows.elbow(q1))
-        })
-        .collect();
-    let columns = Cells::new(second, cells[1]);
-    let lines = Cells::new(first, cells[0]);
-    for (row, elbow) in grid.blocked.chunks_exact_mut(cells[1]).zip(&elbows) {
-        row.fill(elbow.is_none());
+    let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
+    let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
+    let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| rows.elbow(q1))).collect();
+    for (row, _) in grid.blocked.chunks_mut(cells[1]).zip(&elbows).filter(|(_, elbow)| elbow.is_none()) {
+        row.fill(true);
     }
     let (mut reached, mut intervals) = (Vec::new(), Vec::new());
     for (index, motion) in rows.second_link_pairs().zip(&motions) {
-        // Only the rows where link 2 reaches the piece at all, and one more at either end for the rounding of that.
+        let grow = kept + motion;
         reached.clear();
-        let hits = rows.reach_range(index, kept + motion, &mut reached);
+        let hits = rows.reach_range(index, grow, &mut reached);
         on_axis(&scene.arm.joints[0], hits, &reached, |[start, end]| {
-            let range = lines.touched(start - half, end + half);
-            for (i, elbow) in elbows.iter().enumerate().take(range.end).skip(range.start) {
-                let Some((elbow, heading)) = *elbow else { continue };
-                let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
+            // One row more at either end, for the rounding of the range.
+            let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
+            let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
+            let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
+            for (row, elbow) in rows_within {
+                let &Some((elbow, heading)) = elbow else { continue };
                 intervals.clear();
-                let hits = rows.at_elbow(index, elbow, heading, kept + motion, &mut intervals);
+                let hits = rows.at_elbow(index, elbow, heading, grow, &mut intervals);
                 intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
-                on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| {
-                    row[columns.touched(start, end)].fill(true);
-                });
+                on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_touched(row, start, end));
             }
         });
     }
@@ -109,35 +99,38 @@ fn margin(rows: &Rows<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) 
     first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + WIDENING
 }
 
-/// The cells along an axis by value of its joint.
-struct Cells {
+/// The cells of a row by value of joint 2.
+struct Columns {
     lower: f64,
     per_cell: f64,
     count: usize,
 }
 
-impl Cells {
-    fn new(axis: Axis, count: usize) -> Self {
-        Self { lower: axis.domain().0, per_cell: count as f64 / axis.extent(), count }
+impl Columns {
+    fn new(grid: &Grid) -> Self {
+        Self { lower: grid.topology.axes[1].domain().0, per_cell: 1.0 / grid.step()[1], count: grid.cells[1] }
     }
 
-    /// The cells whose centre lies in the closed interval.
-    fn centers(&self, start: f64, end: f64) -> Range<usize> {
+    /// Blocks the cells whose centre lies in the closed interval.
+    fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
         let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
         let last = ((end - self.lower) * self.per_cell - 0.5).floor();
-        self.range(first, last)
+        self.block(row, first, last);
     }
 
-    /// The closed cells that meet the closed interval.
-    fn touched(&self, start: f64, end: f64) -> Range<usize> {
+    /// Blocks the closed cells that meet the closed interval.
+    fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
         let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
         let last = ((end - self.lower) * self.per_cell).floor();
-        self.range(first, last)
+        self.block(row, first, last);
     }
 
-    fn range(&self, first: f64, last: f64) -> Range<usize> {
+    fn block(&self, row: &mut [bool], first: f64, last: f64) {
         // Conversions saturate: what lies before the row becomes 0, and `last + 1` beyond it the count.
-        let to = ((last + 1.0).max(0.0) as usize).min(self.count);
-        (first.max(0.0) as usize).min(to)..to
+        let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
+        let to = to.min(self.count);
+        if from < to {
+            row[from..to].fill(true);
+        }
     }
 }

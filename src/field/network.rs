@@ -1,5 +1,7 @@
 //! Elimination in a network of unit resistances, without a subtraction.
 
+use std::collections::VecDeque;
+
 /// No link, no node.
 const NONE: u32 = u32::MAX;
 
@@ -84,10 +86,10 @@ impl Network {
         self.degree[node] += 1;
     }
 
-    /// The unknowns, if `budget` is enough: it counts a unit for each pair of neighbours of each node that is eliminated,
-    /// in the order of least degree.
-    pub fn solve(mut self, budget: usize) -> Option<Vec<[f64; SIDES]>> {
-        let order = self.eliminate(budget)?;
+    /// The unknowns. Nodes are eliminated in the order of least degree: in trees and corridors that costs the same for each;
+    /// for rooms and halls see [`super::peeling`], which gives the wide ones to another solver.
+    pub fn solve(mut self) -> Vec<[f64; SIDES]> {
+        let order = self.eliminate();
         let mut solution = vec![[0.0; SIDES]; self.first.len()];
         self.solve_rest(&order, &mut solution);
         for &node in order.iter().rev() {
@@ -104,7 +106,7 @@ impl Network {
             // The pivot took the place of the ground.
             solution[node] = value.map(|value| value / self.ground[node]);
         }
-        Some(solution)
+        solution
     }
 
     /// Solves for the nodes that were not eliminated: their links fill a matrix.
@@ -148,13 +150,13 @@ impl Network {
     }
 
     /// Eliminates nodes until those that are left are mostly linked with each other; the order.
-    fn eliminate(&mut self, mut budget: usize) -> Option<Vec<u32>> {
+    fn eliminate(&mut self) -> Vec<u32> {
         let nodes = self.first.len();
         let mut order = Vec::with_capacity(nodes);
         let mut done = vec![false; nodes];
         // Nodes by degree, first come first served; those that have another degree by now are passed over.
-        let mut waiting: Vec<std::collections::VecDeque<u32>> = Vec::new();
-        let enqueue = |waiting: &mut Vec<std::collections::VecDeque<u32>>, degree: usize, node: u32| {
+        let mut waiting: Vec<VecDeque<u32>> = Vec::new();
+        let enqueue = |waiting: &mut Vec<VecDeque<u32>>, degree: usize, node: u32| {
             if waiting.len() <= degree {
                 waiting.resize_with(degree + 1, Default::default);
             }
@@ -186,7 +188,6 @@ impl Network {
                 pivot += weight;
                 at = next;
             }
-            budget = budget.checked_sub(least * least)?;
             let (ground, source) = (self.ground[i], self.source[i]);
             self.ground[i] = pivot;
             for &(to, weight) in &around {
@@ -214,7 +215,7 @@ impl Network {
                 least = least.min(degree);
             }
         }
-        Some(order)
+        order
     }
 
     /// Takes the link from `node` to `gone` out of use and notes in `slot` where the others are.

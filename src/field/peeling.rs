@@ -1,5 +1,15 @@
 //! The harmonic potential in windows, in order of falling values.
+//!
+//! What is known is a set of cells around the goals, at first the goals alone. A *window* is gathered from its border: the
+//! unknown cells down to a guessed depth, with the known values around. Its equations are solved in doubles, scaled to the
+//! greatest of these, as if the potential were 0 beyond it. Together with the values goes the probability that a walk
+//! comes out where the window was cut off: as the potential there is bounded by the maximum principle, so is what that
+//! adds to each value, and the values to which it adds nothing that a double could show are accepted. Errors do not grow
+//! on the way, they add up: values are sums of known ones with positive weights.
+//!
+//! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values.
 
+use super::harmonic::decay;
 use super::multigrid::Ends;
 use super::network::Network;
 use super::potential::Scaled;
@@ -7,7 +17,7 @@ use super::wide::Wide;
 use super::{Component, Potential};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::f64::consts::{LN_2, PI};
+use std::f64::consts::LN_2;
 
 /// No window.
 const NONE: u32 = u32::MAX;
@@ -21,12 +31,19 @@ const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
 /// Values below this part of the greatest are left to a later window, where they are great: far above the least double.
 const SMALLEST: f64 = 1e-200;
 
-/// Windows of no more cells than this are eliminated, ...
+/// Where nowhere is more room than this a window is eliminated: mazes, ...
+const NARROW: u32 = 3;
+/// ... and up to this room if it is a corridor, not a hall: the factor fills with the square of the width, ...
+const MEDIUM: u32 = 12;
+/// ... which is told by the number of cells, at most this, ...
 const SMALL: usize = 2000;
-/// ... and those where the room is no wider than this.
-const NARROW: u32 = 12;
-/// Values below this part of the greatest are not precise.
+/// ... and so many times the room's square: the depth of a window is 41 times the room, its width twice.
+const CORRIDOR: usize = 128;
+
+/// Wide windows are refined down to this part of the greatest value, ...
 const FLOOR: f64 = 1e-36;
+/// ... which leaves values from here on precise.
+const PRECISE: f64 = 1e-30;
 
 /// An accepted cell that may have neighbours yet to be accepted.
 #[derive(PartialEq)]
@@ -49,6 +66,7 @@ impl Ord for Front {
     }
 }
 
+/// The potential as far as it is known.
 pub(super) struct Peeling<'a> {
     component: &'a Component,
     /// What a walk loses to death, beside the weight 1 of each neighbour.
@@ -82,7 +100,6 @@ impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let room = component.room().widest;
         let widest = room.iter().copied().max().unwrap_or(0);
-        let theta = |room: u32| (2.0 - (PI / (2.0 * f64::from(room.max(1)))).cos()).acosh();
         let mut potential = Potential::zero(component.len());
         let mut front = BinaryHeap::new();
         for goal in 0..component.goals {
@@ -92,7 +109,7 @@ impl<'a> Peeling<'a> {
         Self {
             component,
             loss,
-            decay: (0..=widest).map(theta).collect(),
+            decay: (0..=widest).map(decay).collect(),
             room,
             potential,
             front,
@@ -106,10 +123,13 @@ impl<'a> Peeling<'a> {
         while let Some(window) = self.gather() {
             self.windows += 1;
             let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
-            let direct = window.cells.len() <= SMALL || widest <= NARROW;
+            let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);
+            let small = if widest <= MEDIUM { corridor } else { SMALL };
+            let direct = widest <= NARROW || window.cells.len() <= small;
             let wide = if direct { None } else { self.wide(&window).solve(FLOOR * window.greatest) };
-            let solution = wide.unwrap_or_else(|| self.network(&window).solve(usize::MAX).unwrap_or_default());
-            let accepted = self.accept(&window, &solution);
+            let least = if wide.is_some() { PRECISE } else { SMALLEST };
+            let solution = wide.unwrap_or_else(|| self.network(&window).solve());
+            let accepted = self.accept(&window, &solution, least);
             if 4 * accepted < window.cells.len() {
                 self.depth *= 1.5;
             }
@@ -254,7 +274,7 @@ impl<'a> Peeling<'a> {
     }
 
     /// Takes over the values that what is beyond the window has no part in; how many.
-    fn accept(&mut self, window: &Window, solution: &[[f64; 2]]) -> usize {
+    fn accept(&mut self, window: &Window, solution: &[[f64; 2]], least: f64) -> usize {
         // Values beyond are at most the greatest of those next to them: of known cells, or of the window's own, which
         // are at most their value here and their share of what is beyond.
         let mut beyond = window.beside;
@@ -268,17 +288,11 @@ impl<'a> Peeling<'a> {
         if value > 0.0 {
             beyond = if share < 1.0 { beyond.max(value / (1.0 - share)).min(window.greatest) } else { window.greatest };
         }
-        if std::env::var_os("DBG").is_some() {
-            eprintln!(
-                "value {value:e} share {share} beside {:e} greatest {:e} beyond {beyond:e}",
-                window.beside, window.greatest
-            );
-        }
         let mut taken = 0;
         let mut front = window.sources.clone();
         for (&position, &[u, e]) in window.cells.iter().zip(solution) {
             self.number[position as usize] = NONE;
-            if e * beyond <= NEGLIGIBLE * u && u >= SMALLEST * window.greatest {
+            if e * beyond <= NEGLIGIBLE * u && u >= least * window.greatest {
                 self.potential.set(position as usize, Scaled { mantissa: u, exponent: window.exponent }.normalized());
                 front.push(position);
                 taken += 1;

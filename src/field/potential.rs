@@ -59,17 +59,6 @@ impl Scaled {
             _ => 0.0,
         }
     }
-
-    /// The same number with `exponent` where its mantissa allows, else normalised.
-    pub fn keeping(self, exponent: i32) -> Self {
-        let mantissa = self.mantissa_at(exponent);
-        if is_normal(mantissa) { Self { mantissa, exponent } } else { self.normalized() }
-    }
-}
-
-/// Whether a mantissa may keep its exponent.
-pub(super) fn is_normal(mantissa: f64) -> bool {
-    (LEAST..=GREATEST).contains(&mantissa)
 }
 
 /// A positive value for every position of a [`Component`], zero for the wall. Each has an exponent of its own, so that

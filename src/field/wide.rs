@@ -1,4 +1,9 @@
-//! Wide windows: an iterative solver, refined until every value has its relative precision.
+//! Wide windows: multigrid, refined until every value has its relative precision.
+//!
+//! A solve leaves an error that is small beside the greatest value. The residual, in contrast, is known at each cell to
+//! some roundings of the values *there*: it is a sum of differences of neighbours. So the same solver is asked for the
+//! correction again, with the residuals of the cells that are precise already taken as 0: the greatest of the rest, and
+//! with it the error, falls by some digits each time, down to the floor, below which nothing is wanted.
 
 use super::multigrid::{Ends, Multigrid, Workspace};
 use super::network::SIDES;
@@ -6,27 +11,38 @@ use super::network::SIDES;
 /// No unknown.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Relative residual of a value at which it is precise: some roundings of the sum of four neighbours.
-const PRECISE: f64 = 16.0 * f64::EPSILON;
+/// Relative residual of a value at which it is precise: half of what walks lose a step
+/// ([`LOSS`](super::harmonic::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.
+const PRECISE: f64 = 64.0 * f64::EPSILON;
 
 /// Unknowns of a window: `(ground + number of neighbours) u = source + sum of the neighbours' u`.
 #[derive(Debug, Clone)]
 pub(super) struct Wide {
+    /// Rows and columns of the box that holds the window.
     pub cells: [usize; 2],
+    /// What is beyond the box: nothing, or its other end on a circle.
     pub ends: [Ends; 2],
+    /// Where in the box each unknown is.
     pub place: Vec<u32>,
+    /// Numbers of the neighbouring unknowns, or [`NONE`].
     pub neighbors: Vec<[u32; 4]>,
+    /// Neighbours that are known, and loss.
     pub ground: Vec<f64>,
+    /// Sums of known values: the potential, and 1 at what is cut off.
     pub source: Vec<[f64; SIDES]>,
 }
 
-/// Tolerance of a round.
+/// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
 const DIGITS: f64 = 1e-8;
 
-/// Rounds of refinement.
+/// Rounds of refinement: each gains some digits of the 36 that there are at the most.
 const ROUNDS: usize = 24;
 
+/// The error of the second side, which is not refined: above that of a round.
+const SHARE_ERROR: f64 = 1e-7;
+
 impl Wide {
+    /// No unknowns yet.
     pub fn new(cells: [usize; 2], ends: [Ends; 2]) -> Self {
         Self { cells, ends, place: Vec::new(), neighbors: Vec::new(), ground: Vec::new(), source: Vec::new() }
     }
@@ -41,12 +57,14 @@ impl Wide {
         free
     }
 
+    /// Both sides: the first precise down to `floor`, the second from above, within [`SHARE_ERROR`] of 1. Nothing if the
+    /// refinement does not get there.
     pub fn solve(&self, floor: f64) -> Option<Vec<[f64; SIDES]>> {
         let inner = Multigrid::new(self.cells, self.ends, &self.free(), 0.0);
         let mut workspace = inner.workspace();
         let u = self.side(&inner, &mut workspace, 0, floor, ROUNDS)?;
         let e = self.side(&inner, &mut workspace, 1, 1.0, 1)?;
-        Some(u.into_iter().zip(e).map(|(u, e)| [u, e + 1e-7]).collect())
+        Some(u.into_iter().zip(e).map(|(u, e)| [u, e + SHARE_ERROR]).collect())
     }
 
     fn side(

@@ -3,10 +3,12 @@
 use super::attach::Joined;
 use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::field::{Component, Lattice, Potential, harmonic};
+use crate::field::{Component, Lattice, Potential, harmonic, rough_harmonic};
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
-/// circles) and climbs it by the greatest neighbour (Connolly, Grupen 1993).
+/// circles) and climbs it by its gradient, interpolated between the cells (Connolly, Grupen 1993; [`Interpolated`]).
+///
+/// [`Interpolated`]: crate::field::Interpolated
 ///
 /// Complete on the grid: whatever the length of a corridor, the field has no local maximum but the goals (see
 /// [`crate::field::harmonic`]), so no path is found only if there is none between the cells.
@@ -48,7 +50,7 @@ impl Planner for Harmonic {
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             return Run {
                 outcome: Outcome::NoPath,
-                trace: trace(space, &component, &harmonic(&component).potential),
+                trace: trace(space, &component, &rough_harmonic(&component)),
                 size: Size::Grid { cells: component.len(), sweeps: 0 },
                 note: None,
             };

@@ -3,6 +3,7 @@
 mod commands;
 mod fields;
 mod inputs;
+mod mazes;
 mod results;
 
 use std::path::{Path, PathBuf};
