@@ -63,7 +63,7 @@ const PLANNERS: [(&str, Plan); 13] = [
 /// A field relaxed so far that it leads to the goal.
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
     let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-3, max_sweeps: 500 };
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120 };
     FieldPlanner { field, limits: Limits::High, shortcut: true }
 }
 
