@@ -30,5 +30,5 @@ pub use lattice::{Lattice, UNREACHED, Wave};
 pub use over_relaxation::{OverRelaxation, Progress};
 pub use potential::Potential;
 pub use relax::{RelaxError, Relaxed, relax, relax_from};
-pub use relaxation::{Factor, Lines, Order, Relaxation, Scan, Scheme};
+pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};
