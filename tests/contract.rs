@@ -7,9 +7,10 @@ mod common;
 
 use common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
+use cplan::field::Neighborhood;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
-use cplan::plan::{Harmonic, Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility, Wavefront};
+use cplan::plan::{GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility, Wavefront};
 use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
 
@@ -17,7 +18,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 9] = [
+const PLANNERS: [(&str, Plan); 12] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -29,8 +30,21 @@ const PLANNERS: [(&str, Plan); 9] = [
     }),
     ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
     ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
-    ("wavefront, cells", |scene, query| answered(&Wavefront { shortcut: false }, &cells(scene), query)),
-    ("wavefront, shortcut", |scene, query| answered(&Wavefront { shortcut: true }, &cells(scene), query)),
+    ("wavefront, cells", |scene, query| {
+        answered(&Wavefront { shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, shortcut", |scene, query| answered(&Wavefront::default(), &cells(scene), query)),
+    ("wavefront, 8 neighbours", |scene, query| {
+        let neighborhood = Neighborhood::Eight;
+        answered(&Wavefront { neighborhood, shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, A*, 8 neighbours", |scene, query| {
+        let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
+        answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
+    }),
+    ("wavefront, depth-first", |scene, query| {
+        answered(&Wavefront { search: GridSearch::DepthFirst, ..Wavefront::default() }, &cells(scene), query)
+    }),
     ("harmonic, cells", |scene, query| {
         answered(&Harmonic { shortcut: false, ..Harmonic::default() }, &cells(scene), query)
     }),

@@ -1,6 +1,7 @@
 //! The command line's words.
 
 use super::field_args::{FieldArgs, Variant};
+use super::search_args::SearchArgs;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -16,6 +17,7 @@ use std::path::PathBuf;
 Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
@@ -209,6 +211,8 @@ pub struct PlanArgs {
     pub optimum: OptimumArgs,
     #[command(flatten)]
     pub field: FieldArgs,
+    #[command(flatten)]
+    pub search: SearchArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,

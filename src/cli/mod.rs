@@ -11,6 +11,7 @@ mod inspect_text;
 mod output;
 mod plan;
 mod recheck;
+mod search_args;
 mod summary;
 mod verify;
 

@@ -9,10 +9,10 @@ use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::certify::ProofBox;
 use crate::input;
 use crate::model::Problem;
-use crate::plan::Size;
-use crate::solve::{Answer, Bound, Effort, Verdict, percent, solve};
+use crate::plan::{Size, Wavefront};
+use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::space::Metric;
-use crate::trajectory::{Optimum, Report, time};
+use crate::trajectory::{Optimum, Report, SearchUsed, time};
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -20,7 +20,8 @@ use crate::trajectory::{Optimum, Report, time};
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
-    if let Some(conflict) = args.optimum.conflict(args.planner) {
+    let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
+    if let Some(conflict) = conflict {
         return Err(Failure::Usage(conflict));
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
@@ -38,7 +39,8 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
         return Err(Failure::Usage(lack));
     }
     let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
-    let effort = Effort { metric, gap: args.optimum.gap, field, ..args.effort.effort() };
+    let wavefront = args.search.wavefront();
+    let effort = Effort { metric, gap: args.optimum.gap, field, wavefront, ..args.effort.effort() };
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
@@ -54,6 +56,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     }
     let mut report = report(problem, &answer, args.effort.period)?;
     report.field = field.map(|field| field_report(&field, &answer));
+    report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
     clock.stage("trajectory");
     if args.timings {
         report.timings = clock.milliseconds();
@@ -102,6 +105,7 @@ fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Fai
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
         Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
+        Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };
     Ok(report)
 }
@@ -115,5 +119,11 @@ impl From<Bound> for Optimum {
         };
         let gap = Some(bound.gap()).filter(|gap| gap.is_finite());
         Self { metric, weights, length: bound.upper, lower_bound: bound.lower, gap }
+    }
+}
+
+impl From<Wavefront> for SearchUsed {
+    fn from(planner: Wavefront) -> Self {
+        Self { search: planner.search.name(), neighbors: planner.neighborhood.count() }
     }
 }

@@ -96,7 +96,8 @@ pub fn text(
     for &goal in &loaded.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
-    lines.push(("planner", format!("{}: {}", answer.method, answer.run.size)));
+    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
+    lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     lines.extend(field.map(|field| ("field", field.to_string())));
     match &answer.verdict {

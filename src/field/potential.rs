@@ -36,6 +36,11 @@ impl Scaled {
         self
     }
 
+    /// Binary logarithm.
+    pub fn log2(self) -> f64 {
+        self.mantissa.log2() + f64::from(self.exponent) * f64::from(STEP)
+    }
+
     /// `2^log2`.
     pub fn exp2(log2: f64) -> Self {
         let exponent = (log2 / f64::from(STEP)).round();
@@ -91,6 +96,16 @@ impl Potential {
         mantissa.push(0.0);
         exponent.push(0);
         Self { mantissa, exponent }
+    }
+
+    /// Zero everywhere.
+    pub(super) fn zero(len: usize) -> Self {
+        Self { mantissa: vec![0.0; len + 1], exponent: vec![0; len + 1] }
+    }
+
+    /// Replaces the number at a position.
+    pub(super) fn set(&mut self, position: usize, value: Scaled) {
+        (self.mantissa[position], self.exponent[position]) = (value.mantissa, value.exponent);
     }
 
     /// The number at a position.

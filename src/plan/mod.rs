@@ -25,7 +25,7 @@ pub use funnel::{Passage, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
-pub use wavefront::Wavefront;
+pub use wavefront::{GridSearch, Wavefront};
 
 use crate::space::{Configuration, Path};
 use std::sync::Arc;
@@ -71,6 +71,13 @@ pub enum Size {
         /// Passes over them (levels of a wavefront).
         sweeps: usize,
     },
+    /// Cells of a grid as far as a search came.
+    Search {
+        /// Those whose neighbours were looked at.
+        expanded: usize,
+        /// Those that were reached.
+        labelled: usize,
+    },
 }
 
 impl std::fmt::Display for Size {
@@ -79,6 +86,9 @@ impl std::fmt::Display for Size {
         match *self {
             Size::Graph { nodes, edges } => write!(f, "{}, {}", counted(nodes, "node"), counted(edges, "edge")),
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
+            Size::Search { expanded, labelled } => {
+                write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
+            }
         }
     }
 }

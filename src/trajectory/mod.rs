@@ -18,7 +18,7 @@ mod tests;
 pub use csv::csv;
 pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
-pub use result::{INTERPOLATION, Optimum, Report, Status};
+pub use result::{INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory, time};
 pub use whole_file::{WriteError, check_writable, write_whole};

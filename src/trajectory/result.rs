@@ -41,6 +41,15 @@ pub struct Optimum {
     pub gap: Option<f64>,
 }
 
+/// How a grid was searched.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SearchUsed {
+    /// `wave`, `bfs`, `dfs`, `dijkstra` or `astar`.
+    pub search: &'static str,
+    /// 4, or 8 with diagonal moves.
+    pub neighbors: u8,
+}
+
 /// The result of a run. [`Report::json`] writes the fields in this order. Those that a
 /// script relies on are always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the others
 /// are left out when `None` or empty.
@@ -55,6 +64,9 @@ pub struct Report {
     pub name: Option<String>,
     /// Name of the planner.
     pub planner: String,
+    /// How the wavefront planner searched its grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub search: Option<SearchUsed>,
     /// Names of the joints in the URDF, base to tip.
     pub joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
@@ -83,7 +95,7 @@ pub struct Report {
     /// The field that was followed, if one was chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field: Option<FieldReport>,
-    /// How much the planner built: `nodes` and `edges`, or `cells` and `sweeps`.
+    /// How much the planner built: `nodes` and `edges`, `cells` and `sweeps`, or `cells` and `expanded` ones.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub size: BTreeMap<&'static str, usize>,
     /// Stages in the order in which they ran, with the milliseconds that each took; empty unless asked for, because they
@@ -142,6 +154,7 @@ impl Report {
             path: None,
             length: None,
             optimum: None,
+            search: None,
             certified: false,
             clearance: None,
             closest: None,
