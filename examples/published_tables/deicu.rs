@@ -159,7 +159,7 @@ pub const TABLES: [Table; 3] = [
                 [(310, Unmatched), (686, Unmatched)],
             ],
         ],
-        notes: &NOTES_1,
+        notes: NOTES_1,
     },
     Table {
         title: "Table 18: map 2, preference file 2",
@@ -186,7 +186,7 @@ pub const TABLES: [Table; 3] = [
                 [(277, Close(3.0)), (886, Unmatched)],
             ],
         ],
-        notes: &NOTES_2,
+        notes: NOTES_2,
     },
     Table {
         title: "Table 19: map 3 without its last four lines, preference file 2 in the map's bounds",
@@ -213,7 +213,7 @@ pub const TABLES: [Table; 3] = [
                 [(378, Unmatched), (1312, Unmatched)],
             ],
         ],
-        notes: &NOTES_3,
+        notes: NOTES_3,
     },
 ];
 
