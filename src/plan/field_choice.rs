@@ -61,8 +61,8 @@ pub enum FieldChoice {
 /// [`Levels::PROBABILITY`](crate::field::Levels::PROBABILITY), relaxed in relative precision, as far as doubles go.
 ///
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
-/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only [`Outcome::NoPath`](super::Outcome::NoPath)
-/// says that the cells hold none.
+/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
+/// [`Outcome::NoPath`](super::Outcome::NoPath) says that the cells hold none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldPlanner {
     /// The field.
