@@ -4,6 +4,7 @@
 //! error there cannot hide here.
 
 mod bands;
+mod blends;
 mod boxes;
 mod chain;
 mod channel;
@@ -18,6 +19,7 @@ mod recheck;
 mod slab;
 mod slabs;
 
+pub use blends::{CertifiedCurve, blend};
 pub use boxes::Cell;
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};

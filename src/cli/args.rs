@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use super::motion::MotionArgs;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -98,9 +99,6 @@ pub struct EffortArgs {
     /// Attempts, each finer than the one before.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=12))]
     pub levels: u8,
-    /// Time between two samples of the trajectory, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
-    pub period: f64,
 }
 
 impl EffortArgs {
@@ -185,7 +183,7 @@ fn share(text: &str) -> Result<f64, String> {
     number_in(text, |x| x > 0.0 && x <= 0.1, "of more than 0 and at most 0.1 (of the arm's reach)")
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
     number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)
 }
@@ -206,6 +204,8 @@ pub struct PlanArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub optimum: OptimumArgs,
+    #[command(flatten)]
+    pub motion: MotionArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
@@ -232,6 +232,8 @@ pub struct CompareArgs {
     pub query: QueryArgs,
     #[command(flatten)]
     pub effort: EffortArgs,
+    #[command(flatten)]
+    pub motion: MotionArgs,
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,

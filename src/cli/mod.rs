@@ -6,6 +6,7 @@ mod compare;
 mod failure;
 mod inspect;
 mod inspect_text;
+mod motion;
 mod output;
 mod plan;
 mod recheck;

@@ -1,0 +1,197 @@
+//! When a motion is where: the fastest passage along a path with blends.
+
+use super::corner::{Bounds, Corner};
+use super::limits::Limits;
+use super::profile::{Phase, State, passing, rest_to_rest};
+use super::sample::SHORTEST_INTERVAL;
+use crate::space::{Blend, BlendedPath, Configuration};
+
+/// A stretch of a path with the distance along it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Track {
+    Line(Line),
+    Corner(Corner),
+}
+
+/// A straight stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    from: Configuration,
+    to: Configuration,
+    length: f64,
+    direction: Configuration,
+    /// What the joints' limits allow along it.
+    speed: f64,
+    acceleration: f64,
+}
+
+impl Line {
+    fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
+        let offset = to - from;
+        // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
+        let length = offset[0].hypot(offset[1]);
+        let direction = offset / length;
+        let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        Self { from, to, length, direction, speed, acceleration }
+    }
+
+    fn at(&self, state: State) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = state;
+        let part = distance / self.length;
+        let between = |k: usize| {
+            let (a, b) = (self.from[k], self.to[k]);
+            // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
+            (a + (b - a) * part).clamp(a.min(b), a.max(b))
+        };
+        let position = Configuration::new(between(0), between(1));
+        [position, self.direction * speed, self.direction * acceleration]
+    }
+}
+
+impl Track {
+    /// Position, velocity and acceleration of the joints.
+    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+        match self {
+            Track::Line(line) => line.at(state),
+            Track::Corner(corner) => corner.at(state),
+        }
+    }
+
+    /// The longest interval between samples within a phase.
+    pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
+        match self {
+            Track::Line(_) => f64::INFINITY,
+            Track::Corner(corner) => corner.interval(phase, limits),
+        }
+    }
+}
+
+/// A track and the phases in which it is passed.
+pub(super) type Passage = (Track, Vec<Phase>);
+
+/// The passages along a path, in order, and the blends in use: waypoints whose blend is of no use are left out of them,
+/// and their corners are stopped at.
+pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Passage>) {
+    let corner = |waypoint: usize| curve.blend(waypoint).and_then(|blend: Blend| Corner::new(blend, limits));
+    let count = curve.radii().len();
+    let mut used = curve.clone();
+    for waypoint in (0..count).filter(|&w| curve.radii()[w] > 0.0) {
+        if corner(waypoint).is_none() {
+            used = used.with(waypoint, 0.0);
+        }
+    }
+    let mut passages = Vec::new();
+    let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
+    for run in stops.windows(2) {
+        let stopping = stopping(&used, run[0]..run[1], limits);
+        let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits)).flatten();
+        match blended.filter(|blended| duration(blended) <= duration(&stopping)) {
+            Some(blended) => passages.extend(blended),
+            None => {
+                used = (run[0] + 1..run[1]).fold(used, |used, waypoint| used.with(waypoint, 0.0));
+                passages.extend(stopping);
+            }
+        }
+    }
+    (used, passages)
+}
+
+/// Seconds.
+fn duration(passages: &[Passage]) -> f64 {
+    passages.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
+}
+
+/// From rest to rest on each leg from one waypoint to another.
+fn stopping(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Vec<Passage> {
+    let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
+    let passage = |leg: &[Configuration]| {
+        let line = Line::new(leg[0], leg[1], limits);
+        (Track::Line(line), rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL))
+    };
+    legs.map(passage).collect()
+}
+
+/// A part of a run over which the squared speed is linear, or on a line as fast as can be.
+enum Span {
+    Line(Line),
+    Part(Bounds),
+}
+
+impl Span {
+    /// The greatest squared speed at the beginning from which one of at most `most` at the end can be reached.
+    fn back(&self, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
+            Span::Part(bounds) => bounds.back(most),
+        }
+    }
+
+    /// The greatest squared speed at the end, at most `most`, that can be reached from one at the beginning.
+    fn onward(&self, from: f64, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(most),
+            Span::Part(bounds) => bounds.onward(from, most),
+        }
+    }
+}
+
+/// From rest at one waypoint to rest at another, with a blend at each between them.
+///
+/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
+/// of the run can still be driven, then from the beginning forwards the greatest that can be reached within that. On
+/// lines in closed form, on blends span by span. None if a phase would be too short to be sampled.
+fn blended(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
+    let tracks = tracks(curve, waypoints, limits)?;
+    let mut spans = Vec::new();
+    let mut counts = Vec::new();
+    for track in &tracks {
+        let before = spans.len();
+        match track {
+            Track::Line(line) => spans.push(Span::Line(*line)),
+            Track::Corner(corner) => spans.extend(corner.bounds(limits).into_iter().map(Span::Part)),
+        }
+        counts.push(spans.len() - before);
+    }
+    let mut most = vec![0.0; spans.len() + 1];
+    for (i, span) in spans.iter().enumerate().rev() {
+        most[i] = span.back(most[i + 1]);
+    }
+    let mut squared = vec![0.0; spans.len() + 1];
+    for (i, span) in spans.iter().enumerate() {
+        squared[i + 1] = span.onward(squared[i], most[i + 1]);
+    }
+    let mut passages = Vec::new();
+    let mut first = 0;
+    for (track, count) in tracks.into_iter().zip(counts) {
+        let squared = &squared[first..=first + count];
+        first += count;
+        let phases = match &track {
+            Track::Line(line) => {
+                let ends = [squared[0].sqrt(), squared[1].sqrt()];
+                passing(line.length, ends, line.speed, line.acceleration, SHORTEST_INTERVAL)?
+            }
+            Track::Corner(corner) => corner.phases(squared),
+        };
+        let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
+        if !phases.iter().all(lasts) {
+            return None;
+        }
+        passages.push((track, phases));
+    }
+    Some(passages)
+}
+
+fn tracks(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Track>> {
+    let q = curve.path().waypoints();
+    let mut from = q[waypoints.start];
+    let mut tracks = Vec::new();
+    for waypoint in waypoints.start + 1..=waypoints.end {
+        let blend = curve.blend(waypoint);
+        tracks.push(Track::Line(Line::new(from, blend.map_or(q[waypoint], |b| b.from), limits)));
+        if let Some(blend) = blend {
+            tracks.push(Track::Corner(Corner::new(blend, limits)?));
+            from = blend.to;
+        }
+    }
+    Some(tracks)
+}
