@@ -16,14 +16,19 @@ use super::profile::{Phase, State};
 use super::sample::SHORTEST_INTERVAL;
 use crate::space::{Blend, Configuration, HAIR};
 
-/// Spans of the sharpest corner. Gentler ones need fewer, with the root of the change of direction, for the same accuracy.
-const SPANS: f64 = 32.0;
+/// Spans of a blend to begin with.
+const SPANS: usize = 8;
 
-/// Spans of the gentlest: the speed may have to change along it, at the ends of spans only.
-const FEWEST_SPANS: f64 = 12.0;
+/// Spans of a blend at the most.
+const MOST_SPANS: usize = 64;
 
-/// Spans need not be shorter than this, seconds: what is lost by a coarse one is a small part of its own time.
-const SHORT_SPAN: f64 = 1e-3;
+/// A joint's acceleration changes by no more than this share of its limit over a span, if more spans can help it: half of
+/// it goes unused where the limit is reached at one end of the span.
+const ACCELERATION_STEP: f64 = 0.1;
+
+/// Likewise the speed, by this share of it: where acceleration and deceleration meet within a span, half of that change
+/// is lost.
+const SPEED_STEP: f64 = 0.2;
 
 /// Share of the limits that is left unused on a blend, so that the cubic through positions and velocities of two samples,
 /// by which many controllers and checks read a trajectory, keeps them too.
@@ -38,19 +43,36 @@ pub(super) struct Corner {
     spans: usize,
 }
 
+/// Seconds that a blend of so many spans has to last: each of them the least interval between samples, though it is
+/// passed several times as fast as the others.
+fn shortest(spans: usize) -> f64 {
+    8.0 * SHORTEST_INTERVAL * spans as f64
+}
+
 impl Corner {
     /// Prepares a blend; none if it is so small that it would be passed in hardly more than the interval between samples.
     pub(super) fn new(blend: Blend, limits: &Limits) -> Option<Self> {
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let mut corner = Self { blend, radius: blend.radius(), directions, spans: 1 };
+        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
         let speed = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
-        let accurate = (SPANS * ((directions[1] - directions[0]).norm() / 2.0).sqrt()).max(FEWEST_SPANS);
-        let lasts = corner.length() / speed;
-        corner.spans = accurate.min(lasts / SHORT_SPAN).ceil() as usize;
-        // Somewhere on the blend it may be passed faster than at this speed, though hardly several times.
-        (lasts > 8.0 * SHORTEST_INTERVAL * corner.spans as f64).then_some(corner)
+        (corner.length() / speed >= shortest(SPANS)).then_some(corner)
+    }
+
+    /// The same with twice the spans, if they are too coarse for these squared speeds at their ends.
+    pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
+        let bend = self.second_derivative();
+        let coarse = squared_speeds.windows(2).any(|z| {
+            let step = (z[1] - z[0]).abs();
+            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
+            // the change of z.
+            (0..2).any(|k| 1.5 * bend[k].abs() * step > ACCELERATION_STEP * limits.acceleration[k])
+                || step > 2.0 * SPEED_STEP * z[0].max(z[1])
+        });
+        let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
+        let finer = Self { spans: 2 * self.spans, ..self.clone() };
+        (coarse && finer.spans <= MOST_SPANS && lasts >= shortest(finer.spans)).then_some(finer)
     }
 
     /// Range of the parameter.

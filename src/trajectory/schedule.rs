@@ -135,50 +135,70 @@ impl Span {
     }
 }
 
-/// From rest at one waypoint to rest at another, with a blend at each between them.
-///
-/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
-/// of the run can still be driven, then from the beginning forwards the greatest that can be reached within that. On
-/// lines in closed form, on blends span by span. None if a phase would be too short to be sampled.
+/// From rest at one waypoint to rest at another, with a blend at each between them; blends are cut into more spans until
+/// these are fine enough. None if a phase would be too short to be sampled.
 fn blended(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
-    let tracks = tracks(curve, waypoints, limits)?;
-    let mut spans = Vec::new();
-    let mut counts = Vec::new();
-    for track in &tracks {
-        let before = spans.len();
-        match track {
-            Track::Line(line) => spans.push(Span::Line(*line)),
-            Track::Corner(corner) => spans.extend(corner.bounds(limits).into_iter().map(Span::Part)),
+    let mut tracks = tracks(curve, waypoints, limits)?;
+    let squared = loop {
+        let squared = squared_speeds(&tracks, limits);
+        let mut refined = false;
+        for (track, squared) in tracks.iter_mut().zip(&squared) {
+            if let Track::Corner(corner) = track
+                && let Some(finer) = corner.finer(squared, limits)
+            {
+                (*corner, refined) = (finer, true);
+            }
         }
-        counts.push(spans.len() - before);
-    }
-    let mut most = vec![0.0; spans.len() + 1];
-    for (i, span) in spans.iter().enumerate().rev() {
-        most[i] = span.back(most[i + 1]);
-    }
-    let mut squared = vec![0.0; spans.len() + 1];
-    for (i, span) in spans.iter().enumerate() {
-        squared[i + 1] = span.onward(squared[i], most[i + 1]);
-    }
-    let mut passages = Vec::new();
-    let mut first = 0;
-    for (track, count) in tracks.into_iter().zip(counts) {
-        let squared = &squared[first..=first + count];
-        first += count;
+        if !refined {
+            break squared;
+        }
+    };
+    let passage = |(track, squared): (Track, Vec<f64>)| {
         let phases = match &track {
             Track::Line(line) => {
                 let ends = [squared[0].sqrt(), squared[1].sqrt()];
                 passing(line.length, ends, line.speed, line.acceleration, SHORTEST_INTERVAL)?
             }
-            Track::Corner(corner) => corner.phases(squared),
+            Track::Corner(corner) => corner.phases(&squared),
         };
         let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
-        if !phases.iter().all(lasts) {
-            return None;
-        }
-        passages.push((track, phases));
+        phases.iter().all(lasts).then_some((track, phases))
+    };
+    tracks.into_iter().zip(squared).map(passage).collect()
+}
+
+/// The squared speeds of a motion from rest to rest along some tracks: of each track at its ends, of a corner at the ends of
+/// its spans.
+///
+/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
+/// of the way can still be driven, then from the beginning forwards the greatest that can be reached within that. On
+/// lines in closed form, on blends span by span.
+fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
+    let spans: Vec<Vec<Span>> = tracks
+        .iter()
+        .map(|track| match track {
+            Track::Line(line) => vec![Span::Line(*line)],
+            Track::Corner(corner) => corner.bounds(limits).into_iter().map(Span::Part).collect(),
+        })
+        .collect();
+    let mut next = 0.0;
+    let mut most: Vec<f64> = Vec::new();
+    for span in spans.iter().flatten().rev() {
+        most.push(next);
+        next = span.back(next);
     }
-    Some(passages)
+    let mut most = most.into_iter().rev();
+    let mut squared = 0.0;
+    let mut speeds = Vec::with_capacity(tracks.len());
+    for spans in spans {
+        let mut along = vec![squared];
+        for (span, most) in spans.iter().zip(&mut most) {
+            squared = span.onward(squared, most);
+            along.push(squared);
+        }
+        speeds.push(along);
+    }
+    speeds
 }
 
 fn tracks(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Track>> {

@@ -146,9 +146,9 @@ fn straight_motions_are_bang_bang() {
     // 1 m at 2 m/s2 and 0.5 m/s: 0.25 s to top speed, 0.0625 m.
     let scene = empty([0.5, 0.5], [2.0, 2.0]);
     assert!((duration(&scene, curve(&scene, &[[0.0, 0.0], [1.0, 0.0]], 1.0)) - 2.25).abs() < 1e-12);
-    // A corner without a turn costs next to nothing: the reserve on the blend.
+    // A corner without a turn costs next to nothing.
     let split = duration(&scene, curve(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]], 1.0));
-    assert!((2.25..2.2535).contains(&split), "{split}");
+    assert!((2.25..2.25 * 1.01).contains(&split), "{split}");
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
 }
 

@@ -92,7 +92,8 @@ fn tampered_results_are_caught() {
             worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
         };
         let (speed, pull) = (ratio(Limit::Velocity), ratio(Limit::Acceleration));
-        assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.1, "{name}: {speed}, {pull}");
+        // Nanoseconds make the accelerations of blends, whose samples lie close together, a little more than that.
+        assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.2, "{name}: {speed}, {pull}");
     }
 
     let (verdict, broken) = read(&with(&report, |t| t.velocity[0][1] = 0.25), Format::Csv, "a.csv");
