@@ -172,7 +172,7 @@ fn gap(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
 }
 
-fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
+pub(super) fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if allowed(value) => Ok(value),
         _ => Err(format!("must be a number {range}")),

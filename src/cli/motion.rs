@@ -1,10 +1,10 @@
 //! From a certified path to a motion: corners and time.
 
-use super::args::seconds;
+use super::args::{number_in, seconds};
 use super::failure::Failure;
 use crate::certify::{CertifiedCurve, CertifiedPath, blend};
 use crate::model::Problem;
-use crate::trajectory::{Limits, Timed, time};
+use crate::trajectory::{Limits, Timed, TipSpeed, time};
 use clap::Args;
 
 /// How to drive along a path.
@@ -17,6 +17,9 @@ pub struct MotionArgs {
     /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: Radius,
+    /// Greatest speed of the tip, metres a second; without it the joints alone have limits.
+    #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
+    pub tip_speed: Option<f64>,
 }
 
 /// How far corners may be rounded.
@@ -37,6 +40,10 @@ fn radius(text: &str) -> Result<Radius, String> {
     }
 }
 
+fn tip_speed(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0 (metres a second)")
+}
+
 impl MotionArgs {
     /// The motion along a path.
     ///
@@ -47,6 +54,8 @@ impl MotionArgs {
             Radius::None => CertifiedCurve::from(path.clone()),
             Radius::UpTo(greatest) => blend(&problem.scene, path, greatest, problem.scene.workspace.clearance),
         };
-        Ok(time(curve, &Limits::from(&problem.scene.arm.joints), self.period)?)
+        let arm = &problem.scene.arm;
+        let tip = self.tip_speed.map(|speed| TipSpeed { arm, speed });
+        Ok(time(curve, &Limits { tip, ..Limits::from(&arm.joints) }, self.period)?)
     }
 }

@@ -8,12 +8,14 @@
 //!
 //! - a joint's acceleration `q'' z + q' z' / 2` is linear in `s`: it keeps its limit if it does at both ends of the span;
 //! - its squared velocity `q'^2 z` is a cubic in `s`, which keeps its limit if its Bernstein coefficients do;
+//! - the tip keeps its limit if `z` keeps a bound that holds all over the span, which it does if it keeps it at both ends;
 //!
 //! and all of these are linear in `z0` and `z1`. `q(t)` is a polynomial of the fourth degree on each span.
 
 use super::limits::Limits;
 use super::profile::{Phase, State};
 use super::sample::SHORTEST_INTERVAL;
+use super::tip::{Part, TIP_STEP};
 use crate::space::{Blend, Configuration, HAIR};
 
 /// Spans of a blend to begin with.
@@ -63,12 +65,13 @@ impl Corner {
     /// The same with twice the spans, if they are too coarse for these squared speeds at their ends.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let bend = self.second_derivative();
-        let coarse = squared_speeds.windows(2).any(|z| {
+        let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q'' times
             // the change of z.
             (0..2).any(|k| 1.5 * bend[k].abs() * step > ACCELERATION_STEP * limits.acceleration[k])
                 || step > 2.0 * SPEED_STEP * z[0].max(z[1])
+                || limits.tip.is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_STEP * tip.speed)
         });
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
         let finer = Self { spans: 2 * self.spans, ..self.clone() };
@@ -86,6 +89,17 @@ impl Corner {
 
     fn first_derivative(&self, u: f64) -> Configuration {
         self.directions[0] * (1.0 - u) + self.directions[1] * u
+    }
+
+    /// A span as the tip sees it.
+    fn part(&self, span: usize) -> Part {
+        let middle = (span as f64 + 0.5) / self.spans as f64;
+        Part {
+            middle: self.blend.at(middle),
+            slope: self.first_derivative(middle),
+            bend: self.second_derivative(),
+            half: self.radius / self.spans as f64,
+        }
     }
 
     /// What the squared speeds at the ends of each span have to keep, in order.
@@ -108,6 +122,10 @@ impl Corner {
                 let bernstein =
                     [[p * p, 0.0], [2.0 * p * q / 3.0, p * p / 3.0], [q * q / 3.0, 2.0 * p * q / 3.0], [0.0, q * q]];
                 rows.extend(bernstein.map(|row| row.map(|c| c / velocity)));
+            }
+            if let Some(tip) = limits.tip {
+                let squared = ((1.0 - RESERVE) * tip.allowed(&self.part(i))).powi(2);
+                rows.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
             Bounds::new(rows)
         };

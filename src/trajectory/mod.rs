@@ -12,6 +12,7 @@ mod result;
 mod ros;
 mod sample;
 mod schedule;
+mod tip;
 mod whole_file;
 
 #[cfg(test)]
@@ -23,4 +24,5 @@ pub use limits::Limits;
 pub use result::{Blends, INTERPOLATION, Optimum, Report, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
+pub use tip::TipSpeed;
 pub use whole_file::{WriteError, check_writable, write_whole};

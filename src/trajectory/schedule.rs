@@ -4,7 +4,12 @@ use super::corner::{Bounds, Corner};
 use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::SHORTEST_INTERVAL;
+use super::tip::{Part, TIP_STEP};
 use crate::space::{Blend, BlendedPath, Configuration};
+use std::ops::Range;
+
+/// Parts of a straight stretch at the most.
+const MOST_PARTS: f64 = 1024.0;
 
 /// A stretch of a path with the distance along it.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +37,28 @@ impl Line {
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
         let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        let part =
+            Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
+        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
         Self { from, to, length, direction, speed, acceleration }
+    }
+
+    /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
+    fn parts(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+        let whole = Self::new(from, to, limits);
+        let own = limits.speed_along(whole.direction);
+        let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
+        let part = Part {
+            middle: from + (to - from) / 2.0,
+            slope: whole.direction,
+            bend: Configuration::zeros(),
+            half: whole.length / 2.0,
+        };
+        // The derivative of the tip's way may be off by this much where it matters: where it is more than speed / own.
+        let off = TIP_STEP * tip.speed / own;
+        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MOST_PARTS);
+        let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
+        (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
     }
 
     fn at(&self, state: State) -> [Configuration; 3] {
@@ -102,13 +128,19 @@ fn duration(passages: &[Passage]) -> f64 {
 }
 
 /// From rest to rest on each leg from one waypoint to another.
-fn stopping(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Vec<Passage> {
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Passage> {
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
-    let passage = |leg: &[Configuration]| {
-        let line = Line::new(leg[0], leg[1], limits);
-        (Track::Line(line), rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL))
+    let passages = |leg: &[Configuration]| {
+        let whole = || {
+            let line = Line::new(leg[0], leg[1], limits);
+            let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
+            vec![(Track::Line(line), phases)]
+        };
+        let parts = Line::parts(leg[0], leg[1], limits);
+        let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
+        driven.unwrap_or_else(whole)
     };
-    legs.map(passage).collect()
+    legs.flat_map(passages).collect()
 }
 
 /// A part of a run over which the squared speed is linear, or on a line as fast as can be.
@@ -129,16 +161,20 @@ impl Span {
     /// The greatest squared speed at the end, at most `most`, that can be reached from one at the beginning.
     fn onward(&self, from: f64, most: f64) -> f64 {
         match self {
-            Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(most),
+            Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
             Span::Part(bounds) => bounds.onward(from, most),
         }
     }
 }
 
-/// From rest at one waypoint to rest at another, with a blend at each between them; blends are cut into more spans until
+/// From rest at one waypoint to rest at another, with a blend at each between them. None if that cannot be sampled.
+fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
+    driven(tracks(curve, waypoints, limits)?, limits)
+}
+
+/// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
 /// these are fine enough. None if a phase would be too short to be sampled.
-fn blended(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
-    let mut tracks = tracks(curve, waypoints, limits)?;
+fn driven(mut tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
     let squared = loop {
         let squared = squared_speeds(&tracks, limits);
         let mut refined = false;
@@ -201,13 +237,14 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
-fn tracks(curve: &BlendedPath, waypoints: std::ops::Range<usize>, limits: &Limits) -> Option<Vec<Track>> {
+fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
     let mut from = q[waypoints.start];
     let mut tracks = Vec::new();
-    for waypoint in waypoints.start + 1..=waypoints.end {
+    for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
         let blend = curve.blend(waypoint);
-        tracks.push(Track::Line(Line::new(from, blend.map_or(q[waypoint], |b| b.from), limits)));
+        let leg = Line::parts(from, blend.map_or(corner, |b| b.from), limits);
+        tracks.extend(leg.into_iter().map(Track::Line));
         if let Some(blend) = blend {
             tracks.push(Track::Corner(Corner::new(blend, limits)?));
             from = blend.to;

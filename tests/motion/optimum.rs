@@ -5,13 +5,13 @@ use crate::{certified, curve, empty, limits, waypoints};
 use cplan::certify::CertifiedCurve;
 use cplan::model::Scene;
 use cplan::space::Configuration;
-use cplan::trajectory::{Limits, time};
+use cplan::trajectory::{Limits, TipSpeed, time};
 use proptest::prelude::*;
 
-/// First and second derivative of the path by a parameter, at steps of that parameter.
+/// The path and its first and second derivative by a parameter, at steps of that parameter.
 struct Grid {
     step: f64,
-    nodes: Vec<[Configuration; 2]>,
+    nodes: Vec<[Configuration; 3]>,
 }
 
 /// The stretches of a curve from its waypoints and radii, `per_unit` steps to a unit of length; several grids where the
@@ -25,7 +25,9 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
         let length = leg.norm() - radii[i] - radii[i + 1];
         let steps = (length * per_unit).ceil().max(200.0) as usize;
         let run = runs.last_mut().unwrap();
-        run.push(Grid { step: length / steps as f64, nodes: vec![[along, q(0.0, 0.0)]; steps + 1] });
+        let place = |j: usize| points[i] + along * (radii[i] + length * j as f64 / steps as f64);
+        let nodes = (0..=steps).map(|j| [place(j), along, q(0.0, 0.0)]).collect();
+        run.push(Grid { step: length / steps as f64, nodes });
         let r = radii[i + 1];
         if r > 0.0 {
             let next = points[i + 2] - points[i + 1];
@@ -33,7 +35,9 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
             let steps = (2.0 * r * per_unit).ceil().max(400.0) as usize;
             let node = |j: usize| {
                 let u = j as f64 / steps as f64;
-                [along * (1.0 - u) + onward * u, (onward - along) / (2.0 * r)]
+                let (from, to) = (points[i + 1] - along * r, points[i + 1] + onward * r);
+                let at = from * ((1.0 - u) * (1.0 - u)) + points[i + 1] * (2.0 * u * (1.0 - u)) + to * (u * u);
+                [at, along * (1.0 - u) + onward * u, (onward - along) / (2.0 * r)]
             };
             run.push(Grid { step: 2.0 * r / steps as f64, nodes: (0..=steps).map(node).collect() });
         } else if i + 2 < points.len() {
@@ -44,8 +48,16 @@ fn grids(curve: &CertifiedCurve, per_unit: f64) -> Vec<Vec<Grid>> {
 }
 
 /// The accelerations of the parameter that a squared speed allows at a node; none if the joints cannot keep to the path.
-fn allowed([first, second]: [Configuration; 2], z: f64, limits: &Limits) -> Option<[f64; 2]> {
+fn allowed([at, first, second]: [Configuration; 3], z: f64, limits: &Limits) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
+    if let Some(tip) = limits.tip {
+        // Central differences: the tip's way by the parameter.
+        let step = 1e-6;
+        let way = (tip.arm.tip_at(at + first * step) - tip.arm.tip_at(at - first * step)).norm() / (2.0 * step);
+        if way * way * z > tip.speed * tip.speed {
+            return None;
+        }
+    }
     for k in 0..2 {
         if first[k] * first[k] * z > limits.velocity[k] * limits.velocity[k] {
             return None;
@@ -78,7 +90,7 @@ fn optimum(curve: &CertifiedCurve, limits: &Limits, per_unit: f64) -> f64 {
     let mut total = 0.0;
     for run in grids(curve, per_unit) {
         // Steps with the node at which each begins; the last node of one grid is the first of the next.
-        let steps: Vec<(f64, [Configuration; 2])> = run
+        let steps: Vec<(f64, [Configuration; 3])> = run
             .iter()
             .flat_map(|grid| grid.nodes[..grid.nodes.len() - 1].iter().map(|node| (grid.step, *node)))
             .collect();
@@ -105,9 +117,12 @@ fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
     time(curve, &Limits::from(&scene.arm.joints), 0.01).unwrap().trajectory.duration()
 }
 
+/// Waypoints, limits of velocity and of acceleration, radius.
+type Case = (&'static [[f64; 2]], [f64; 2], [f64; 2], f64);
+
 /// Paths with the joints' limits: right angles, gentle turns, hairpins, short legs between long ones, one joint far slower
 /// than the other.
-const PATHS: [(&[[f64; 2]], [f64; 2], [f64; 2], f64); 12] = [
+const PATHS: [Case; 12] = [
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.3),
     (&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], [2.0, 3.0], [8.0, 12.0], 0.01),
     (&[[0.0, 0.0], [1.0, 0.2], [2.0, 0.0], [3.0, 0.3]], [2.0, 3.0], [8.0, 12.0], 0.4),
@@ -150,6 +165,33 @@ fn straight_motions_are_bang_bang() {
     let split = duration(&scene, curve(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]], 1.0));
     assert!((2.25..2.25 * 1.01).contains(&split), "{split}");
     assert!(duration(&scene, certified(&scene, &[[0.0, 0.0], [0.4, 0.0], [1.0, 0.0]])) > 2.49);
+}
+
+/// The tip's speed is bounded part by part, from which it loses a little on straight pieces.
+#[test]
+fn a_slow_tip_is_as_fast_as_it_may() {
+    for (kind, arm) in crate::common::all_kinds().into_iter().enumerate() {
+        let scene = crate::common::scene(arm, vec![]);
+        let curve = curve(&scene, &[[-0.6, 0.2], [0.4, 0.7], [0.9, -0.1]], f64::INFINITY);
+        for speed in [0.1, 0.4, 100.0] {
+            let tip = Some(TipSpeed { arm: &scene.arm, speed });
+            let limits = Limits { tip, ..Limits::from(&scene.arm.joints) };
+            for curve in [curve.clone(), curve.clone().without(1)] {
+                let timed = time(curve.clone(), &limits, 0.002).unwrap();
+                let (took, least) = (timed.trajectory.duration(), optimum(&timed.curve, &limits, 1000.0));
+                assert!(took >= 0.999 * least && took <= 1.015 * least, "kind {kind} at {speed}: {took} {least}");
+                let rows = |rows: &[[f64; 2]]| rows.iter().map(|row| q(row[0], row[1])).collect::<Vec<_>>();
+                let (at, rate) = (rows(&timed.trajectory.position), rows(&timed.trajectory.velocity));
+                let step = 1e-6;
+                let moved = |(at, rate): (&Configuration, &Configuration)| {
+                    (scene.arm.tip_at(at + rate * step) - scene.arm.tip_at(at - rate * step)).norm() / (2.0 * step)
+                };
+                let fastest = at.iter().zip(&rate).map(moved).fold(0.0, f64::max);
+                assert!(fastest <= speed * (1.0 + 1e-6), "kind {kind} at {speed}: {fastest}");
+                assert!(speed > 1.0 || fastest > 0.95 * speed, "kind {kind} at {speed}: {fastest}");
+            }
+        }
+    }
 }
 
 proptest! {
