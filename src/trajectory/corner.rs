@@ -22,7 +22,7 @@ use crate::space::{Blend, Configuration, HAIR};
 const SPANS: usize = 8;
 
 /// Spans of a blend at the most.
-const MOST_SPANS: usize = 64;
+const MOST_SPANS: usize = 256;
 
 /// A joint's acceleration changes by no more than this share of its limit over a span, if more spans can help it: half of
 /// it goes unused where the limit is reached at one end of the span.
@@ -30,7 +30,7 @@ const ACCELERATION_STEP: f64 = 0.1;
 
 /// Likewise the speed, by this share of it: where acceleration and deceleration meet within a span, half of that change
 /// is lost.
-const SPEED_STEP: f64 = 0.2;
+const SPEED_STEP: f64 = 0.1;
 
 /// Share of the limits that is left unused on a blend, so that the cubic through positions and velocities of two samples,
 /// by which many controllers and checks read a trajectory, keeps them too.

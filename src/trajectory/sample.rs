@@ -103,7 +103,7 @@ pub struct Timed {
 /// joints in step, as fast as the limits allow.
 ///
 /// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over up
-/// to 32 spans, on each of which the second derivative of the path's parameter is constant and both joints keep their
+/// to 256 spans, on each of which the second derivative of the path's parameter is constant and both joints keep their
 /// limits throughout (a thousandth of these stays unused there). Never slower than a motion that stops at every corner:
 /// between two stops that motion is taken where it is faster.
 ///

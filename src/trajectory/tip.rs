@@ -4,7 +4,7 @@ use crate::model::{Arm, Motion};
 use crate::space::Configuration;
 
 /// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
-pub(super) const TIP_STEP: f64 = 0.02;
+pub(super) const TIP_STEP: f64 = 0.01;
 
 /// Greatest speed of an arm's tip over the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,9 +50,11 @@ impl TipSpeed<'_> {
         let [b1, b2] = [part.bend[0].abs(), part.bend[1].abs()];
         let tip = arm.tip.coords;
         match (arm.joints[0].motion, arm.joints[1].motion) {
-            (Revolute { .. }, Revolute { .. }) => {
-                let (upper, fore) = (arm.offset.norm(), tip.norm());
-                upper * (w1 * w1 + b1) + fore * ((w1 + w2).powi(2) + b1 + b2)
+            (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
+                // What link 2 turns by.
+                let turn = |rate: Configuration| (s1 * rate[0] + s2 * rate[1]).abs();
+                let w = turn(part.slope) + turn(part.bend) * part.half;
+                arm.offset.norm() * (w1 * w1 + b1) + tip.norm() * (w * w + turn(part.bend))
             }
             (Revolute { .. }, Prismatic { direction }) => {
                 let radius = (arm.offset + direction * part.middle[1] + tip).norm() + w2 * part.half;
