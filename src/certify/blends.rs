@@ -92,6 +92,10 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         let share = |end: usize| if end == 0 || end == last { SHARE_OF_AN_END } else { SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
         let most = greatest.min(room(waypoint - 1)).min(room(waypoint + 1));
+        // A leg whose length is lost in the smallest of doubles has no room.
+        if most <= 0.0 {
+            continue;
+        }
         let judge = |radius: f64| {
             let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
             let mut search = Search::beside(&blended, scene, required, budget);
