@@ -1,10 +1,14 @@
-//! Grid planners: the wave at 1024 x 1024, the harmonic field at 256 x 256, and the shortening of a path.
+//! Grid planners: waves at 1024 x 1024 and 4096 x 4096, harmonic fields of rooms, mazes and a spiral, and the shortening of a path.
+
+#[path = "../tests/common/mazes.rs"]
+mod mazes;
+mod wave;
 
 use cplan::cspace::{Grid, Proves};
-use cplan::field::{Component, Lattice, harmonic};
+use cplan::field::{Component, FreeCells, Lattice, harmonic};
 use cplan::plan::{Planner, Query, Wavefront};
 use cplan::space::{Axis, Topology};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
 /// A torus of `n x n` cells with 25 boxes, scattered by the golden ratio.
@@ -32,23 +36,38 @@ fn fields(c: &mut Criterion) {
     let (start, goal) = ends(&grid);
     let query = Query { start: grid.center(start), goals: vec![grid.center(goal)] };
     let lattice = Lattice::new(&grid);
-    c.bench_function("wavefront/build 1024^2", |b| b.iter(|| Lattice::new(black_box(&grid))));
-    c.bench_function("wavefront/labels 1024^2", |b| b.iter(|| lattice.wave(black_box(&[goal]))));
+    let free = FreeCells::new(&grid);
+    c.bench_function("wavefront/build 1024^2", |b| b.iter(|| FreeCells::new(black_box(&grid))));
+    c.bench_function("lattice/build 1024^2", |b| b.iter(|| Lattice::new(black_box(&grid))));
+    c.bench_function("lattice/wave with its order 1024^2", |b| b.iter(|| lattice.wave(black_box(&[goal]))));
     for shortcut in [false, true] {
-        let planner = Wavefront { shortcut };
+        let planner = Wavefront { shortcut, ..Wavefront::default() };
         let name = format!("wavefront/query 1024^2{}", if shortcut { " with shortcut" } else { "" });
-        c.bench_function(&name, |b| b.iter(|| planner.query(&grid, &lattice, black_box(&query))));
+        c.bench_function(&name, |b| b.iter(|| planner.query(&grid, &free, black_box(&query))));
     }
 
-    let grid = boxes(256);
-    let lattice = Lattice::new(&grid);
-    let wave = lattice.wave(&[ends(&grid).1]);
-    let component = Component::new(&lattice, &wave);
+    let n = 1001;
+    let drawn = |n: usize, blocked: Vec<bool>| Grid {
+        topology: Topology { axes: [Axis::Interval { lower: 0.0, upper: 1.0 }; 2] },
+        proves: Proves::Sampled,
+        cells: [n, n],
+        blocked,
+    };
     let mut group = c.benchmark_group("harmonic");
     group.sample_size(10);
-    group.bench_function("component 256^2", |b| b.iter(|| Component::new(&lattice, black_box(&wave))));
-    group.bench_function("field to 1e-6, 256^2", |b| b.iter(|| harmonic(black_box(&component), None, 1e-6, 10_000)));
+    for (name, grid) in [
+        ("boxes 256^2", boxes(256)),
+        ("boxes 1024^2", boxes(1024)),
+        ("maze 1001^2", drawn(n, mazes::maze(n, 0))),
+        ("maze with loops 1001^2", drawn(n, mazes::maze(n, 100))),
+        ("spiral 451^2", drawn(451, mazes::spiral(451).0)),
+    ] {
+        let lattice = Lattice::new(&grid);
+        let component = Component::new(&lattice, &lattice.wave(&[ends(&grid).1]));
+        group.throughput(Throughput::Elements(component.len() as u64));
+        group.bench_function(name, |b| b.iter(|| harmonic(black_box(&component))));
+    }
 }
 
-criterion_group!(benches, fields);
+criterion_group!(benches, wave::wave, fields);
 criterion_main!(benches);

@@ -6,10 +6,14 @@
 mod common;
 
 use common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
-use cplan::cspace::{Grid, Regions, outer_grid, regions};
+use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
+use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
-use cplan::plan::{Harmonic, Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility, Wavefront};
+use cplan::plan::{
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace,
+    Trapezoid, Visibility, Wavefront,
+};
 use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
 
@@ -17,7 +21,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 9] = [
+const PLANNERS: [(&str, Plan); 13] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -29,13 +33,39 @@ const PLANNERS: [(&str, Plan); 9] = [
     }),
     ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
     ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
-    ("wavefront, cells", |scene, query| answered(&Wavefront { shortcut: false }, &cells(scene), query)),
-    ("wavefront, shortcut", |scene, query| answered(&Wavefront { shortcut: true }, &cells(scene), query)),
+    ("wavefront, cells", |scene, query| {
+        answered(&Wavefront { shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, shortcut", |scene, query| answered(&Wavefront::default(), &cells(scene), query)),
+    ("wavefront, 8 neighbours", |scene, query| {
+        let neighborhood = Neighborhood::Eight;
+        answered(&Wavefront { neighborhood, shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, A*, 8 neighbours", |scene, query| {
+        let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
+        answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
+    }),
     ("harmonic, cells", |scene, query| {
         answered(&Harmonic { shortcut: false, ..Harmonic::default() }, &cells(scene), query)
     }),
     ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
+    ("oriented, relaxed", |scene, query| {
+        let direction = Direction::of([1.0, 0.5]).expect("not zero");
+        let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
+    ("altered preferences, relaxed", |scene, query| {
+        let equation = EquationChoice::AlteredPreference { elsewhere: 0.05 };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
 ];
+
+/// A field relaxed so far that it leads to the goal.
+fn relaxed(equation: EquationChoice) -> FieldPlanner {
+    let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120 };
+    FieldPlanner { field, limits: Limits::High, shortcut: true }
+}
 
 /// Polygons grown by a margin far below the room in the scenes here.
 fn polygons(scene: &Scene, query: &Query) -> Regions {
@@ -154,6 +184,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
             (Trace::Wavefront { cells, labels: drawn }, Size::Grid { cells: reached, .. }) => {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == reached
+            }
+            (Trace::Wavefront { cells, labels: drawn }, Size::Search { expanded, labelled }) => {
+                drawn.len() == cells[0] * cells[1]
+                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+                    && expanded <= labelled
             }
             (Trace::Field { cells, potential }, Size::Grid { cells: reached, .. }) => {
                 potential.len() == cells[0] * cells[1] && potential.iter().filter(|p| p.is_finite()).count() == reached

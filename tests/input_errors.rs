@@ -1,6 +1,7 @@
 //! Bad input of every kind: refused with the file, the line, what is wrong, and the cure.
 
 use cplan::input::{InputError, Loaded, Overrides, load};
+use cplan::model::Region;
 use std::fs;
 
 /// A healthy two-link arm in the (x, y) plane.
@@ -294,4 +295,46 @@ fn overrides_replace_the_world() {
     for q in &problem.goals {
         assert!((problem.scene.arm.tip_at(*q) - cplan::geometry::Point::new(1.2, 1.0)).norm() < 1e-9);
     }
+}
+
+#[test]
+fn preferences_are_checked_like_obstacles() {
+    let with = |table: &str, parts: &[&str]| bad_world("[[obstacle]]", &format!("{table}\n[[obstacle]]"), parts);
+    let square = "[[0, 0], [1, 0], [1, 1], [0, 1]]";
+    for (table, parts) in [
+        (format!("polygon = {square}"), ["line 6", "missing key `epsilon`"]),
+        ("epsilon = 0.5".into(), ["line 6", "needs either `configurations` or `polygon`, it has neither"]),
+        (format!("epsilon = 1\npolygon = {square}\nconfigurations = {square}"), ["preference 1", "it has both"]),
+        (format!("epsilon = inf\npolygon = {square}"), ["line 7, column 11", "is not a finite number"]),
+        (format!("name = \"bay\"\nepsilon = 1\ncircle = {square}"), ["line 9", "unknown key `circle`"]),
+        (format!("epsilon = 1\ndirection = [0, 0]\npolygon = {square}"), ["line 8", "the direction has no length"]),
+        (format!("epsilon = 1\ndirection = [1]\npolygon = {square}"), ["line 8", "expected two numbers"]),
+        ("epsilon = 1\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]".into(), ["line 8", "is not a simple polygon"]),
+        (
+            "name = \"bay\"\nepsilon = 1\nconfigurations = [[0, 0], [101, 0], [0, 1]]".into(),
+            ["preference \"bay\"", "too wide"],
+        ),
+    ] {
+        with(&format!("[[preference]]\n{table}"), &parts);
+    }
+}
+
+#[test]
+fn preferences_reach_the_workspace() {
+    let tables = r#"
+[[preference]]
+epsilon = -0.5
+direction = [0, -2]
+configurations = [[0, 0], [1, 0], [1, 1]]
+[[preference]]
+name = "bay"
+epsilon = 1.5
+polygon = [[0, 0], [0, 1], [1, 1]]
+"#;
+    let loaded = load_files("arm.urdf", ARM, &format!("{WORLD}{tables}"), &Overrides::default()).unwrap();
+    let [first, second] = &loaded.problem.scene.workspace.preferences[..] else { panic!("two preferences") };
+    assert_eq!((first.name.as_str(), first.epsilon, first.direction), ("preference 1", -0.5, Some([0.0, -1.0])));
+    assert_eq!((second.name.as_str(), second.epsilon, second.direction), ("bay", 1.5, None));
+    assert!(matches!(&first.region, Region::Configurations(polygon) if polygon.corners().len() == 3));
+    assert!(matches!(&second.region, Region::Tip(polygon) if polygon.area() == 0.5));
 }

@@ -1,6 +1,7 @@
 //! Corners cut short as far as the clearance allows.
 
 use super::motion::{CertifiedPath, Nearest, Search};
+use super::vicinity::Vicinity;
 use crate::model::Scene;
 use crate::space::{Blend, BlendedPath};
 
@@ -86,6 +87,7 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
     if path.clearance() <= clearance {
         return blended;
     }
+    let vicinity = Vicinity::new(scene);
     let budget = LOOKS * scene.pairs().len();
     let last = q.len() - 1;
     for waypoint in 1..last {
@@ -99,7 +101,7 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
         let judge = |radius: f64| {
             let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
             let mut search = Search::beside(&blended, scene, required, budget);
-            scene.pairs().iter().try_for_each(|&pair| search.blend(pair, &blend)).ok()?;
+            search.blend(&vicinity, &blend).ok()?;
             Some((radius, search.proven, search.nearest))
         };
         if let Some((radius, clearance, nearest)) = largest(most, judge) {

@@ -99,13 +99,17 @@ impl<'a> Posture<'a> {
     /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
     /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
     pub(super) fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
-        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
-        let (center, extent) = disc(local);
-        let (fixed, around) = disc(piece);
-        let at = self.poses[pair.link] * center;
+        let (fixed, around) = disc(self.scene.piece(pair));
+        let (at, extent) = self.place(pair, deviation);
         let between = (at - fixed).norm();
         let scale = self.scene.arm.base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
-        between - extent - around - self.farthest_motion(pair, deviation) - ROUNDING * scale
+        between - extent - around - ROUNDING * scale
+    }
+
+    /// A disc that holds the part of a pair over `deviation`.
+    pub(super) fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
+        let (center, extent) = disc(self.scene.part(pair));
+        (self.poses[pair.link] * center, extent + self.farthest_motion(pair, deviation))
     }
 
     /// An upper bound on the signed distance of a pair over `deviation`: negative means stuck everywhere in it.

@@ -18,6 +18,7 @@ mod passage;
 mod recheck;
 mod slab;
 mod slabs;
+mod vicinity;
 
 pub use blends::{CertifiedCurve, blend};
 pub use boxes::Cell;

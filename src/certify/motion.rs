@@ -3,6 +3,7 @@
 use super::blends::CertifiedCurve;
 use super::deviation::{Deviation, Posture};
 use super::passage::along;
+use super::vicinity::Vicinity;
 use crate::model::{Contact, Pair, Scene};
 use crate::space::{Blend, Configuration, HAIR, Path};
 
@@ -10,8 +11,14 @@ use crate::space::{Blend, Configuration, HAIR, Path};
 /// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
 const TIGHTNESS: f64 = 0.9;
 
-/// Looks at pairs and pieces of a path before giving up: some seconds' worth.
+/// Looks at pairs and pieces of a path before giving up: some seconds' worth, ...
 const MAX_EVALUATIONS: usize = 5_000_000;
+/// ... and some for each straight piece: paths through mazes have hundreds of thousands.
+const EVALUATIONS_PER_PIECE: usize = 500;
+
+/// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
+/// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
+const BEYOND: f64 = 2.0;
 
 /// A path whose whole continuous motion is proven to be within the joint limits and to keep its clearance. Only
 /// [`certify`] makes one.
@@ -89,23 +96,26 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
             return Err(Rejection::OutOfLimits { waypoint, joint });
         }
     }
-    let mut search = Search::new(scene, clearance, MAX_EVALUATIONS);
+    let vicinity = Vicinity::new(scene);
+    let budget = MAX_EVALUATIONS + EVALUATIONS_PER_PIECE * path.waypoints().len();
+    let mut search = Search::new(scene, clearance, budget);
     for &q in path.waypoints() {
         let posture = Posture::new(scene, q);
-        for &pair in scene.pairs() {
-            let deviation = Deviation::Box([0.0, 0.0]);
+        let here = Deviation::Box([0.0, 0.0]);
+        vicinity.near(&posture, here, search.seen(), |pair| {
             // What is farther off than the nearest so far is of no interest.
-            if posture.apart(pair, deviation) < search.seen() {
-                search.see(q, Contact { pair, separation: posture.bound(pair, deviation).here })?;
+            if posture.apart(pair, here) < search.seen() {
+                search.see(q, Contact { pair, separation: posture.bound(pair, here).here })?;
             }
-        }
+            Ok(())
+        })?;
     }
     // A path that stays where it is has no segment, yet a clearance.
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
-        for &pair in scene.pairs() {
-            search.segment(pair, from, to)?;
-        }
+        let middle = Posture::new(scene, from + (to - from) * 0.5);
+        let along = Deviation::Along((to - from) * 0.5);
+        vicinity.near(&middle, along, BEYOND * search.target(), |pair| search.segment(pair, from, to))?;
     }
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
@@ -119,20 +129,19 @@ pub(super) struct Search<'a> {
     pub(super) proven: f64,
     /// Least distance seen.
     pub(super) nearest: Option<Nearest>,
-    evaluations: usize,
-    /// Evaluations after which pieces are halved no more.
+    /// Looks that are left.
     budget: usize,
 }
 
 impl<'a> Search<'a> {
     pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
-        Self { scene, required, proven: f64::INFINITY, nearest: None, evaluations: 0, budget }
+        Self { scene, required, proven: f64::INFINITY, nearest: None, budget }
     }
 
     /// A search that goes on from what is known of a motion.
     pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
         let (proven, nearest) = (known.clearance(), known.nearest());
-        Self { scene, required, proven, nearest, evaluations: 0, budget }
+        Self { scene, required, proven, nearest, budget }
     }
 
     /// Takes note of a distance on the path.
@@ -162,9 +171,12 @@ impl<'a> Search<'a> {
     }
 
     /// A blend and all that is no farther off it than a hair.
-    pub(super) fn blend(&mut self, pair: Pair, blend: &Blend) -> Result<(), Rejection> {
+    pub(super) fn blend(&mut self, vicinity: &Vicinity, blend: &Blend) -> Result<(), Rejection> {
         let (piece, hair) = (blend.piece(), HAIR * blend.radius());
-        self.curve(pair, |middle, half| along(&piece, middle - half, middle + half, hair))
+        let part = |middle: f64, half: f64| along(&piece, middle - half, middle + half, hair);
+        let (middle, deviation) = part(0.5, 0.5);
+        let posture = Posture::new(self.scene, middle);
+        vicinity.near(&posture, deviation, BEYOND * self.target(), |pair| self.curve(pair, part))
     }
 
     /// A curve given by what its part about a middle, so and so much to either side, is: a configuration, and the
@@ -175,7 +187,7 @@ impl<'a> Search<'a> {
         while let Some((middle, half)) = open.pop() {
             let (at, deviation) = part(middle, half);
             let posture = Posture::new(self.scene, at);
-            self.evaluations += 1;
+            self.budget = self.budget.saturating_sub(1);
             let apart = posture.apart(pair, deviation);
             if apart > 0.0 && apart >= self.target() {
                 self.proven = self.proven.min(apart);
@@ -186,7 +198,7 @@ impl<'a> Search<'a> {
             self.see(at, contact)?;
             if bounded.least >= self.target() {
                 self.proven = self.proven.min(bounded.least);
-            } else if self.evaluations > self.budget || half < f64::EPSILON {
+            } else if self.budget == 0 || half < f64::EPSILON {
                 return Err(Rejection::Undecided(Nearest { at, contact }));
             } else {
                 let quarter = half / 2.0;

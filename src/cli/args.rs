@@ -1,6 +1,9 @@
 //! The command line's words.
 
+use super::field_args::FieldArgs;
 use super::motion::MotionArgs;
+use super::search_args::SearchArgs;
+use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -16,6 +19,8 @@ use std::path::PathBuf;
 Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
+  cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
@@ -206,6 +211,8 @@ pub struct PlanArgs {
     pub optimum: OptimumArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
+    #[command(flatten)]
+    pub search: SearchArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
@@ -221,6 +228,9 @@ pub struct PlanArgs {
     /// No summary, no progress.
     #[arg(long)]
     pub quiet: bool,
+    // Last, because its heading is for all that follows.
+    #[command(flatten)]
+    pub field: FieldArgs,
 }
 
 /// Arguments of `compare`.
@@ -237,6 +247,10 @@ pub struct CompareArgs {
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,
+    /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
+    /// --direction 0,-1"; can be repeated.
+    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
+    pub with: Vec<Variant>,
     /// Print the table as JSON.
     #[arg(long, conflicts_with = "csv")]
     pub json: bool,

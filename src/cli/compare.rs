@@ -24,18 +24,23 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let problem = &loaded.problem;
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
+    let mut entries: Vec<_> = methods.into_iter().map(|method| (method.to_string(), method, effort)).collect();
+    for variant in &args.with {
+        let effort = variant.effort(effort, &problem.scene.workspace.preferences).map_err(Failure::Usage)?;
+        entries.push((variant.label.clone(), variant.method, effort));
+    }
     let mut answers = Vec::new();
     let mut rows = Vec::new();
-    for method in methods {
+    for (label, method, effort) in entries {
         if !args.quiet {
-            output::say(&format!("{method} ..."));
+            output::say(&format!("{label} ..."));
         }
         let answer = solve(problem, method, &effort, &mut |text| {
             if !args.quiet {
                 output::say(text);
             }
         });
-        rows.push(row(problem, &answer, &args.motion)?);
+        rows.push(row(problem, label, &answer, &args.motion)?);
         answers.push(answer);
     }
     let comparison = Comparison { problem: output::title(problem), length_unit: length_unit(problem), rows };
@@ -61,10 +66,10 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     })
 }
 
-fn row(problem: &Problem, answer: &Answer, motion: &MotionArgs) -> Result<Row, Failure> {
+fn row(problem: &Problem, planner: String, answer: &Answer, motion: &MotionArgs) -> Result<Row, Failure> {
     let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
     let mut row = Row {
-        planner: answer.method.name().into(),
+        planner,
         outcome: "unknown".into(),
         length: None,
         clearance: None,
@@ -102,9 +107,10 @@ fn draw(
     file: &std::path::Path,
 ) -> Result<(), Failure> {
     let contours = output::contours(&problem.scene);
-    let paths = answers.iter().filter_map(|answer| match &answer.verdict {
+    let named = comparison.rows.iter().zip(answers);
+    let paths = named.filter_map(|(row, answer)| match &answer.verdict {
         Verdict::Found(certified) => {
-            Some((format!("{}: {:.3}", answer.method, certified.path().length()), certified.path()))
+            Some((format!("{}: {:.3}", row.planner, certified.path().length()), certified.path()))
         }
         _ => None,
     });

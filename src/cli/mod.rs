@@ -4,13 +4,17 @@ mod args;
 mod check;
 mod compare;
 mod failure;
+mod field_args;
+mod field_report;
 mod inspect;
 mod inspect_text;
 mod motion;
 mod output;
 mod plan;
 mod recheck;
+mod search_args;
 mod summary;
+mod variant;
 mod verify;
 
 use args::{Cli, Command};

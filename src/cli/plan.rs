@@ -2,6 +2,7 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
+use super::field_report::field_report;
 use super::motion::MotionArgs;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
@@ -9,10 +10,10 @@ use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::input;
 use crate::model::Problem;
-use crate::plan::Size;
-use crate::solve::{Answer, Bound, Effort, Verdict, percent, solve};
+use crate::plan::{Size, Wavefront};
+use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::space::Metric;
-use crate::trajectory::{Optimum, Report, Timed};
+use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -20,9 +21,11 @@ use crate::trajectory::{Optimum, Report, Timed};
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
-    if let Some(conflict) = args.optimum.conflict(args.planner) {
+    let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
+    if let Some(conflict) = conflict {
         return Err(Failure::Usage(conflict));
     }
+    let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
     let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
     clock.stage("load");
@@ -33,8 +36,12 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
+    if let Some(lack) = args.field.lack(&problem.scene.workspace.preferences) {
+        return Err(Failure::Usage(lack));
+    }
     let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
-    let effort = Effort { metric, gap: args.optimum.gap, ..args.effort.effort() };
+    let wavefront = args.search.wavefront();
+    let effort = Effort { metric, gap: args.optimum.gap, field, wavefront, ..args.effort.effort() };
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
@@ -49,6 +56,8 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
         ));
     }
     let (mut report, curve) = report(problem, &answer, &args.motion)?;
+    report.field = field.map(|field| field_report(&field, &answer));
+    report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
     clock.stage("trajectory");
     if args.timings {
         report.timings = clock.milliseconds();
@@ -65,7 +74,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, curve.as_ref(), &report, &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &answer, curve.as_ref(), &report, field.as_ref(), &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,
@@ -105,6 +114,7 @@ fn report(
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
         Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
+        Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };
     Ok((report, followed))
 }
@@ -118,5 +128,11 @@ impl From<Bound> for Optimum {
         };
         let gap = Some(bound.gap()).filter(|gap| gap.is_finite());
         Self { metric, weights, length: bound.upper, lower_bound: bound.lower, gap }
+    }
+}
+
+impl From<Wavefront> for SearchUsed {
+    fn from(planner: Wavefront) -> Self {
+        Self { search: planner.search.name(), neighbors: planner.neighborhood.count() }
     }
 }

@@ -4,6 +4,7 @@ use super::output::Sink;
 use crate::certify::CertifiedCurve;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint, Scene};
+use crate::plan::FieldPlanner;
 use crate::solve::{Answer, Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric};
 use crate::trajectory::Report;
@@ -74,6 +75,7 @@ pub fn text(
     answer: &Answer,
     curve: Option<&CertifiedCurve>,
     report: &Report,
+    field: Option<&FieldPlanner>,
     sinks: &[Sink],
     clock: &Clock,
 ) -> String {
@@ -96,8 +98,10 @@ pub fn text(
     for &goal in &loaded.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
-    lines.push(("planner", format!("{}: {}", answer.method, answer.run.size)));
+    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
+    lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
+    lines.extend(field.map(|field| ("field", field.to_string())));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();

@@ -15,6 +15,7 @@ mod sampled;
 mod slabs;
 mod translation;
 mod union;
+mod zones;
 
 pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
@@ -24,6 +25,7 @@ pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regio
 pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_rows, outer_grid};
+pub use zones::{Zone, ZonedGrid};
 
 /// What a representation of free space proves about the real one.
 #[derive(Debug, Clone, Copy, PartialEq)]

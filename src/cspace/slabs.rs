@@ -43,6 +43,8 @@ pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid 
 /// touches it can move while joint 1 does so (a chord about the base), and a cell is blocked when its closed range of
 /// `q2` meets a forbidden interval. Each configuration of a blocked cell comes within `clearance + margin` of an
 /// obstacle, `margin` being that of the grid's [`Proves::Outer`].
+///
+/// Obstacle by obstacle, only in the rows where link 2 reaches it at all: `O(reached rows * contacts + cells)`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let rows = Rows::new(scene);
@@ -56,23 +58,32 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let bands = rows.bands(kept);
     let axis = grid.topology.axes[0];
     let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
-    let mut intervals = Vec::new();
-    for i in 0..cells[0] {
-        let q1 = grid.center(i * cells[1])[0];
-        let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
-        let half = h1 / 2.0 + WIDENING;
-        let banned = |band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
-        if bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(band, turn))) {
-            row.fill(true);
-            continue;
-        }
-        let (elbow, heading) = rows.elbow(q1);
-        for (index, motion) in rows.second_link_pairs().zip(&motions) {
-            intervals.clear();
-            let hits = rows.at_elbow(index, elbow, heading, kept + motion, &mut intervals);
-            intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
-            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_touched(row, start, end));
-        }
+    let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
+    let half = h1 / 2.0 + WIDENING;
+    let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
+    let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
+    let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| rows.elbow(q1))).collect();
+    for (row, _) in grid.blocked.chunks_mut(cells[1]).zip(&elbows).filter(|(_, elbow)| elbow.is_none()) {
+        row.fill(true);
+    }
+    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
+    for (index, motion) in rows.second_link_pairs().zip(&motions) {
+        let grow = kept + motion;
+        reached.clear();
+        let hits = rows.reach_range(index, grow, &mut reached);
+        on_axis(&scene.arm.joints[0], hits, &reached, |[start, end]| {
+            // One row more at either end, for the rounding of the range.
+            let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
+            let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
+            let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
+            for (row, elbow) in rows_within {
+                let &Some((elbow, heading)) = elbow else { continue };
+                intervals.clear();
+                let hits = rows.at_elbow(index, elbow, heading, grow, &mut intervals);
+                intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
+                on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_touched(row, start, end));
+            }
+        });
     }
     grid
 }

@@ -31,12 +31,10 @@ pub(super) fn free_space<'a>(
             }
         }
     }
-    let mut overlay = FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
-        &subject,
-        &blocked,
-        OverlayOptions::ogc(),
-        Solver::default(),
-    );
+    if blocked.len() > MANY {
+        blocked = united_by_neighbors(blocked);
+    }
+    let mut overlay = overlay(&subject, &blocked);
     let inside = |[x, y]: [f64; 2]| Point::new(x.clamp(left, right), y.clamp(bottom, top));
     overlay
         .overlay(OverlayRule::Difference, FillRule::NonZero)
@@ -47,6 +45,50 @@ pub(super) fn free_space<'a>(
             (polygon.area() > SLIVER_AREA).then_some(polygon)
         })
         .collect()
+}
+
+/// With more contours than this, neighbours are united before all of them are.
+const MANY: usize = 4 * GROUP;
+
+/// Contours that are united first.
+const GROUP: usize = 32;
+
+type Overlay = FloatOverlay<[f64; 2], i64>;
+
+fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
+    Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), Solver::default())
+}
+
+/// Contours with the same union, in which fewer cross: those of a map's neighbouring pixels overlap almost wholly, each with
+/// each, and of a group of them little more than the outline is left. Holes of the outlines are clockwise.
+fn united_by_neighbors(contours: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+    let middle = |contour: &[[f64; 2]], k: usize| {
+        let (low, high) =
+            contour.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[k]), h.max(p[k])));
+        low + (high - low) / 2.0
+    };
+    let mut placed: Vec<([f64; 2], Vec<[f64; 2]>)> =
+        contours.into_iter().map(|contour| ([0, 1].map(|k| middle(&contour, k)), contour)).collect();
+    let mut united = Vec::new();
+    let mut parts = vec![&mut placed[..]];
+    while let Some(part) = parts.pop() {
+        if part.len() > GROUP {
+            // Halved across its longer side.
+            let extent = |k: usize| {
+                let values = || part.iter().map(|(at, _)| at[k]);
+                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+            };
+            let k = usize::from(extent(1) > extent(0));
+            let half = part.len() / 2;
+            part.select_nth_unstable_by(half, |(a, _), (b, _)| a[k].total_cmp(&b[k]));
+            let (less, more) = part.split_at_mut(half);
+            parts.extend([less, more]);
+        } else {
+            let group: Vec<Vec<[f64; 2]>> = part.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect();
+            united.extend(overlay(&[], &group).overlay(OverlayRule::Union, FillRule::NonZero).into_iter().flatten());
+        }
+    }
+    united
 }
 
 /// The shifts by whole periods that bring an extent into touch with a range.
@@ -94,5 +136,38 @@ mod tests {
         let squares = [square(1.0, 1.0, 1.0), square(3.0, 3.0, 1.0)];
         let free = free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], squares.iter().map(Vec::as_slice));
         assert_eq!(free.len(), 2);
+    }
+
+    /// Unit squares among integer coordinates, of which every free one can be counted.
+    #[test]
+    fn many_squares_leave_what_none_of_them_covers() {
+        let n = 40_usize;
+        // 0, 7, 14, ... visits all places of the lattice in an order that jumps about.
+        for count in [MANY - 1, MANY + 1, 3 * MANY, 1500] {
+            let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
+            // A third of them are three wide, so that they overlap.
+            let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };
+            let mut covered = vec![[false; 40]; n];
+            let squares: Vec<Vec<Point>> = places
+                .iter()
+                .enumerate()
+                .map(|(i, &[x, y])| {
+                    covered[y][x..(x + width(i)).min(n)].fill(true);
+                    let (left, right) = (x as f64, (x + width(i)) as f64);
+                    let (low, high) = (y as f64, y as f64 + 1.0);
+                    [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Point::new(x, y)).to_vec()
+                })
+                .collect();
+            let side = (0.0, n as f64);
+            let free = free_space([side, side], [None, None], squares.iter().map(Vec::as_slice));
+            let open = covered.iter().flatten().filter(|c| !**c).count() as f64;
+            assert!((free.iter().map(Polygon::area).sum::<f64>() - open).abs() < 1e-6, "{count}: {open}");
+            for (y, row) in covered.iter().enumerate() {
+                for (x, covered) in row.iter().enumerate() {
+                    let middle = Point::new(x as f64 + 0.5, y as f64 + 0.5);
+                    assert_eq!(free.iter().any(|polygon| polygon.contains(middle)), !covered, "({x}, {y}) of {count}");
+                }
+            }
+        }
     }
 }

@@ -4,7 +4,7 @@ use super::axes::{Frame, Unit};
 use super::color::{self, INK, WHITE};
 use super::copies::Window;
 use super::figure::{Item, Rect, Spot, Step, Style, chain};
-use super::{Picture, boxes, page, trace};
+use super::{Picture, boxes, page, preferences, trace};
 use crate::cspace::CObstacle;
 use crate::geometry::{Point, cross};
 use crate::model::Joint;
@@ -35,6 +35,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
         inside.push(c_obstacle(contours, color::obstacle(index), &frame, &obstacles));
     }
     inside.extend(picture.trace.into_iter().flat_map(|t| trace::above(t, &frame, &topology, &paths)));
+    inside.extend(preferences::in_cspace(&picture.scene.workspace.preferences, &frame, &paths));
     if !picture.proof.is_empty() {
         inside.push(boxes::proof(picture.proof, &frame));
     }

@@ -3,7 +3,7 @@
 use super::Picture;
 use super::color::{self, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Label, Pen, Rect, Step, Style, rectangle, shortened, text_width};
-use super::{boxes, cspace, page, trace};
+use super::{boxes, cspace, page, preferences, trace};
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
@@ -40,6 +40,7 @@ pub fn keys(picture: &Picture) -> Vec<Key> {
     }
     keys.extend(picture.trace.map_or_else(Vec::new, trace::keys));
     keys.extend((!picture.proof.is_empty()).then(boxes::proof_key));
+    keys.extend(preferences::keys(&picture.scene.workspace.preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let obstacles = &picture.scene.workspace.obstacles;
     if obstacles.len() <= NAMED {

@@ -20,6 +20,7 @@ mod legend;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
+mod preferences;
 mod svg_writer;
 mod trace;
 mod workspace;

@@ -19,6 +19,8 @@ const LINES: usize = 20;
 /// Part of the cells that may lie below the lowest equipotential: the field goes on falling in dead ends that no one
 /// asks about, and would leave no lines for the rest.
 const TAIL: f64 = 0.02;
+/// The same for a potential that grows without bound towards obstacles.
+const SLOPES: f64 = 0.15;
 
 const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
 /// Part of white in the colours of surfaces, on which lines must stay legible.
@@ -56,7 +58,10 @@ pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window)
         }
         Trace::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, frame)).into(),
         Trace::Field { cells, potential } if potential.len() == cells[0] * cells[1] => {
-            equipotentials(*cells, potential, frame, topology)
+            equipotentials(*cells, potential, TAIL, frame, topology)
+        }
+        Trace::Potential { cells, heights } if heights.len() == cells[0] * cells[1] => {
+            equipotentials(*cells, &depths(heights), SLOPES, frame, topology)
         }
         _ => Vec::new(),
     }
@@ -77,7 +82,7 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
         }
         Trace::Boxes { .. } => boxes::keys(),
         Trace::Wavefront { .. } => Vec::new(),
-        Trace::Field { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
+        Trace::Field { .. } | Trace::Potential { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
     }
 }
 
@@ -89,15 +94,19 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
             Some(steps) => ("steps to the goal", steps.to_string(), "0".to_owned()),
             None => return Vec::new(),
         },
-        Trace::Field { potential, .. } => match span(potential) {
+        Trace::Field { potential, .. } => match span(potential, TAIL) {
             Some((low, high)) => ("ln of the potential", short(low), short(high)),
+            None => return Vec::new(),
+        },
+        Trace::Potential { heights, .. } => match span(&depths(heights), SLOPES) {
+            Some((low, high)) => ("potential", format!("{:.2}", -low), format!("{:.2}", -high)),
             None => return Vec::new(),
         },
         _ => return Vec::new(),
     };
     let (x, height) = (frame.rect.right() + 16.0, frame.rect.height.min(200.0));
     let rect = Rect { x, y: frame.rect.bottom() - height, width: 12.0, height };
-    let palette = palette(if matches!(trace, Trace::Field { .. }) { 0.0 } else { SOFT });
+    let palette = palette(if matches!(trace, Trace::Wavefront { .. }) { SOFT } else { 0.0 });
     let label = |at, text, upwards| {
         let (anchor, color) = if upwards { (Anchor::Middle, INK) } else { (Anchor::Start, GREY) };
         Item::Text(Label { at, text, size: 13.0, anchor, upwards, color })
@@ -154,17 +163,22 @@ fn shades(cells: [usize; 2], labels: &[u32], frame: &Frame) -> Raster {
     }
 }
 
-/// The values between which equipotentials are drawn.
-fn span(potential: &[f64]) -> Option<(f64, f64)> {
+/// What rises towards the goal where `heights` fall.
+fn depths(heights: &[f64]) -> Vec<f64> {
+    heights.iter().map(|height| -height).collect()
+}
+
+/// The values between which equipotentials are drawn; `tail` is the part of the cells below them.
+fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     let mut known: Vec<f64> = potential.iter().copied().filter(|v| v.is_finite()).collect();
     known.sort_by(f64::total_cmp);
-    let low = *known.get((known.len() as f64 * TAIL) as usize)?;
+    let low = *known.get((known.len() as f64 * tail) as usize)?;
     Some((low, *known.last()?))
 }
 
-/// Lines at equal distances of the logarithm.
-fn equipotentials(cells: [usize; 2], potential: &[f64], frame: &Frame, topology: &Topology) -> Vec<Item> {
-    let Some((low, high)) = span(potential) else { return Vec::new() };
+/// Lines at equal distances.
+fn equipotentials(cells: [usize; 2], potential: &[f64], tail: f64, frame: &Frame, topology: &Topology) -> Vec<Item> {
+    let Some((low, high)) = span(potential, tail) else { return Vec::new() };
     let samples = samples(cells, potential, topology);
     let line = |k: usize| {
         let part = (k as f64 + 0.5) / LINES as f64;
@@ -245,7 +259,7 @@ mod tests {
     #[test]
     fn a_field_without_values_has_no_lines() {
         let topology = Topology { axes: [Axis::Circle; 2] };
-        assert!(equipotentials([4, 4], &[f64::NEG_INFINITY; 16], &frame(), &topology).is_empty());
-        assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0]), Some((-3.0, 0.0)));
+        assert!(equipotentials([4, 4], &[f64::NEG_INFINITY; 16], TAIL, &frame(), &topology).is_empty());
+        assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], TAIL), Some((-3.0, 0.0)));
     }
 }

@@ -3,7 +3,7 @@
 use super::axes::{Frame, Range, Unit};
 use super::color::{self, GREY, INK, PALE, Rgb, WHITE};
 use super::figure::{Anchor, Item, Label, Rect, Step, Style, chain};
-use super::{Picture, page};
+use super::{Picture, page, preferences};
 use crate::geometry::{Convex, Point, cross};
 use crate::model::{Arm, Motion, Obstacle, Plane, Shape};
 use crate::space::{Configuration, Path};
@@ -26,6 +26,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     for (i, obstacle) in obstacles.iter().enumerate() {
         inside.push(obstacle_item(&frame, obstacle, color::obstacle(i)));
     }
+    inside.extend(preferences::in_workspace(&picture.scene.workspace.preferences, &frame));
     if let [(_, path)] = picture.paths[..] {
         for q in between(path, GHOSTS) {
             inside.extend(arm_items(&frame, arm, q, &GHOST));
@@ -98,19 +99,14 @@ fn swept(picture: &Picture) -> [Range; 2] {
     bounds
 }
 
-fn corners(shape: &Shape) -> (&[Point], f64) {
-    match shape {
-        Shape::Polygon(points) | Shape::Polyline(points) => (points, 0.0),
-        Shape::Circle { center, radius } => (std::slice::from_ref(center), *radius),
-    }
-}
-
 fn extent(obstacle: &Obstacle) -> [Range; 2] {
-    let (points, radius) = corners(&obstacle.shape);
-    [0, 1].map(|k| {
-        let all = || points.iter().map(|p| p[k]);
-        (all().fold(f64::INFINITY, f64::min) - radius, all().fold(f64::NEG_INFINITY, f64::max) + radius)
-    })
+    let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
+    for piece in &obstacle.pieces {
+        for (p, k) in piece.core().iter().flat_map(|p| [(p, 0), (p, 1)]) {
+            bounds[k] = (bounds[k].0.min(p[k] - piece.radius()), bounds[k].1.max(p[k] + piece.radius()));
+        }
+    }
+    bounds
 }
 
 /// Says so if obstacles lie outside the panel.
@@ -138,6 +134,10 @@ fn obstacle_item(frame: &Frame, obstacle: &Obstacle, color: Rgb) -> Item {
         Shape::Polyline(points) => {
             let wall = Style::line(color.darker(0.1), 3.0);
             Item::Outline(chain(points.iter().map(|p| frame.at(p.x, p.y)), false), wall)
+        }
+        Shape::Pieces => {
+            let steps = obstacle.pieces.iter().flat_map(|piece| outline(frame, piece)).collect();
+            Item::Outline(steps, Style { pen_below: true, ..solid })
         }
     }
 }

@@ -19,6 +19,10 @@ pub struct Component {
     pub goals: usize,
     /// Levels of the wave.
     pub levels: usize,
+    /// Shape of the grid.
+    pub shape: [usize; 2],
+    /// Position of each cell of the grid, or [`Component::wall`].
+    position: Vec<u32>,
 }
 
 impl Component {
@@ -39,7 +43,11 @@ impl Component {
         });
         let cells: Vec<u32> = wave.order.iter().map(|&framed| lattice.index(framed as usize) as u32).collect();
         let goals = cells.iter().take_while(|&&cell| wave.label(lattice, cell as usize) == 0).count();
-        Self { neighbors: neighbors.collect(), cells, goals, levels: wave.levels }
+        let neighbors = neighbors.collect();
+        position.truncate((rows + 1) * (columns + 2));
+        let position =
+            position.chunks_exact(columns + 2).skip(1).flat_map(|line| &line[1..=columns]).copied().collect();
+        Self { neighbors, cells, goals, levels: wave.levels, shape: [rows, columns], position }
     }
 
     /// Number of cells.
@@ -60,10 +68,17 @@ impl Component {
         self.cells.len()
     }
 
-    /// Position of cell `index` of the grid, by a search through all: for the few that a query asks for.
+    /// Position of cell `index` of the grid, if the wave came there.
     #[must_use]
     pub fn position_of(&self, index: usize) -> Option<usize> {
-        self.cells.iter().position(|&cell| cell as usize == index)
+        Some(self.position[index] as usize).filter(|&position| position != self.wall())
+    }
+
+    /// Row and column of a position.
+    #[must_use]
+    pub fn place(&self, position: usize) -> [usize; 2] {
+        let cell = self.cells[position] as usize;
+        [cell / self.shape[1], cell % self.shape[1]]
     }
 
     /// How much room there is at each position, in two ways. Linear.

@@ -4,6 +4,7 @@
 //! expect of the values of obstacles and goals. Lengths are counted in cells, so `epsilon` is a number per cell.
 
 use super::Domain;
+use std::fmt;
 
 /// How the slope in a drift term is discretised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -14,6 +15,15 @@ pub enum Difference {
     Central,
     /// The difference towards where the drift comes from: of first order, monotone for every drift.
     Upwind,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Central => "central differences",
+            Self::Upwind => "upwind differences",
+        })
+    }
 }
 
 /// A direction in the plane of joint values: a unit vector.

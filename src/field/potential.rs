@@ -36,6 +36,11 @@ impl Scaled {
         self
     }
 
+    /// Binary logarithm.
+    pub fn log2(self) -> f64 {
+        self.mantissa.log2() + f64::from(self.exponent) * f64::from(STEP)
+    }
+
     /// `2^log2`.
     pub fn exp2(log2: f64) -> Self {
         let exponent = (log2 / f64::from(STEP)).round();
@@ -54,17 +59,6 @@ impl Scaled {
             _ => 0.0,
         }
     }
-
-    /// The same number with `exponent` where its mantissa allows, else normalised.
-    pub fn keeping(self, exponent: i32) -> Self {
-        let mantissa = self.mantissa_at(exponent);
-        if is_normal(mantissa) { Self { mantissa, exponent } } else { self.normalized() }
-    }
-}
-
-/// Whether a mantissa may keep its exponent.
-pub(super) fn is_normal(mantissa: f64) -> bool {
-    (LEAST..=GREATEST).contains(&mantissa)
 }
 
 /// A positive value for every position of a [`Component`], zero for the wall. Each has an exponent of its own, so that
@@ -91,6 +85,16 @@ impl Potential {
         mantissa.push(0.0);
         exponent.push(0);
         Self { mantissa, exponent }
+    }
+
+    /// Zero everywhere.
+    pub(super) fn zero(len: usize) -> Self {
+        Self { mantissa: vec![0.0; len + 1], exponent: vec![0; len + 1] }
+    }
+
+    /// Replaces the number at a position.
+    pub(super) fn set(&mut self, position: usize, value: Scaled) {
+        (self.mantissa[position], self.exponent[position]) = (value.mantissa, value.exponent);
     }
 
     /// The number at a position.

@@ -69,14 +69,26 @@ impl fmt::Display for RelaxError {
 
 impl std::error::Error for RelaxError {}
 
-/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots, and a scheme that
-/// is not monotone may leave the range for good, but by nothing like this.
-const BEYOND: f64 = 1e12;
+/// A value greater than all at the start by this factor will not come back. Over-relaxation overshoots: under a drift `b`
+/// on the way against it by `exp(b / 2)` a cell, which may be many orders of magnitude, and converges all the same.
+const BEYOND: f64 = 1e100;
 
 /// Every so many sweeps values are looked at for divergence.
 const LOOKED_AT: usize = 16;
 
 /// Relaxes from [`Domain::start`]. A sweep costs some nanoseconds a free cell.
+///
+/// ```
+/// use cplan::field::*;
+///
+/// let kinds = [Cell::Goal, Cell::Free, Cell::Free, Cell::Obstacle].to_vec();
+/// let domain = Domain::new([1, 4], kinds, [Boundary::Reflecting; 2], Levels::PUBLISHED);
+/// let relaxation = Relaxation::sor(Factor::Given(1.1), Order::Corners(Lines::Rows));
+/// let stopping = Stopping { measure: Measure::SumOfChange, below: 1e-12, max_sweeps: 1_000 };
+/// let field = relax(&domain, &Equation::Harmonic, &relaxation, &stopping)?;
+/// assert!((field.values[1] - 1.0 / 3.0).abs() < 1e-9 && (field.values[2] - 2.0 / 3.0).abs() < 1e-9);
+/// # Ok::<(), RelaxError>(())
+/// ```
 ///
 /// # Errors
 /// [`RelaxError::Refused`] where equation and domain differ in size, or a factor is not positive; [`RelaxError::Diverged`].

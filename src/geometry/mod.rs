@@ -5,6 +5,7 @@
 //! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
 //! depth) is a plain `f64`. Touching counts as contact, everywhere.
 
+mod box_tree;
 mod convex;
 mod decompose;
 mod erosion;
@@ -21,6 +22,7 @@ mod separation;
 mod sliding;
 mod turning;
 
+pub use box_tree::{Bounds, BoxTree};
 pub use convex::Convex;
 pub use decompose::decompose;
 pub use hull::hull;

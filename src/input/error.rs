@@ -98,3 +98,9 @@ pub(super) fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> Strin
     let names: Vec<String> = names.into_iter().map(|n| format!("\"{}\"", n.as_ref())).collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
+
+/// A parser's message without the place at its end, which a defect gives at the beginning.
+pub(super) fn without_place(message: &str) -> String {
+    let message = message.lines().next().unwrap_or_default();
+    message.split(" at line ").next().unwrap_or(message).to_owned()
+}

@@ -1,6 +1,8 @@
 //! Files and options to a planning problem: URDF, world TOML, and errors that name the place and the cure.
 //!
 //! ```text
+//! .map, .yaml with .pgm or .png
+//!       |
 //! world.toml --+-> World ------------------+
 //!              |                           +--> Scene --+--> Problem
 //! arm.urdf ----+-> Arm (planar reduction) -+            |
@@ -12,13 +14,19 @@
 mod error;
 mod inspection;
 mod inverse;
+mod line_map;
+mod map_text;
+mod obstacle;
+mod occupancy;
 mod preference;
+mod preference_map;
 mod problem;
 mod source;
 mod trajectory;
 mod urdf;
 mod values;
 mod world;
+mod world_map;
 
 pub use error::{Defect, InputError};
 pub use inspection::{
@@ -26,6 +34,9 @@ pub use inspection::{
     RateEntry, RateSource, ReachEntry, Role,
 };
 pub use inverse::{Inverse, inverse};
+pub use line_map::{Chain, LineMap};
+pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
+pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use source::Position;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};

@@ -89,6 +89,18 @@ impl Source {
         }
     }
 
+    /// A defect at a line and column, both counted from 1, as parsers name places; 0 is unknown.
+    pub fn defect_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Defect {
+        if line == 0 {
+            return self.defect(message);
+        }
+        let mut lines = self.text.split_inclusive('\n');
+        let before: usize = lines.by_ref().take(line - 1).map(str::len).sum();
+        let inside = lines.next().unwrap_or("");
+        let at = inside.char_indices().nth(column.saturating_sub(1)).map_or(inside.trim_end().len(), |(i, _)| i);
+        self.defect_at(before + at..before + at + 1, message)
+    }
+
     fn excerpt(&self, position: Position, length: usize) -> String {
         let line = self.text.lines().nth(position.line - 1).unwrap_or("");
         let at = position.column - 1;

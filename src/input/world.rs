@@ -1,14 +1,16 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
+use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
 use super::source::Source;
-use crate::geometry::{Convex, Point, SimplePolygon};
-use crate::model::{Heights, Obstacle, Shape, Workspace};
+use super::world_map::{self, MapTable};
+use crate::geometry::Point;
+use crate::model::{Heights, Workspace};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 pub(super) type Number = Spanned<f64>;
@@ -79,6 +81,7 @@ struct WorldFile {
     robot: RobotTable,
     start: Option<StartTable>,
     goal: Option<Spanned<GoalTable>>,
+    map: Option<MapTable>,
     #[serde(default)]
     obstacle: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
@@ -96,23 +99,6 @@ struct StartTable {
 struct GoalTable {
     joints: Option<Numbers>,
     tip: Option<Numbers>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ObstacleTable {
-    name: Option<String>,
-    polygon: Option<Spanned<Vec<Numbers>>>,
-    circle: Option<CircleTable>,
-    polyline: Option<Spanned<Vec<Numbers>>>,
-    height: Option<Numbers>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CircleTable {
-    center: Numbers,
-    radius: Number,
 }
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
@@ -137,14 +123,18 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
     let goal = file.goal.as_ref().map(|g| reader.goal(g)).transpose()?;
-    let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| reader.obstacle(i, o)).collect::<Result<_, _>>()?;
+    let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
+    let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
+    let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
+    obstacles.extend(map.obstacles);
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
-    let preferences = preferences.collect::<Result<_, _>>()?;
+    let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
+    preferences.extend(map.preferences);
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
-        goal,
+        goal: goal.or(map.goal.map(|(tip, at)| (WorldGoal::Tip(tip), at))),
         robot: file.robot,
         source,
     })
@@ -195,7 +185,7 @@ impl Reader<'_> {
         }
     }
 
-    fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Defect> {
+    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Defect> {
         self.two(numbers, what).map(Point::from)
     }
 
@@ -211,69 +201,25 @@ impl Reader<'_> {
         }
     }
 
-    fn obstacle(&self, index: usize, table: &Spanned<ObstacleTable>) -> Result<Obstacle, Defect> {
-        let obstacle = table.get_ref();
-        let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
-        let what = format!("obstacle \"{name}\"");
-        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline) {
-            (Some(corners), None, None) => self.polygon(corners, &what)?,
-            (None, Some(circle), None) => self.circle(circle, &what)?,
-            (None, None, Some(points)) => self.polyline(points, &what)?,
-            (polygon, circle, polyline) => {
-                let count = [polygon.is_some(), circle.is_some(), polyline.is_some()].iter().filter(|x| **x).count();
-                let message = format!("{what} needs exactly one shape, it has {count}");
-                return Err(self
-                    .source
-                    .defect_at(table.span(), message)
-                    .cure("give it one of polygon, circle, polyline; a second shape is an [[obstacle]] of its own"));
-            }
-        };
-        let heights = match &obstacle.height {
-            None => Heights::ALL,
-            Some(height) => {
-                let [lower, upper] = self.two(height, &format!("{what}, height"))?;
-                if lower > upper {
-                    let message = format!("{what}: height [{lower}, {upper}] is empty");
-                    return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
-                }
-                Heights { lower, upper }
-            }
-        };
-        Ok(Obstacle { name, shape, pieces, heights })
+    /// The path of a file that the world names, relative to itself.
+    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
+        let path = self.source.path.with_file_name(name.get_ref());
+        if path.is_file() {
+            return Ok(path);
+        }
+        let message = format!("{what}: there is no file {}", path.display());
+        Err(self.source.defect_at(name.span(), message).cure("paths are relative to the world file"))
     }
 
-    fn polygon(&self, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let points = self.points(corners, what)?;
-        let polygon = SimplePolygon::new(points).map_err(|defect| {
-            self.source
-                .defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}"))
-                .cure("list the corners in order round the shape, each once; a wall without area is a polyline")
-        })?;
-        Ok((Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces()))
-    }
-
-    fn circle(&self, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let center = self.point(&circle.center, &format!("{what}, center"))?;
-        let radius = self.finite(&circle.radius, &format!("{what}, radius"))?;
-        if radius <= 0.0 {
-            let message = format!("{what}: the radius must be positive, is {radius}");
-            return Err(self.source.defect_at(circle.radius.span(), message));
+    /// Heights, all if there are none.
+    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Defect> {
+        let Some(height) = height else { return Ok(Heights::ALL) };
+        let [lower, upper] = self.two(height, &format!("{what}, height"))?;
+        if lower > upper {
+            let message = format!("{what}: height [{lower}, {upper}] is empty");
+            return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
         }
-        Ok((Shape::Circle { center, radius }, vec![Convex::disc(center, radius)]))
-    }
-
-    fn polyline(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-        let corners = self.points(points, what)?;
-        if corners.len() < 2 {
-            let message = format!("{what}: a polyline needs at least two points, it has {}", corners.len());
-            return Err(self.source.defect_at(points.span(), message));
-        }
-        if let Some(i) = corners.windows(2).position(|w| w[0] == w[1]) {
-            let message = format!("{what}: points {} and {} of the polyline are the same", i + 1, i + 2);
-            return Err(self.source.defect_at(points.get_ref()[i + 1].span(), message).cure("leave one of them out"));
-        }
-        let pieces = corners.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
-        Ok((Shape::Polyline(corners), pieces))
+        Ok(Heights { lower, upper })
     }
 
     pub fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {

@@ -32,11 +32,13 @@ pub enum Shape {
     Circle {
         /// Its centre.
         center: Point,
-        /// Its radius, metres; positive.
+        /// Its radius, metres; 0 for a point.
         radius: f64,
     },
     /// A thin wall.
     Polyline(Vec<Point>),
+    /// The union of the obstacle's pieces, such as the occupied cells of a map.
+    Pieces,
 }
 
 /// Something the arm must not touch.

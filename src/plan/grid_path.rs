@@ -3,6 +3,7 @@
 use super::attach::{Attachment, Joined};
 use super::{Query, shortcut};
 use crate::cspace::Grid;
+use crate::field::{Component, Interpolated, Place, Potential};
 use crate::space::{Configuration, Path};
 
 /// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
@@ -77,19 +78,58 @@ fn goal_at<'a>(
 /// a goal) to the exact goal; shortened if wanted. The pieces between a configuration and a cell that does not contain
 /// it are not proven by the grid. Nothing if the cells are not such a chain.
 pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], shorten: bool) -> Option<Path> {
-    let mut line = unwrap(grid, cells, query.start);
-    let (goal, attachment) = goal_at(grid, query, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
-    if cells.len() == 1 && joined.start.contained && attachment.contained {
-        return Some(Path::new(vec![query.start, goal]));
+    let line = unwrap(grid, cells, query.start);
+    let goal = goal_at(grid, query, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
+    Some(complete(grid, query, joined, line, goal, shorten))
+}
+
+/// The path from the exact start up the potential, interpolated between cells ([`Interpolated::ascend`]), to the exact
+/// goal; shortened if wanted. It stays in free cells, but for the pieces between a configuration and a cell that does not
+/// contain it. `start` is the position of a cell joined to the start. Nothing if the potential does not lead to a goal.
+pub(super) fn ascent(
+    grid: &Grid,
+    query: &Query,
+    joined: &Joined,
+    (component, potential): (&Component, &Potential),
+    start: usize,
+    shorten: bool,
+) -> Option<Path> {
+    let columns = grid.cells[1];
+    let position = |[i, j]: Place| component.position_of(place(grid, 0, i)? * columns + place(grid, 1, j)?);
+    let center = unwrap(grid, &[component.cells[start] as usize], query.start);
+    let from = if joined.start.contained { to_lattice(grid, query.start) } else { center[0] };
+    // Cells are counted from their corners here, from their centres there.
+    let streamline = Interpolated::new(component, potential, position).ascend(from.map(|x| x - 0.5))?;
+    let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
+    let end = streamline.place.map(|x| x as f64 + 0.5);
+    let cell = component.cells[streamline.goal] as usize;
+    let goal = goal_at(grid, query, joined, cell, from_lattice(grid, end))?;
+    if !goal.1.contained {
+        line.push(end);
     }
-    // A configuration that is the centre of its cell, up to rounding, takes the centre's place.
+    Some(complete(grid, query, joined, line, goal, shorten))
+}
+
+/// A line completed to a path from the exact start to the exact goal, shortened if wanted.
+fn complete(
+    grid: &Grid,
+    query: &Query,
+    joined: &Joined,
+    mut line: Line,
+    (goal, attachment): (Configuration, &Attachment),
+    shorten: bool,
+) -> Path {
+    if line.len() == 1 && joined.start.contained && attachment.contained {
+        return Path::new(vec![query.start, goal]);
+    }
+    // A configuration that is at an end of the line, up to rounding, takes its place.
     let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
     let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
-    let ends = cells.len() - 1;
+    let ends = line.len() - 1;
     let mut at = 0..;
-    line.retain(|center| {
+    line.retain(|point| {
         let k = at.next();
-        (k != Some(0) || apart(center, from)) && (k != Some(ends) || apart(center, to))
+        (k != Some(0) || apart(point, from)) && (k != Some(ends) || apart(point, to))
     });
     line.insert(0, from);
     line.push(to);
@@ -97,5 +137,5 @@ pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize],
         line = shortcut::shortcut(grid, &line);
     }
     let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
-    Some(Path::new(std::iter::once(query.start).chain(inner).chain([goal]).collect()))
+    Path::new(std::iter::once(query.start).chain(inner).chain([goal]).collect())
 }

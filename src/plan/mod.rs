@@ -4,6 +4,8 @@ mod attach;
 mod boundary;
 mod channel;
 mod decomposition;
+mod field_choice;
+mod field_planner;
 mod funnel;
 mod grid_path;
 mod harmonic;
@@ -18,11 +20,12 @@ mod trapezoid;
 mod visibility;
 mod wavefront;
 
+pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 pub use funnel::{Passage, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
-pub use wavefront::Wavefront;
+pub use wavefront::{GridSearch, Wavefront};
 
 use crate::space::{Configuration, Path};
 use std::sync::Arc;
@@ -68,6 +71,13 @@ pub enum Size {
         /// Passes over them (levels of a wavefront).
         sweeps: usize,
     },
+    /// Cells of a grid as far as a search came.
+    Search {
+        /// Those whose neighbours were looked at.
+        expanded: usize,
+        /// Those that were reached.
+        labelled: usize,
+    },
 }
 
 impl std::fmt::Display for Size {
@@ -76,6 +86,9 @@ impl std::fmt::Display for Size {
         match *self {
             Size::Graph { nodes, edges } => write!(f, "{}, {}", counted(nodes, "node"), counted(edges, "edge")),
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
+            Size::Search { expanded, labelled } => {
+                write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
+            }
         }
     }
 }
@@ -121,13 +134,20 @@ pub enum Trace {
         /// One a cell.
         potential: Vec<f64>,
     },
+    /// A potential that paths descend, for every cell; infinite where there is none.
+    Potential {
+        /// Shape of the grid.
+        cells: [usize; 2],
+        /// One a cell.
+        heights: Vec<f64>,
+    },
 }
 
 /// What a run that ended well has to add.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
     /// The field was not relaxed to the tolerance asked for: the way through it is a way, but not the one that the
-    /// harmonic function would show.
+    /// solution of its equation would show.
     Unconverged {
         /// Passes over all cells, until the limit.
         sweeps: usize,

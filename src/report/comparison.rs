@@ -71,12 +71,13 @@ impl Comparison {
     /// Comma-separated values (RFC 4180) in SI units with full precision; empty where there is nothing.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        const HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,\
+        const HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
                               build_s,query_s,certify_s,note\n";
         let mut text = HEADER.to_owned();
         for row in &self.rows {
             let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
-            let [nodes, edges, cells, sweeps] = counts(row.size).map(|n| n.map_or_else(String::new, |n| n.to_string()));
+            let [nodes, edges, cells, sweeps, expanded] =
+                counts(row.size).map(|n| n.map_or_else(String::new, |n| n.to_string()));
             let fields = [
                 quoted(&row.planner),
                 quoted(&row.outcome),
@@ -88,6 +89,7 @@ impl Comparison {
                 edges,
                 cells,
                 sweeps,
+                expanded,
                 number(row.build),
                 number(row.query),
                 number(row.certify),
@@ -107,6 +109,9 @@ impl Comparison {
                 None => serde_json::Value::Null,
                 Some(Size::Graph { nodes, edges }) => serde_json::json!({ "nodes": nodes, "edges": edges }),
                 Some(Size::Grid { cells, sweeps }) => serde_json::json!({ "cells": cells, "sweeps": sweeps }),
+                Some(Size::Search { expanded, labelled }) => {
+                    serde_json::json!({ "cells": labelled, "expanded": expanded })
+                }
             };
             serde_json::json!({
                 "planner": row.planner,
@@ -157,12 +162,13 @@ fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
     value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
 }
 
-/// Nodes, edges, cells, sweeps.
-fn counts(size: Option<Size>) -> [Option<usize>; 4] {
+/// Nodes, edges, cells, sweeps, expanded cells.
+fn counts(size: Option<Size>) -> [Option<usize>; 5] {
     match size {
-        None => [None; 4],
-        Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None],
-        Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps)],
+        None => [None; 5],
+        Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None, None],
+        Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps), None],
+        Some(Size::Search { expanded, labelled }) => [None, None, Some(labelled), None, Some(expanded)],
     }
 }
 
@@ -246,10 +252,10 @@ mod tests {
     #[test]
     fn csv_is_quoted_and_has_empty_fields() {
         insta::assert_snapshot!(example().to_csv(), @r#"
-    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,build_s,query_s,certify_s,note
-    visibility,found,4,1,0.0011,3.25,512,2300,,,0.0021,0.000412,0.001,
-    harmonic,found,5,1.25,0.0125,4,,,65536,40,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4"
-    "a, ""b"" | c",unknown,,,,,,,,,,,,
+    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,build_s,query_s,certify_s,note
+    visibility,found,4,1,0.0011,3.25,512,2300,,,,0.0021,0.000412,0.001,
+    harmonic,found,5,1.25,0.0125,4,,,65536,40,,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4"
+    "a, ""b"" | c",unknown,,,,,,,,,,,,,
     "#);
     }
 

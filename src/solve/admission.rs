@@ -5,7 +5,7 @@
 //! completed by that motion, and judged as a whole like any other.
 
 use crate::certify::certify;
-use crate::cspace::{Grid, Regions};
+use crate::cspace::{Grid, Regions, ZonedGrid};
 use crate::model::{Problem, Scene};
 use crate::plan::Query;
 use crate::space::{Configuration, Path, Topology};
@@ -26,6 +26,12 @@ impl Admit for Regions {
 impl Admit for Grid {
     fn admits(&self, q: Configuration) -> bool {
         !self.blocked[self.locate(q)]
+    }
+}
+
+impl Admit for ZonedGrid {
+    fn admits(&self, q: Configuration) -> bool {
+        self.grid.admits(q)
     }
 }
 

@@ -1,7 +1,7 @@
 //! How far a path is from the optimum, at the most.
 
 use crate::cspace::{InnerObstacles, inner_regions};
-use crate::geometry::separation;
+use crate::geometry::{Convex, Pose, separation};
 use crate::model::{Problem, Scene};
 use crate::plan::{Outcome, Planner, Query, Visibility};
 use crate::space::{Axis, Configuration, Metric, Path};
@@ -106,26 +106,50 @@ fn shortest(
     length
 }
 
-/// The pairs, not yet `known`, that a path leads through.
+/// The pairs, not yet `known`, that a path leads through: looked at where steps end. A pair is passed over for as long as
+/// its part has not moved by what it was away. `O(pairs log steps)` looks where a path keeps away from most of them.
 fn run_into(scene: &Scene, path: &Path, known: &[usize]) -> Vec<usize> {
-    let mut unmet: Vec<usize> = (0..scene.pairs().len()).filter(|index| !known.contains(index)).collect();
-    let mut met = Vec::new();
+    let mut poses = Vec::new();
     for (from, to) in path.segments() {
         let steps = ((to - from).norm() / STEP).ceil().max(1.0) as usize;
-        for i in 0..=steps {
-            let poses = scene.arm.poses(from + (to - from) * (i as f64 / steps as f64));
-            unmet.retain(|&index| {
-                let pair = scene.pairs()[index];
-                let apart = separation(&scene.part(pair).at(&poses[pair.link]), scene.piece(pair)).distance;
-                let hit = apart < scene.workspace.clearance;
-                if hit {
-                    met.push(index);
-                }
-                !hit
-            });
+        poses.extend((0..=steps).map(|i| scene.arm.poses(from + (to - from) * (i as f64 / steps as f64))));
+    }
+    let mut unknown = vec![true; scene.pairs().len()];
+    known.iter().for_each(|&index| unknown[index] = false);
+    let mut met = Vec::new();
+    let mut moved: Vec<f64> = Vec::new();
+    let mut of = None;
+    for (index, &pair) in scene.pairs().iter().enumerate().filter(|(index, _)| unknown[*index]) {
+        let part = scene.part(pair);
+        if of != Some((pair.link, pair.part)) {
+            of = Some((pair.link, pair.part));
+            moved = displacements(part, &poses, pair.link);
+        }
+        let mut step = 0;
+        while let Some(pose) = poses.get(step) {
+            let apart = separation(&part.at(&pose[pair.link]), scene.piece(pair)).distance;
+            let room = apart - scene.workspace.clearance;
+            if room < 0.0 {
+                met.push(index);
+                break;
+            }
+            let from = moved[step];
+            step = (step + 1).max(moved.partition_point(|to| to - from < room));
         }
     }
     met
+}
+
+/// By how much the points of a part have moved at the most from each pose to the next, summed up. A displacement is linear
+/// in the point, so a corner of the core has the greatest.
+fn displacements(part: &Convex, poses: &[[Pose; 2]], link: usize) -> Vec<f64> {
+    let mut sum = 0.0;
+    let steps = poses.windows(2).map(|w| {
+        let by = part.core().iter().map(|p| (w[1][link] * p - w[0][link] * p).norm());
+        sum += by.fold(0.0, f64::max);
+        sum
+    });
+    [0.0].into_iter().chain(steps).collect()
 }
 
 /// A lower bound on the length of motions that leave the window: on one axis they go to its end, and from there to a

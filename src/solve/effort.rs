@@ -1,5 +1,6 @@
 //! How hard to try.
 
+use crate::plan::{FieldPlanner, Wavefront};
 use crate::space::Metric;
 
 /// How much to try before the answer is unknown.
@@ -18,11 +19,24 @@ pub struct Effort {
     /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
     /// planner only).
     pub gap: Option<f64>,
+    /// How the wavefront planner searches its grid.
+    pub wavefront: Wavefront,
+    /// The field to follow in place of the default one (harmonic planner only).
+    pub field: Option<FieldPlanner>,
 }
 
 impl Default for Effort {
     /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
     fn default() -> Self {
-        Self { levels: 6, margin: 1e-3, cells: 256, boxes: 200_000, metric: Metric::Euclidean, gap: None }
+        Self {
+            levels: 6,
+            margin: 1e-3,
+            cells: 256,
+            boxes: 200_000,
+            metric: Metric::Euclidean,
+            gap: None,
+            wavefront: Wavefront::default(),
+            field: None,
+        }
     }
 }

@@ -2,12 +2,12 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
-use super::rungs::{Builder, Described, cells, margin, polygons};
+use super::rungs::{Builder, Described, cells, margin, polygons, zoned_cells};
 use super::swift::{SLABS, checked};
 use super::{Answer, Effort, Method, Space, Stages, Verdict, subdivision};
 use crate::certify::{CertifiedPath, Connectivity, Rejection, certify, connectivity, slab_connectivity};
 use crate::model::{Problem, Scene};
-use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility};
 use crate::space::{Metric, Path};
 use std::time::Instant;
 
@@ -21,8 +21,11 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
     match method {
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
-        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront::default(), cells),
-        Method::Harmonic => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        Method::Wavefront => climb(problem, method, effort, progress, &effort.wavefront, cells),
+        Method::Harmonic => match &effort.field {
+            Some(planner) => climb(problem, method, effort, progress, planner, zoned_cells),
+            None => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        },
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
 }

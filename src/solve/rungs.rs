@@ -1,7 +1,7 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
 use super::{Effort, Space};
-use crate::cspace::{Grid, Regions, outer_grid, regions};
+use crate::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
 use crate::model::Problem;
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
@@ -35,6 +35,11 @@ pub(super) fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<
     (level == 0 || n <= MOST_CELLS).then(|| outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance))
 }
 
+/// The same with the workspace's preferences.
+pub(super) fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
+    cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+}
+
 /// A space in a few words.
 pub(super) trait Described {
     fn describe(&self) -> String;
@@ -52,6 +57,12 @@ impl Described for Grid {
     }
 }
 
+impl Described for ZonedGrid {
+    fn describe(&self) -> String {
+        self.grid.describe()
+    }
+}
+
 impl From<Regions> for Space {
     fn from(regions: Regions) -> Self {
         Space::Regions(Box::new(regions))
@@ -61,5 +72,11 @@ impl From<Regions> for Space {
 impl From<Grid> for Space {
     fn from(grid: Grid) -> Self {
         Space::Grid(Box::new(grid))
+    }
+}
+
+impl From<ZonedGrid> for Space {
+    fn from(zoned: ZonedGrid) -> Self {
+        zoned.grid.into()
     }
 }

@@ -1,10 +1,11 @@
 //! From a certified path to a motion in time, and to files.
 //!
-//! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found, [`Format`] writes
-//! either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
+//! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found,
+//! [`Format`] writes either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
 
 mod corner;
 mod csv;
+mod field;
 mod format;
 mod limits;
 mod profile;
@@ -19,9 +20,10 @@ mod whole_file;
 mod tests;
 
 pub use csv::csv;
+pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
 pub use limits::Limits;
-pub use result::{Blends, INTERPOLATION, Optimum, Report, Status};
+pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use tip::TipSpeed;

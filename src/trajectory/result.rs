@@ -1,6 +1,6 @@
 //! What a run found, as JSON.
 
-use super::Trajectory;
+use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
@@ -52,6 +52,15 @@ pub struct Blends {
     pub largest_radius: f64,
 }
 
+/// How a grid was searched.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SearchUsed {
+    /// `wave`, `bfs`, `dfs`, `dijkstra` or `astar`.
+    pub search: &'static str,
+    /// 4, or 8 with diagonal moves.
+    pub neighbors: u8,
+}
+
 /// The result of a run. [`Report::json`] writes the fields in this order. Those that a
 /// script relies on are always there, `path`, `length`, `clearance` and `trajectory` as null if there is none; the others
 /// are left out when `None` or empty.
@@ -66,6 +75,9 @@ pub struct Report {
     pub name: Option<String>,
     /// Name of the planner.
     pub planner: String,
+    /// How the wavefront planner searched its grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub search: Option<SearchUsed>,
     /// Names of the joints in the URDF, base to tip.
     pub joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
@@ -91,7 +103,10 @@ pub struct Report {
     /// The link and the obstacle that come closest, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub closest: Option<String>,
-    /// How much the planner built: `nodes` and `edges`, or `cells` and `sweeps`.
+    /// The field that was followed, if one was chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub field: Option<FieldReport>,
+    /// How much the planner built: `nodes` and `edges`, `cells` and `sweeps`, or `cells` and `expanded` ones.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub size: BTreeMap<&'static str, usize>,
     /// Stages in the order in which they ran, with the milliseconds that each took; empty unless asked for, because they
@@ -155,9 +170,11 @@ impl Report {
             path: None,
             length: None,
             optimum: None,
+            search: None,
             certified: false,
             clearance: None,
             closest: None,
+            field: None,
             size: BTreeMap::new(),
             timings: Vec::new(),
             blends: None,

@@ -1,7 +1,9 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
 mod commands;
+mod fields;
 mod inputs;
+mod mazes;
 mod results;
 
 use std::path::{Path, PathBuf};

@@ -5,7 +5,8 @@
 mod scenes;
 
 use cplan::draw::{Picture, svg};
-use cplan::model::Scene;
+use cplan::geometry::{Point, SimplePolygon};
+use cplan::model::{Preference, Region, Scene};
 use cplan::plan::Trace;
 use cplan::space::{Axis, Configuration, Path};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
@@ -321,4 +322,41 @@ mod raster {
             assert!(matches!(png(&bare(&scene, &[]), scale), Err(DrawError::Scale(_))), "{scale}");
         }
     }
+}
+
+#[test]
+fn preference_regions_are_dashed_and_explained() {
+    let square = |x: f64| {
+        let corners = [(x, x), (x + 0.5, x), (x + 0.5, x + 0.5), (x, x + 0.5)].map(|(x, y)| Point::new(x, y));
+        SimplePolygon::new(corners.to_vec()).unwrap()
+    };
+    let preference = |region: Region, epsilon: f64| Preference { name: "p".into(), region, epsilon, direction: None };
+    let with = |preferences: Vec<Preference>| {
+        let mut scene = torus();
+        scene.workspace.preferences = preferences;
+        let text = checked(
+            "preferences",
+            &Picture {
+                title: vec!["preferences".into()],
+                status: String::new(),
+                scene: &scene,
+                start: at(0.0, 0.0),
+                goals: &[],
+                paths: Vec::new(),
+                trace: None,
+                proof: &[],
+                c_obstacles: &[],
+            },
+        );
+        let dashes = text.matches("stroke-dasharray=\"7 4\"").count();
+        (dashes, words(&text))
+    };
+    let (none, text) = with(Vec::new());
+    assert_eq!(none, 0);
+    assert!(!text.contains("region"));
+    // Each region is one outline, with its copies on circles, and one line of the legend.
+    let (both, text) =
+        with(vec![preference(Region::Configurations(square(3.0)), 0.5), preference(Region::Tip(square(-1.0)), -0.5)]);
+    assert_eq!(both, 4);
+    assert!(text.contains("region, epsilon above 0") && text.contains("region, epsilon below 0"));
 }

@@ -110,6 +110,14 @@ proptest! {
                 prop_assert_eq!(count, usize::from(contains(&ring, p)));
             }
         }
+        // At lattice points the boundary counts: a closed piece contains them, or none does.
+        for x in -10..=10 {
+            for y in -10..=10 {
+                let on_boundary = (0..ring.len()).any(|i| meet(&[ring[i], ring[(i + 1) % ring.len()]], &[(x, y)]));
+                let inside = on_boundary || contains(&ring, (3 * x, 3 * y));
+                prop_assert_eq!(polygon.contains(Point::new(x as f64, y as f64)), inside, "({}, {})", x, y);
+            }
+        }
         let n = ring.len();
         let reflex = (0..n).filter(|&i| cross(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) < 0).count();
         prop_assert!(pieces.len() <= 2 * reflex + 1);

@@ -1,7 +1,7 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
 use super::{Samples, Series, UNUSED};
-use crate::input::error::{Defect, InputError};
+use crate::input::error::{Defect, InputError, without_place};
 use crate::input::source::Source;
 use serde::Deserialize;
 
@@ -70,7 +70,7 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
         let cure =
             "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
-        located(source, error.line(), error.column(), &plain(&error.to_string())).cure(cure)
+        source.defect_at_position(error.line(), error.column(), without_place(&error.to_string())).cure(cure)
     })?;
     Ok(samples(source, document)?)
 }
@@ -92,27 +92,9 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
         let place = error.location();
         let (line, column) = place.map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
         let cure = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
-        located(source, line, column, &plain(&error.without_snippet().to_string())).cure(cure)
+        source.defect_at_position(line, column, without_place(&error.without_snippet().to_string())).cure(cure)
     })?;
     Ok(samples(source, document)?)
-}
-
-/// A parser's message without the place at its end, which is given at the beginning.
-fn plain(message: &str) -> String {
-    let message = message.lines().next().unwrap_or_default();
-    message.split(" at line ").next().unwrap_or(message).to_owned()
-}
-
-/// A defect at a line and column, both counted from 1; 0 is unknown.
-fn located(source: &Source, line: usize, column: usize, message: &str) -> Defect {
-    if line == 0 {
-        return source.defect(message);
-    }
-    let mut lines = source.text.split_inclusive('\n');
-    let before: usize = lines.by_ref().take(line - 1).map(str::len).sum();
-    let inside = lines.next().unwrap_or("");
-    let at = inside.char_indices().nth(column.saturating_sub(1)).map_or(inside.trim_end().len(), |(i, _)| i);
-    source.defect_at(before + at..before + at + 1, message)
 }
 
 fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {

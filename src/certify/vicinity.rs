@@ -1,0 +1,55 @@
+//! Which obstacles are near a part of the arm at all.
+
+use super::deviation::{Deviation, Posture};
+use crate::geometry::{Bounds, BoxTree, Convex, Point, Vector};
+use crate::model::{Pair, Scene};
+
+/// The pairs of a scene, by the place of the obstacle's piece.
+pub(super) struct Vicinity<'a> {
+    pairs: &'a [Pair],
+    /// Stretches of pairs with the same part, and the boxes of their pieces.
+    parts: Vec<(usize, BoxTree)>,
+}
+
+impl<'a> Vicinity<'a> {
+    /// `O(n log n)` in the pairs.
+    pub fn new(scene: &'a Scene) -> Self {
+        let pairs = scene.pairs();
+        let mut from = 0;
+        let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
+            let first = from;
+            from += stretch.len();
+            (first, BoxTree::new(stretch.iter().map(|&pair| bounds(scene.piece(pair))).collect()))
+        });
+        let parts = stretches.collect();
+        Self { pairs, parts }
+    }
+
+    /// Calls `f` with pairs in their order: all that come within `distance` of each other while the configuration
+    /// deviates from the posture, and some others. Ends with the first error.
+    pub fn near<E>(
+        &self,
+        posture: &Posture,
+        deviation: Deviation,
+        distance: f64,
+        mut f: impl FnMut(Pair) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let mut found = Vec::new();
+        for (first, tree) in &self.parts {
+            let (center, radius) = posture.place(self.pairs[*first], deviation);
+            let reach = Vector::repeat(radius + distance);
+            found.clear();
+            tree.meeting(&[center - reach, center + reach], &mut found);
+            found.iter().try_for_each(|&k| f(self.pairs[first + k as usize]))?;
+        }
+        Ok(())
+    }
+}
+
+/// The box around a shape.
+fn bounds(shape: &Convex) -> Bounds {
+    let radius = Vector::repeat(shape.radius());
+    let core = shape.core();
+    let [lower, upper] = core.iter().fold([core[0]; 2], |[lower, upper]: [Point; 2], p| [lower.inf(p), upper.sup(p)]);
+    [lower - radius, upper + radius]
+}

@@ -1,0 +1,325 @@
+//! The command line's words for fields.
+
+use super::args::number_in;
+use crate::field::{
+    Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
+};
+use crate::model::Preference;
+use crate::plan::{EquationChoice, FieldChoice, FieldPlanner};
+use crate::solve::Method;
+use clap::{Args, ValueEnum};
+
+/// Equations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum FieldName {
+    /// Laplace's equation.
+    Harmonic,
+    /// A drift in one direction everywhere: --epsilon, --direction.
+    Oriented,
+    /// The drift of each [[preference]] region of the world within it.
+    Local,
+    /// The epsilon of each [[preference]] region, along the slope of the harmonic field.
+    Bvp,
+    /// The same along the field's own slope.
+    Bvp2,
+    /// Attraction by the goal, repulsion by the nearest obstacle; may end in a local minimum, and says so.
+    Khatib,
+}
+
+/// Discretisations of slopes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DifferenceName {
+    /// Monotone for an epsilon of less than 2 only.
+    Central,
+    /// Monotone for every epsilon.
+    Upwind,
+}
+
+/// Relaxations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RelaxationName {
+    /// All cells at once.
+    Jacobi,
+    /// All cells at once, by a --factor of less than 1.
+    WeightedJacobi,
+    /// One cell after the other.
+    GaussSeidel,
+    /// One cell after the other, by a --factor of more than 1 or the one of the formula.
+    Sor,
+}
+
+/// Orders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum OrderName {
+    /// Line by line, joint 2 fastest.
+    Rows,
+    /// Line by line, joint 1 fastest.
+    Columns,
+    /// Line by line from the four corners in turn.
+    Corners,
+    /// Like the squares of a chessboard.
+    RedBlack,
+}
+
+/// What lies beyond joint limits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum LimitsName {
+    /// Obstacles.
+    High,
+    /// Mirrors: they neither attract nor repel.
+    Reflecting,
+}
+
+/// The field of the harmonic planner.
+#[derive(Debug, Clone, Default, PartialEq, Args)]
+#[command(next_help_heading = "Fields (planner harmonic)")]
+pub struct FieldArgs {
+    /// Equation of the field, such as --field oriented --epsilon 0.5 --direction 0,-1.
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub field: Option<FieldName>,
+    /// Strength of the drift, per grid cell: everywhere (oriented), or outside the world's [[preference]] regions (bvp,
+    /// bvp2; default 0).
+    #[arg(long, value_name = "E", value_parser = finite, allow_hyphen_values = true)]
+    pub epsilon: Option<f64>,
+    /// Direction of the drift in joint space, such as 0,-1: of oriented, or of local for regions without one.
+    #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
+    pub direction: Option<Direction>,
+    /// How slopes are discretised (oriented, local, bvp) [default: central].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub difference: Option<DifferenceName>,
+    /// How the equation is relaxed, such as --relaxation sor --order corners [default, if the field is not the plain
+    /// harmonic one: gauss-seidel].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub relaxation: Option<RelaxationName>,
+    /// In which order cells go (gauss-seidel, sor) [default: corners].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub order: Option<OrderName>,
+    /// How far cells go (weighted-jacobi, sor) [default of sor: the best one for Laplace's equation in an empty
+    /// rectangle].
+    #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
+    pub factor: Option<f64>,
+    /// What lies beyond joint limits [default: high].
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub limits: Option<LimitsName>,
+    /// Relax until no value changes by more than this part of itself in a sweep [default: 1e-6].
+    #[arg(long, value_name = "SHARE", value_parser = positive, allow_hyphen_values = true)]
+    pub tolerance: Option<f64>,
+    /// At most so many sweeps [default: 10000].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_sweeps: Option<u32>,
+    /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
+    #[arg(long, value_name = "LAW", value_parser = attraction)]
+    pub attraction: Option<Attraction>,
+    /// Push of the nearest obstacle at a distance p (khatib): ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2 within P0,
+    /// or inverse-square:Q for the force Q/p^2 [default: ranged:0.01,0.5].
+    #[arg(long, value_name = "LAW", value_parser = repulsion)]
+    pub repulsion: Option<Repulsion>,
+    /// Let each component of pull and push go through tanh (khatib).
+    #[arg(long)]
+    pub saturated: bool,
+}
+
+/// Sweeps before the answer is what there is.
+const MAX_SWEEPS: u32 = 10_000;
+/// Relative change: leaves directions of ascent as they are, but for cells where two are practically equal.
+const TOLERANCE: f64 = 1e-6;
+
+impl FieldArgs {
+    /// The planner that follows the field; none where nothing but the default is asked for.
+    ///
+    /// # Errors
+    /// Options that contradict each other or the planner, in words.
+    pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
+        let given = self.given();
+        let Some(first) = given.first() else { return Ok(None) };
+        if method != Method::Harmonic {
+            return Err(format!("{first} needs --planner harmonic: {method} follows no such field"));
+        }
+        let name = self.field.unwrap_or(FieldName::Harmonic);
+        for option in &given {
+            if let Some(fields) = needed_field(option)
+                && !fields.contains(&name)
+            {
+                return Err(format!("{option} is for --field {}", listed(fields)));
+            }
+        }
+        if given == ["--field"] && name == FieldName::Harmonic {
+            return Ok(None);
+        }
+        let field = match name {
+            FieldName::Khatib => FieldChoice::Khatib(Khatib {
+                attraction: self.attraction.unwrap_or(Attraction::Linear(1.0)),
+                repulsion: self.repulsion.unwrap_or(Repulsion::Ranged { gain: 0.01, range: 0.5 }),
+                saturated: self.saturated,
+            }),
+            name => FieldChoice::Relaxed {
+                equation: self.equation(name)?,
+                relaxation: self.relaxation()?,
+                tolerance: self.tolerance.unwrap_or(TOLERANCE),
+                max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
+            },
+        };
+        let limits = match self.limits {
+            Some(LimitsName::Reflecting) => Limits::Reflecting,
+            Some(LimitsName::High) | None => Limits::High,
+        };
+        Ok(Some(FieldPlanner { field, limits, shortcut: true }))
+    }
+
+    /// What the field needs and these regions of the world lack, if anything.
+    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
+        let name = self.field?.to_possible_value()?.get_name().to_owned();
+        match self.field? {
+            FieldName::Local if preferences.is_empty() => {
+                Some("--field local needs [[preference]] regions in the world file".into())
+            }
+            FieldName::Local if self.direction.is_none() => {
+                let lost = preferences.iter().find(|preference| preference.direction.is_none())?;
+                Some(format!(
+                    "--field local: the preference \"{}\" has no direction; give it one, or --direction",
+                    lost.name
+                ))
+            }
+            FieldName::Bvp | FieldName::Bvp2 if preferences.is_empty() && self.epsilon.is_none() => {
+                Some(format!("--field {name} needs [[preference]] regions in the world file, or --epsilon"))
+            }
+            _ => None,
+        }
+    }
+
+    /// The options that were given, in the order of the help.
+    fn given(&self) -> Vec<&'static str> {
+        let options = [
+            ("--field", self.field.is_some()),
+            ("--epsilon", self.epsilon.is_some()),
+            ("--direction", self.direction.is_some()),
+            ("--difference", self.difference.is_some()),
+            ("--relaxation", self.relaxation.is_some()),
+            ("--order", self.order.is_some()),
+            ("--factor", self.factor.is_some()),
+            ("--limits", self.limits.is_some()),
+            ("--tolerance", self.tolerance.is_some()),
+            ("--max-sweeps", self.max_sweeps.is_some()),
+            ("--attraction", self.attraction.is_some()),
+            ("--repulsion", self.repulsion.is_some()),
+            ("--saturated", self.saturated),
+        ];
+        options.into_iter().filter(|option| option.1).map(|option| option.0).collect()
+    }
+
+    fn equation(&self, name: FieldName) -> Result<EquationChoice, String> {
+        let difference = match self.difference {
+            Some(DifferenceName::Upwind) => Difference::Upwind,
+            Some(DifferenceName::Central) | None => Difference::Central,
+        };
+        let elsewhere = self.epsilon.unwrap_or(0.0);
+        Ok(match name {
+            FieldName::Local => EquationChoice::LocallyOriented { direction: self.direction, difference },
+            FieldName::Bvp => EquationChoice::Preference { elsewhere, difference },
+            FieldName::Bvp2 => EquationChoice::AlteredPreference { elsewhere },
+            FieldName::Oriented => match (self.direction, self.epsilon) {
+                (Some(direction), Some(epsilon)) => EquationChoice::Oriented { direction, epsilon, difference },
+                _ => return Err("--field oriented needs --epsilon and --direction, such as 0.5 and 0,-1".into()),
+            },
+            FieldName::Harmonic | FieldName::Khatib => EquationChoice::Harmonic,
+        })
+    }
+
+    fn relaxation(&self) -> Result<Relaxation, String> {
+        let name = self.relaxation.unwrap_or(RelaxationName::GaussSeidel);
+        let order = match self.order {
+            Some(OrderName::Rows) => Order::Lines(Scan::ROWS),
+            Some(OrderName::Columns) => Order::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
+            Some(OrderName::RedBlack) => Order::RedBlack,
+            Some(OrderName::Corners) | None => Order::Corners(Lines::Rows),
+        };
+        let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
+        if jacobi && self.order.is_some() {
+            return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
+        }
+        match (name, self.factor) {
+            (RelaxationName::Jacobi, None) => Ok(Relaxation::JACOBI),
+            (RelaxationName::Jacobi, Some(_)) => Err("--factor is for --relaxation weighted-jacobi and sor".into()),
+            (RelaxationName::WeightedJacobi, Some(factor)) => Ok(Relaxation::weighted_jacobi(factor)),
+            (RelaxationName::WeightedJacobi, None) => {
+                Err("--relaxation weighted-jacobi needs --factor, such as 0.8".into())
+            }
+            (RelaxationName::GaussSeidel, None) => Ok(Relaxation::gauss_seidel(order)),
+            (RelaxationName::GaussSeidel, Some(_)) => {
+                Err("--factor is for --relaxation weighted-jacobi and sor: Gauss-Seidel is sor with 1".into())
+            }
+            (RelaxationName::Sor, Some(factor)) => Ok(Relaxation::sor(Factor::Given(factor), order)),
+            (RelaxationName::Sor, None) => Ok(Relaxation::sor(Factor::Formula, order)),
+        }
+    }
+}
+
+/// The fields that an option is for, if not for all.
+fn needed_field(option: &str) -> Option<&'static [FieldName]> {
+    use FieldName::{Bvp, Bvp2, Harmonic, Khatib, Local, Oriented};
+    match option {
+        "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
+        "--direction" => Some(&[Oriented, Local]),
+        "--difference" => Some(&[Oriented, Local, Bvp]),
+        "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" => {
+            Some(&[Harmonic, Oriented, Local, Bvp, Bvp2])
+        }
+        "--attraction" | "--repulsion" | "--saturated" => Some(&[Khatib]),
+        _ => None,
+    }
+}
+
+/// `oriented, bvp or bvp2`.
+fn listed(fields: &[FieldName]) -> String {
+    let names: Vec<_> =
+        fields.iter().filter_map(ValueEnum::to_possible_value).map(|v| v.get_name().to_owned()).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    number_in(text, f64::is_finite, "that is finite")
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0")
+}
+
+/// Numbers that commas separate.
+fn numbers(text: &str) -> Vec<f64> {
+    text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
+}
+
+fn direction(text: &str) -> Result<Direction, String> {
+    let vector = match numbers(text)[..] {
+        [a, b] => Direction::of([a, b]),
+        _ => None,
+    };
+    vector.ok_or_else(|| "must be two numbers that are not both 0, such as 0,-1".into())
+}
+
+/// A law's name and its constants, all positive.
+fn law(text: &str) -> Option<(&str, Vec<f64>)> {
+    let (name, constants) = text.split_once(':')?;
+    let constants = numbers(constants);
+    constants.iter().all(|c| c.is_finite() && *c > 0.0).then_some((name, constants))
+}
+
+fn attraction(text: &str) -> Result<Attraction, String> {
+    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+        Some(("constant", [c])) => Ok(Attraction::Constant(*c)),
+        Some(("linear", [k])) => Ok(Attraction::Linear(*k)),
+        _ => Err("must be constant:C or linear:K with a positive number, such as linear:1".into()),
+    }
+}
+
+fn repulsion(text: &str) -> Result<Repulsion, String> {
+    match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
+        Some(("ranged", [gain, range])) => Ok(Repulsion::Ranged { gain: *gain, range: *range }),
+        Some(("inverse-square", [charge])) => Ok(Repulsion::InverseSquare(*charge)),
+        _ => Err("must be ranged:K,P0 or inverse-square:Q with positive numbers, such as ranged:0.01,0.5".into()),
+    }
+}

@@ -1,0 +1,59 @@
+//! A planner with options of its own, as one word of `compare`'s command line.
+
+use super::field_args::FieldArgs;
+use super::search_args::SearchArgs;
+use crate::model::Preference;
+use crate::solve::{Effort, Method};
+use clap::Parser;
+
+/// A planner with options, in the grammar of the main job.
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// As the user wrote it, single blanks between the words.
+    pub label: String,
+    /// The planner.
+    pub method: Method,
+    field: FieldArgs,
+    search: SearchArgs,
+}
+
+#[derive(Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct Grammar {
+    planner: Method,
+    #[command(flatten)]
+    field: FieldArgs,
+    #[command(flatten)]
+    search: SearchArgs,
+}
+
+impl Variant {
+    /// Reads one.
+    ///
+    /// # Errors
+    /// What is wrong with it, in one line.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let Grammar { planner, field, search } = Grammar::try_parse_from(&words).map_err(|error| {
+            let text = error.to_string();
+            let line = text.lines().next().unwrap_or_default();
+            line.strip_prefix("error: ").unwrap_or(line).to_owned()
+        })?;
+        field.planner(planner)?;
+        match search.conflict(planner) {
+            Some(conflict) => Err(conflict),
+            None => Ok(Self { label: words.join(" "), method: planner, field, search }),
+        }
+    }
+
+    /// The effort that it is asked to make, all else as in `base`.
+    ///
+    /// # Errors
+    /// What it needs and these regions of the world lack.
+    pub fn effort(&self, base: Effort, preferences: &[Preference]) -> Result<Effort, String> {
+        match self.field.lack(preferences) {
+            Some(lack) => Err(lack),
+            None => Ok(Effort { field: self.field.planner(self.method)?, wavefront: self.search.wavefront(), ..base }),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The neighbours of a row's cells, as packs.
+
+use super::machine::{LANES, Machine, packs};
+use super::stencil::Stencil;
+
+/// A row and what is beside it.
+pub(super) struct Around<'a, T> {
+    pub middle: &'a [[T; LANES]],
+    west: &'a [[T; LANES]],
+    east: &'a [[T; LANES]],
+    above: &'a [[T; LANES]],
+    below: &'a [[T; LANES]],
+}
+
+impl<'a, T> Around<'a, T> {
+    /// From a row in the middle of its neighbours, each with the cell before and the one after.
+    #[inline(always)]
+    pub fn new([above, middle, below]: [&'a [T]; 3], count: usize) -> Self {
+        let [west, middle, east] = [packs(middle, 0, count), packs(middle, 1, count), packs(middle, 2, count)];
+        Self { middle, west, east, above: packs(above, 1, count), below: packs(below, 1, count) }
+    }
+}
+
+impl Around<'_, f32> {
+    /// Sum over the four neighbours.
+    #[inline(always)]
+    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
+        (m.pack(&self.west[k]) + m.pack(&self.east[k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
+    }
+}
+
+impl Around<'_, f64> {
+    /// `degree` times the row less the four neighbours.
+    #[inline(always)]
+    pub fn applied<M: Machine>(&self, m: M, degree: M::Double, k: usize) -> M::Double {
+        let sides = m.pack_double(&self.west[k]) + m.pack_double(&self.east[k]);
+        let around = sides + (m.pack_double(&self.above[k]) + m.pack_double(&self.below[k]));
+        degree * m.pack_double(&self.middle[k]) - around
+    }
+}
+
+/// Consecutive packs.
+type Packs<'a> = &'a [[f32; LANES]];
+
+/// A row and its eight neighbours, each with its coupling.
+pub(super) struct Nine<'a> {
+    pub middle: Packs<'a>,
+    /// Couplings and values: east, west, south, north, south-east, north-west, south-west, north-east.
+    terms: [(Packs<'a>, Packs<'a>); 8],
+}
+
+impl<'a> Nine<'a> {
+    #[inline(always)]
+    pub fn new(stencil: &'a Stencil, values: &'a [f32], i: usize) -> Self {
+        let frame = stencil.frame;
+        let count = frame.width / LANES;
+        let [above, middle, below] = frame.three(values, i);
+        let (at, over) = (frame.row(i).start, frame.above(i));
+        let Stencil { east, south, south_east, south_west, .. } = stencil;
+        let term = |part: &'a [f32], at: usize, of: &'a [f32], j: usize| (packs(part, at, count), packs(of, j, count));
+        let terms = [
+            term(east, at, middle, 2),
+            term(east, at - 1, middle, 0),
+            term(south, at, below, 1),
+            term(south, over, above, 1),
+            term(south_east, at, below, 2),
+            term(south_east, over - 1, above, 0),
+            term(south_west, at, below, 0),
+            term(south_west, over + 1, above, 2),
+        ];
+        Self { middle: packs(middle, 1, count), terms }
+    }
+
+    /// Sum over the eight neighbours of coupling times value.
+    #[inline(always)]
+    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
+        let [a, b, c, d, e, f, g, h] = &self.terms;
+        let term = |term: &(Packs, Packs)| m.pack(&term.0[k]) * m.pack(&term.1[k]);
+        ((term(a) + term(b)) + (term(c) + term(d))) + ((term(e) + term(f)) + (term(g) + term(h)))
+    }
+}

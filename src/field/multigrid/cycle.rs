@@ -1,0 +1,136 @@
+//! The hierarchy of levels and one V-cycle through it: the preconditioner.
+
+use super::envelope::Envelope;
+use super::frame::Frame;
+use super::galerkin::coarsen;
+use super::machine::{LANES, Machine};
+use super::smooth::{Smooth, Vectors};
+use super::stencil::{FivePoint, Line, Operator, Stencil};
+use super::transfer::{Rows, Transfer};
+
+/// A level with at most this many cells is solved directly.
+const BOTTOM: usize = 100;
+
+/// The levels below the finest. Depends on the operator only.
+#[derive(Debug, Clone)]
+pub(super) struct Hierarchy {
+    /// From each level to the next.
+    transfers: Vec<Transfer>,
+    /// The levels but the finest.
+    levels: Vec<Stencil>,
+    bottom: Envelope,
+}
+
+/// The vectors of all levels.
+#[derive(Debug, Clone)]
+pub(super) struct Stack {
+    pub levels: Vec<Vectors>,
+    rows: Rows,
+    bottom: Vec<f64>,
+}
+
+impl Hierarchy {
+    /// Linear in the number of cells.
+    pub fn new<M: Machine>(m: M, finest: &FivePoint) -> Self {
+        let (mut transfers, mut levels) = (Vec::new(), Vec::<Stencil>::new());
+        let small = |frame: Frame| frame.rows * frame.columns <= BOTTOM;
+        if small(finest.frame) {
+            return Self { transfers, levels, bottom: envelope(m, finest) };
+        }
+        let (transfer, mut level) = coarsen(m, finest);
+        transfers.push(transfer);
+        while !small(level.frame) {
+            let (transfer, next) = coarsen(m, &level);
+            transfers.push(transfer);
+            levels.push(std::mem::replace(&mut level, next));
+        }
+        let bottom = envelope(m, &level);
+        levels.push(level);
+        Self { transfers, levels, bottom }
+    }
+
+    /// Vectors for cycles.
+    pub fn stack(&self, finest: Frame) -> Stack {
+        let frames = std::iter::once(finest).chain(self.levels.iter().map(|level| level.frame));
+        let bottom = self.levels.last().map_or(finest, |level| level.frame);
+        Stack {
+            levels: frames.map(Vectors::new).collect(),
+            rows: Rows::new(finest.width),
+            bottom: vec![0.0; bottom.rows * bottom.columns],
+        }
+    }
+
+    /// One V-cycle from zero for the right-hand side of the finest level, which has its frame.
+    pub fn cycle<M: Machine>(&self, m: M, finest: &FivePoint, stack: &mut Stack) {
+        let Stack { levels: vectors, rows, bottom } = stack;
+        for (k, transfer) in self.transfers.iter().enumerate() {
+            let (upper, lower) = vectors.split_at_mut(k + 1);
+            let (upper, lower) = (&mut upper[k], &mut lower[0]);
+            match k.checked_sub(1) {
+                None => descend(m, finest, transfer, upper, lower, rows),
+                Some(k) => descend(m, &self.levels[k], transfer, upper, lower, rows),
+            }
+        }
+        let frame = self.levels.last().map_or(finest.frame, |level| level.frame);
+        let last = self.transfers.len();
+        for (i, bottom) in bottom.chunks_exact_mut(frame.columns).enumerate() {
+            bottom.iter_mut().zip(&vectors[last].right[frame.row(i)]).for_each(|(to, &from)| *to = f64::from(from));
+        }
+        self.bottom.solve(bottom);
+        for (i, bottom) in bottom.chunks_exact(frame.columns).enumerate() {
+            let row = &mut vectors[last].solution[frame.row(i)];
+            row.iter_mut().zip(bottom).for_each(|(to, &from)| *to = from as f32);
+        }
+        frame.finish(&mut vectors[last].solution);
+        for (k, transfer) in self.transfers.iter().enumerate().rev() {
+            let (upper, lower) = vectors.split_at_mut(k + 1);
+            transfer.prolong(m, &lower[0].solution, rows, &mut upper[k].solution);
+            match k.checked_sub(1) {
+                None => finest.go_on(m, &mut upper[0]),
+                Some(level) => self.levels[level].go_on(m, &mut upper[k]),
+            }
+        }
+    }
+}
+
+/// Smooths, and restricts what is left.
+fn descend<M: Machine, L: Smooth>(
+    m: M,
+    level: &L,
+    transfer: &Transfer,
+    upper: &mut Vectors,
+    lower: &mut Vectors,
+    rows: &mut Rows,
+) {
+    level.begin(m, upper);
+    transfer.restrict(m, level, upper, rows, &mut lower.right);
+}
+
+/// The factor of an operator.
+fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
+    let Frame { rows, columns, width, .. } = operator.frame();
+    let mut entries = vec![Vec::new(); rows * columns];
+    let mut line = Line::new(width + 2 + LANES);
+    for i in 0..rows {
+        operator.line(m, i, &mut line);
+        for j in 0..columns {
+            let here = i * columns + j;
+            entries[here].push((here, f64::from(line.diagonal[j + 1])));
+            let (below, right, left) = ((i + 1) % rows, (j + 1) % columns, (j + columns - 1) % columns);
+            for (coupling, row, column) in [
+                (line.east[j + 1], i, right),
+                (line.south[j + 1], below, j),
+                (line.south_east[j + 1], below, right),
+                (line.south_west[j + 1], below, left),
+            ] {
+                if coupling != 0.0 {
+                    let there = row * columns + column;
+                    // A cell that is its own neighbour on a tiny circle is so from both sides.
+                    let twice = if there == here { 2.0 } else { 1.0 };
+                    entries[here.max(there)].push((here.min(there), -twice * f64::from(coupling)));
+                }
+            }
+        }
+    }
+    Envelope::new(&entries)
+}

@@ -1,0 +1,64 @@
+//! Cholesky's factorisation within the envelope of a small symmetric matrix: the coarsest level.
+
+/// `A = L L^T`. Row `i` of `L` is kept from the first column in which row `i` of `A` has an entry; there is no fill to
+/// the left of it (Jennings 1966).
+#[derive(Debug, Clone)]
+pub(super) struct Envelope {
+    first: Vec<usize>,
+    start: Vec<usize>,
+    lower: Vec<f64>,
+}
+
+impl Envelope {
+    /// From the rows of the lower triangle, `(column, value)` in any order, entries of one place to be added. Rows
+    /// without a positive pivot are taken out: their unknown is 0.
+    pub fn new(rows: &[Vec<(usize, f64)>]) -> Self {
+        let first: Vec<usize> =
+            rows.iter().enumerate().map(|(i, row)| row.iter().map(|entry| entry.0).min().unwrap_or(i).min(i)).collect();
+        let mut start = vec![0];
+        for (i, &first) in first.iter().enumerate() {
+            start.push(start[i] + i - first + 1);
+        }
+        let mut lower = vec![0.0; start[rows.len()]];
+        for (i, row) in rows.iter().enumerate() {
+            for &(j, value) in row {
+                lower[start[i] + j - first[i]] += value;
+            }
+            let scale = lower[start[i + 1] - 1];
+            for j in first[i]..i {
+                let from = first[i].max(first[j]);
+                let (a, b) = (&lower[start[i] + from - first[i]..], &lower[start[j] + from - first[j]..]);
+                let dot: f64 = a[..j - from].iter().zip(b).map(|(a, b)| a * b).sum();
+                lower[start[i] + j - first[i]] = (lower[start[i] + j - first[i]] - dot) * lower[start[j + 1] - 1];
+            }
+            let squares: f64 = lower[start[i]..start[i + 1] - 1].iter().map(|a| a * a).sum();
+            let pivot = scale - squares;
+            // On the diagonal, the reciprocal.
+            lower[start[i + 1] - 1] = if pivot > PIVOT * scale { 1.0 / pivot.sqrt() } else { 0.0 };
+        }
+        Self { first, start, lower }
+    }
+
+    /// Solves in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        for i in 0..self.first.len() {
+            let row = &self.lower[self.start[i]..self.start[i + 1]];
+            let (inverse, row) = row.split_last().map_or((0.0, row), |(last, row)| (*last, row));
+            let dot: f64 = row.iter().zip(&x[self.first[i]..]).map(|(a, b)| a * b).sum();
+            x[i] = (x[i] - dot) * inverse;
+        }
+        for i in (0..self.first.len()).rev() {
+            let row = &self.lower[self.start[i]..self.start[i + 1]];
+            let (inverse, row) = row.split_last().map_or((0.0, row), |(last, row)| (*last, row));
+            x[i] *= inverse;
+            let value = x[i];
+            for (x, a) in x[self.first[i]..].iter_mut().zip(row) {
+                *x -= a * value;
+            }
+        }
+    }
+}
+
+/// A pivot less than this part of the diagonal is rounding of the single precision in which the entries were computed:
+/// the matrix is singular there.
+const PIVOT: f64 = 1e-6;

@@ -1,0 +1,140 @@
+//! How cells lie in memory: rows padded to whole vectors, in a frame that says what is beyond the ends.
+
+use super::machine::LANES;
+use std::ops::Range;
+
+/// What lies beyond the two ends of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ends {
+    /// The value 0: limits repel like obstacles (Dirichlet).
+    High,
+    /// The value of the cell at the end itself: nothing flows across the limit (Neumann).
+    Reflecting,
+    /// The other end: a circle.
+    Joined,
+}
+
+/// The layout of one level. Each row has a cell before its first and one after its last; there is a row above the first
+/// and one below the last. They hold what [`Ends`] says, once the row is finished.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    pub rows: usize,
+    pub columns: usize,
+    pub ends: [Ends; 2],
+    /// `columns` padded.
+    pub width: usize,
+    stride: usize,
+}
+
+impl Frame {
+    pub fn new([rows, columns]: [usize; 2], ends: [Ends; 2]) -> Self {
+        let width = columns.next_multiple_of(LANES);
+        Self { rows, columns, ends, width, stride: width + LANES }
+    }
+
+    /// The frame of coefficients: nothing couples across the ends of an interval.
+    pub fn of_coefficients(self) -> Self {
+        let ends = self.ends.map(|ends| if ends == Ends::Joined { Ends::Joined } else { Ends::High });
+        Self { ends, ..self }
+    }
+
+    /// Cells to allocate.
+    pub fn len(&self) -> usize {
+        (self.rows + 2) * self.stride
+    }
+
+    /// The cells of row `i`, padding included.
+    pub fn row(&self, i: usize) -> Range<usize> {
+        let start = (i + 1) * self.stride + 1;
+        start..start + self.width
+    }
+
+    /// The same row with the one cell before and one after.
+    pub fn framed(&self, i: usize) -> Range<usize> {
+        let start = (i + 1) * self.stride;
+        start..start + self.width + 2
+    }
+
+    /// Where row `i - 1` starts, which may be the one above the first.
+    pub fn above(&self, i: usize) -> usize {
+        i * self.stride + 1
+    }
+
+    /// Where row `i + 1` starts, which may be the one below the last.
+    pub fn below(&self, i: usize) -> usize {
+        (i + 2) * self.stride + 1
+    }
+
+    /// Row `i` in the middle of the rows above and below it, each with the cell before and the one after.
+    pub fn three<'a, T>(&self, data: &'a [T], i: usize) -> [&'a [T]; 3] {
+        [0, 1, 2].map(|k| &data[(i + k) * self.stride..(i + k) * self.stride + self.width + 2])
+    }
+
+    /// Sets the frame as far as it depends on row `i`.
+    #[inline]
+    pub fn finish_row<T: Copy + Default>(&self, data: &mut [T], i: usize) {
+        self.finish_ends(&mut data[self.framed(i)]);
+        let (above, below) = (0, (self.rows + 1) * self.stride);
+        let from = (i + 1) * self.stride;
+        let mut copy = |to| data.copy_within(from..from + self.width + 2, to);
+        match self.ends[0] {
+            Ends::High => {}
+            Ends::Reflecting => {
+                if i == 0 {
+                    copy(above);
+                }
+                if i + 1 == self.rows {
+                    copy(below);
+                }
+            }
+            Ends::Joined => {
+                if i == 0 {
+                    copy(below);
+                }
+                if i + 1 == self.rows {
+                    copy(above);
+                }
+            }
+        }
+    }
+
+    /// Sets the cell before and the one after a row.
+    #[inline]
+    pub fn finish_ends<T: Copy + Default>(&self, framed: &mut [T]) {
+        let last = self.columns;
+        (framed[0], framed[last + 1]) = match self.ends[1] {
+            Ends::High => (T::default(), T::default()),
+            Ends::Reflecting => (framed[1], framed[last]),
+            Ends::Joined => (framed[last], framed[1]),
+        };
+    }
+
+    /// Sets the whole frame.
+    pub fn finish<T: Copy + Default>(&self, data: &mut [T]) {
+        for i in 0..self.rows {
+            self.finish_row(data, i);
+        }
+    }
+
+    /// Whether the last row is the one above the first.
+    pub fn is_joined_at_rows(&self) -> bool {
+        self.ends[0] == Ends::Joined
+    }
+
+    /// An order in which each row is made once, and used once as soon as the rows around it are made: the row before is
+    /// then still in the cache. On a circle the last row is made first, since it is the one above the first.
+    pub fn ahead(&self) -> impl Iterator<Item = Ahead> + use<> {
+        let rows = self.rows;
+        let first = (self.is_joined_at_rows() && rows > 1).then(|| Ahead { made: Some(rows - 1), used: None });
+        let last = if first.is_some() { rows - 1 } else { rows };
+        let rest = (0..=rows).map(move |i| Ahead { made: (i < last).then_some(i), used: i.checked_sub(1) });
+        first.into_iter().chain(rest)
+    }
+}
+
+/// A step of [`Frame::ahead`]: first `made`, then `used`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ahead {
+    pub made: Option<usize>,
+    pub used: Option<usize>,
+}

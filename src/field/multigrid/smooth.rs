@@ -1,0 +1,207 @@
+//! Smoothing: two steps of Jacobi's method with the weights of Chebyshev, and residuals.
+//!
+//! The spectrum of `D^-1 A` lies within 0..2. The weights make the polynomial of degree 2 that is least on its upper part,
+//! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
+//! cycle is symmetric.
+
+use super::around::{Around, Nine};
+use super::frame::Frame;
+use super::machine::{LANES, Machine, Pack, packs, packs_mut};
+use super::stencil::{FivePoint, Stencil};
+
+/// `1 / (1.25 +- 0.75 cos(pi / 4))`.
+const WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
+/// Both steps from zero: `(w0 + w1 - w0 w1) D^-1 b + w0 w1 D^-1 (sum of couplings times D^-1 b)`.
+const OWN: f32 = WEIGHTS[0] + WEIGHTS[1] - WEIGHTS[0] * WEIGHTS[1];
+const AROUND: f32 = WEIGHTS[0] * WEIGHTS[1];
+
+/// The vectors of a level.
+#[derive(Debug, Clone)]
+pub(super) struct Vectors {
+    pub right: Vec<f32>,
+    pub solution: Vec<f32>,
+    pub other: Vec<f32>,
+}
+
+impl Vectors {
+    pub fn new(frame: Frame) -> Self {
+        let zeros = || vec![0.0; frame.len()];
+        Self { right: zeros(), solution: zeros(), other: zeros() }
+    }
+}
+
+/// What a cycle does on a level.
+pub(super) trait Smooth {
+    /// Two steps from zero, for a right-hand side that has its frame.
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    /// Two steps more, from a solution without frame.
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors);
+    /// Row `i` of the residual, padding included.
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
+}
+
+impl FivePoint {
+    /// One step for row `i`, its ends excluded.
+    #[inline(always)]
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
+        let (keep, take) = (m.all(1.0 - weight), m.all(weight / self.degree as f32));
+        let (row, count) = (self.frame.row(i), self.frame.width / LANES);
+        let around = Around::new(self.frame.three(from, i), count);
+        let [right, free] = [right, &self.free].map(|part| packs(part, row.start, count));
+        let to = packs_mut(to, row.start, count);
+        for k in 0..count {
+            let sum = around.sum(m, k) + m.pack(&right[k]);
+            (keep * m.pack(&around.middle[k]) + take * m.pack(&free[k]) * sum).store(&mut to[k], 0);
+        }
+    }
+}
+
+impl Smooth for FivePoint {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+        let inverse = 1.0 / self.degree as f32;
+        let (own, next) = (m.all(OWN * inverse), m.all(AROUND * inverse * inverse));
+        m.run(
+            #[inline(always)]
+            || {
+                let count = self.frame.width / LANES;
+                for i in 0..self.frame.rows {
+                    let start = self.frame.row(i).start;
+                    let around = Around::new(self.frame.three(&vectors.right, i), count);
+                    let free = packs(&self.free, start, count);
+                    let to = packs_mut(&mut vectors.solution, start, count);
+                    for k in 0..count {
+                        let sum = own * m.pack(&around.middle[k]) + next * around.sum(m, k);
+                        (sum * m.pack(&free[k])).store(&mut to[k], 0);
+                    }
+                    self.frame.finish_row(&mut vectors.solution, i);
+                }
+            },
+        );
+    }
+
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+        let Vectors { right, solution, other } = vectors;
+        self.frame.finish(solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
+    }
+
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+        let degree = m.all(self.degree as f32);
+        m.run(
+            #[inline(always)]
+            || {
+                let count = self.frame.width / LANES;
+                let around = Around::new(self.frame.three(solution, i), count);
+                let (right, out) = (packs(right, self.frame.row(i).start, count), packs_mut(out, 0, count));
+                for k in 0..count {
+                    let sum = m.pack(&right[k]) + around.sum(m, k);
+                    (sum - degree * m.pack(&around.middle[k])).store(&mut out[k], 0);
+                }
+            },
+        );
+    }
+}
+
+impl Stencil {
+    /// One step for row `i`, its ends excluded.
+    #[inline(always)]
+    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
+        let (keep, take) = (m.all(1.0 - weight), m.all(weight));
+        let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+        let nine = Nine::new(self, from, i);
+        let [right, inverse] = [right, &self.inverse].map(|part| packs(part, start, count));
+        let to = packs_mut(to, start, count);
+        for k in 0..count {
+            let sum = nine.sum(m, k) + m.pack(&right[k]);
+            (keep * m.pack(&nine.middle[k]) + take * m.pack(&inverse[k]) * sum).store(&mut to[k], 0);
+        }
+    }
+}
+
+impl Smooth for Stencil {
+    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+        let Vectors { right, solution, other } = vectors;
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let row = self.frame.row(i);
+                    for at in row.step_by(LANES) {
+                        (m.load(&self.inverse, at) * m.load(right, at)).store(other, at);
+                    }
+                    self.frame.finish_row(other, i);
+                }
+            },
+        );
+        let (own, next) = (m.all(OWN), m.all(AROUND));
+        m.run(
+            #[inline(always)]
+            || {
+                for i in 0..self.frame.rows {
+                    let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+                    let nine = Nine::new(self, other, i);
+                    let (inverse, to) = (packs(&self.inverse, start, count), packs_mut(solution, start, count));
+                    for k in 0..count {
+                        let sum = own * m.pack(&nine.middle[k]) + next * m.pack(&inverse[k]) * nine.sum(m, k);
+                        sum.store(&mut to[k], 0);
+                    }
+                    self.frame.finish_row(solution, i);
+                }
+            },
+        );
+    }
+
+    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+        let Vectors { right, solution, other } = vectors;
+        self.frame.finish(solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
+    }
+
+    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+        m.run(
+            #[inline(always)]
+            || {
+                let (start, count) = (self.frame.row(i).start, self.frame.width / LANES);
+                let nine = Nine::new(self, solution, i);
+                let [right, diagonal] = [right, &self.diagonal].map(|part| packs(part, start, count));
+                let out = packs_mut(out, 0, count);
+                for k in 0..count {
+                    let sum = m.pack(&right[k]) + nine.sum(m, k);
+                    (sum - m.pack(&diagonal[k]) * m.pack(&nine.middle[k])).store(&mut out[k], 0);
+                }
+            },
+        );
+    }
+}

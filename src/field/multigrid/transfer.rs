@@ -1,0 +1,175 @@
+//! Between a level and the next coarser one.
+
+use super::frame::Frame;
+use super::machine::{LANES, Machine, Pack};
+use super::seam::odd_circles;
+use super::smooth::{Smooth, Vectors};
+
+/// Interpolation weights, kept at the coarse cell that is north or west of the cell they are for, and its transpose.
+#[derive(Debug, Clone)]
+pub(super) struct Transfer {
+    pub fine: Frame,
+    pub coarse: Frame,
+    /// From the west, for the cell to the east of a coarse one.
+    pub west: Vec<f32>,
+    /// From the east, for the same cell.
+    pub east: Vec<f32>,
+    /// From the north, for the cell to the south of a coarse one.
+    pub north: Vec<f32>,
+    /// From the south, for the same cell.
+    pub south: Vec<f32>,
+    /// For the cell to the south-east of a coarse one: from the north-west, north-east, south-west, south-east.
+    pub corners: [Vec<f32>; 4],
+}
+
+/// Rows that a transfer works with, for all levels.
+#[derive(Debug, Clone)]
+pub(super) struct Rows {
+    natural: Vec<f32>,
+    even: Vec<f32>,
+    odd: Vec<f32>,
+    /// The odd row above, its even and its odd columns.
+    above: [Vec<f32>; 2],
+    below: [Vec<f32>; 2],
+}
+
+impl Rows {
+    /// For grids with rows up to this padded width.
+    pub fn new(width: usize) -> Self {
+        let zeros = || vec![0.0; width + 2 * LANES + 2];
+        Self { natural: zeros(), even: zeros(), odd: zeros(), above: [zeros(), zeros()], below: [zeros(), zeros()] }
+    }
+}
+
+impl Transfer {
+    pub fn new(fine: Frame, coarse: Frame) -> Self {
+        let zeros = || vec![0.0; coarse.len()];
+        let corners = [(); 4].map(|()| zeros());
+        Self { fine, coarse, west: zeros(), east: zeros(), north: zeros(), south: zeros(), corners }
+    }
+
+    /// After the weights are set: their frames.
+    pub fn finish(&mut self) {
+        for part in [&mut self.west, &mut self.east, &mut self.north, &mut self.south] {
+            self.coarse.finish(part);
+        }
+        for part in &mut self.corners {
+            self.coarse.finish(part);
+        }
+    }
+
+    /// Forgets the cells that were put into the seams of odd circles.
+    pub fn drop_seams(&mut self) {
+        let odd = odd_circles(self.fine);
+        let frame = self.coarse;
+        let [nw, ne, sw, se] = &mut self.corners;
+        if odd[0] {
+            for part in [&mut self.north, &mut self.south, &mut *nw, &mut *ne, &mut *sw, &mut *se] {
+                part[frame.row(frame.rows - 1)].fill(0.0);
+            }
+        }
+        if odd[1] {
+            for part in [&mut self.west, &mut self.east, nw, ne, sw, se] {
+                for i in 0..frame.rows {
+                    part[frame.row(i)][frame.columns - 1] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// `P^T` of the residual of the finer level.
+    pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
+        let (fine, coarse) = (self.fine, self.coarse);
+        let Rows { natural, even, odd, above, below } = rows;
+        let read = |i: usize, natural: &mut [f32], even: &mut [f32], odd: &mut [f32]| {
+            level.residual(m, &upper.right, &upper.solution, i, &mut natural[1..=fine.width]);
+            fine.finish_ends(&mut natural[..fine.width + 2]);
+            m.run(
+                #[inline(always)]
+                || split(&natural[1..=fine.width], &mut even[1..], &mut odd[1..]),
+            );
+            odd[0] = natural[0];
+        };
+        if fine.is_joined_at_rows() && fine.rows.is_multiple_of(2) {
+            let [even, odd] = below;
+            read(fine.rows - 1, natural, even, odd);
+        } else {
+            below.iter_mut().for_each(|part| part.fill(0.0));
+        }
+        for i in 0..coarse.rows {
+            std::mem::swap(above, below);
+            read(2 * i, natural, even, odd);
+            if 2 * i + 1 < fine.rows {
+                let [even, odd] = &mut *below;
+                read(2 * i + 1, natural, even, odd);
+            } else {
+                below.iter_mut().for_each(|part| part.fill(0.0));
+            }
+            let (range, over) = (coarse.row(i), coarse.above(i));
+            let [nw, ne, sw, se] = &self.corners;
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..coarse.width).step_by(LANES) {
+                        let (at, over) = (range.start + j, over + j);
+                        let sum = m.load(even, j + 1)
+                            + (m.load(&self.west, at) * m.load(odd, j + 1)
+                                + m.load(&self.east, at - 1) * m.load(odd, j))
+                            + (m.load(&self.north, at) * m.load(&below[0], j + 1)
+                                + m.load(&self.south, over) * m.load(&above[0], j + 1))
+                            + (m.load(nw, at) * m.load(&below[1], j + 1) + m.load(ne, at - 1) * m.load(&below[1], j))
+                            + (m.load(sw, over) * m.load(&above[1], j + 1)
+                                + m.load(se, over - 1) * m.load(&above[1], j));
+                        sum.store(into, at);
+                    }
+                },
+            );
+        }
+    }
+
+    /// Adds `P` of a coarse vector with its frame to a fine vector.
+    pub fn prolong<M: Machine>(&self, m: M, from: &[f32], rows: &mut Rows, onto: &mut [f32]) {
+        let Rows { even, odd, below, .. } = rows;
+        let [a, b, c, d] = &self.corners;
+        for i in 0..self.coarse.rows {
+            let at = self.coarse.row(i).start;
+            let under = self.coarse.below(i);
+            m.run(
+                #[inline(always)]
+                || {
+                    for j in (0..self.coarse.width).step_by(LANES) {
+                        let (at, under) = (at + j, under + j);
+                        let (nw, ne) = (m.load(from, at), m.load(from, at + 1));
+                        let (sw, se) = (m.load(from, under), m.load(from, under + 1));
+                        nw.store(even, j);
+                        (m.load(&self.west, at) * nw + m.load(&self.east, at) * ne).store(odd, j);
+                        (m.load(&self.north, at) * nw + m.load(&self.south, at) * sw).store(&mut below[0], j);
+                        let upper = m.load(a, at) * nw + m.load(b, at) * ne;
+                        (upper + (m.load(c, at) * sw + m.load(d, at) * se)).store(&mut below[1], j);
+                    }
+                    join(even, odd, &mut onto[self.fine.row(2 * i)]);
+                    if 2 * i + 1 < self.fine.rows {
+                        join(&below[0], &below[1], &mut onto[self.fine.row(2 * i + 1)]);
+                    }
+                },
+            );
+        }
+    }
+}
+
+/// Columns apart.
+#[inline(always)]
+fn split(natural: &[f32], even: &mut [f32], odd: &mut [f32]) {
+    for ((pair, even), odd) in natural.as_chunks::<2>().0.iter().zip(even).zip(odd) {
+        [*even, *odd] = *pair;
+    }
+}
+
+/// Columns together, added.
+#[inline(always)]
+fn join(even: &[f32], odd: &[f32], onto: &mut [f32]) {
+    for ((pair, even), odd) in onto.as_chunks_mut::<2>().0.iter_mut().zip(even).zip(odd) {
+        pair[0] += even;
+        pair[1] += odd;
+    }
+}

@@ -1,0 +1,309 @@
+//! The harmonic potential in windows, in order of falling values.
+//!
+//! What is known is a set of cells around the goals, at first the goals alone. A *window* is gathered from its border: the
+//! unknown cells down to a guessed depth, with the known values around. Its equations are solved in doubles, scaled to the
+//! greatest of these, as if the potential were 0 beyond it. Together with the values goes the probability that a walk
+//! comes out where the window was cut off: as the potential there is bounded by the maximum principle, so is what that
+//! adds to each value, and the values to which it adds nothing that a double could show are accepted. Errors do not grow
+//! on the way, they add up: values are sums of known ones with positive weights.
+//!
+//! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values.
+
+use super::harmonic::decay;
+use super::multigrid::Ends;
+use super::network::Network;
+use super::potential::Scaled;
+use super::wide::Wide;
+use super::{Component, Potential};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::f64::consts::LN_2;
+
+/// No window.
+const NONE: u32 = u32::MAX;
+
+/// Guessed depth of a window, nepers: the guessed fall of the potential, as a natural logarithm.
+const DEPTH: f64 = 64.0;
+
+/// A value is accepted if what the window leaves out adds at most this part to it.
+const NEGLIGIBLE: f64 = f64::EPSILON / 4.0;
+
+/// Values below this part of the greatest are left to a later window, where they are great: far above the least double.
+const SMALLEST: f64 = 1e-200;
+
+/// Where nowhere is more room than this a window is eliminated: mazes, ...
+const NARROW: u32 = 3;
+/// ... and up to this room if it is a corridor, not a hall: the factor fills with the square of the width, ...
+const MEDIUM: u32 = 12;
+/// ... which is told by the number of cells, at most this, ...
+const SMALL: usize = 2000;
+/// ... and so many times the room's square: the depth of a window is 41 times the room, its width twice.
+const CORRIDOR: usize = 128;
+
+/// Wide windows are refined down to this part of the greatest value, ...
+const FLOOR: f64 = 1e-36;
+/// ... which leaves values from here on precise.
+const PRECISE: f64 = 1e-30;
+
+/// An accepted cell that may have neighbours yet to be accepted.
+#[derive(PartialEq)]
+struct Front {
+    log2: f64,
+    position: u32,
+}
+
+impl Eq for Front {}
+
+impl PartialOrd for Front {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Front {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.log2.total_cmp(&other.log2).then(other.position.cmp(&self.position))
+    }
+}
+
+/// The potential as far as it is known.
+pub(super) struct Peeling<'a> {
+    component: &'a Component,
+    /// What a walk loses to death, beside the weight 1 of each neighbour.
+    loss: f64,
+    /// Guessed fall of the potential a cell, nepers, by the room around it.
+    decay: Vec<f64>,
+    room: Vec<u32>,
+    pub potential: Potential,
+    front: BinaryHeap<Front>,
+    /// Number in the window of each position, or [`NONE`].
+    number: Vec<u32>,
+    depth: f64,
+    pub windows: usize,
+}
+
+/// Unknown cells whose values are found together.
+struct Window {
+    /// Positions.
+    cells: Vec<u32>,
+    /// Positions of the accepted cells that it was gathered around.
+    sources: Vec<u32>,
+    /// Of the numbers in it.
+    exponent: i32,
+    /// Greatest accepted value that borders on unknown cells beyond the window.
+    beside: f64,
+    /// Greatest accepted value around.
+    greatest: f64,
+}
+
+impl<'a> Peeling<'a> {
+    pub fn new(component: &'a Component, loss: f64) -> Self {
+        let room = component.room().widest;
+        let widest = room.iter().copied().max().unwrap_or(0);
+        let mut potential = Potential::zero(component.len());
+        let mut front = BinaryHeap::new();
+        for goal in 0..component.goals {
+            potential.set(goal, Scaled { mantissa: 1.0, exponent: 0 });
+            front.push(Front { log2: 0.0, position: goal as u32 });
+        }
+        Self {
+            component,
+            loss,
+            decay: (0..=widest).map(decay).collect(),
+            room,
+            potential,
+            front,
+            number: vec![NONE; component.len()],
+            depth: DEPTH,
+            windows: 0,
+        }
+    }
+
+    pub fn run(mut self) -> Self {
+        while let Some(window) = self.gather() {
+            self.windows += 1;
+            let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
+            let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);
+            let small = if widest <= MEDIUM { corridor } else { SMALL };
+            let direct = widest <= NARROW || window.cells.len() <= small;
+            let wide = if direct { None } else { self.wide(&window).solve(FLOOR * window.greatest) };
+            let least = if wide.is_some() { PRECISE } else { SMALLEST };
+            let solution = wide.unwrap_or_else(|| self.network(&window).solve());
+            let accepted = self.accept(&window, &solution, least);
+            if 4 * accepted < window.cells.len() {
+                self.depth *= 1.5;
+            }
+        }
+        self
+    }
+
+    fn is_known(&self, position: usize) -> bool {
+        self.potential.mantissa[position] > 0.0
+    }
+
+    /// The neighbours of a cell that are cells.
+    fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
+        let wall = self.component.wall();
+        self.component.neighbors[position].into_iter().map(|n| n as usize).filter(move |&n| n != wall)
+    }
+
+    fn is_front(&self, position: usize) -> bool {
+        self.around(position).any(|n| !self.is_known(n))
+    }
+
+    /// The unknown cells around the greatest accepted values; nothing if there are none.
+    fn gather(&mut self) -> Option<Window> {
+        while self.front.peek().is_some_and(|front| !self.is_front(front.position as usize)) {
+            self.front.pop();
+        }
+        let &Front { log2: top, position } = self.front.peek()?;
+        let exponent = self.potential.at(position as usize).exponent;
+        let greatest = self.potential.at(position as usize).mantissa;
+        let mut sources = Vec::new();
+        let mut cells: Vec<u32> = Vec::new();
+        let mut beside = 0.0_f64;
+        // Cells to go on from, by depth in whole nepers.
+        let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
+        while let Some(front) = self.front.peek() {
+            let depth = (top - front.log2) * LN_2;
+            let position = front.position;
+            let is_front = self.is_front(position as usize);
+            if is_front && depth > self.depth {
+                beside = self.potential.at(position as usize).mantissa_at(exponent);
+                break;
+            }
+            self.front.pop();
+            if !is_front {
+                continue;
+            }
+            sources.push(position);
+            waiting[depth as usize].push((depth, position));
+        }
+        for level in 0..waiting.len() {
+            let mut at = 0;
+            while at < waiting[level].len() {
+                let (depth, from) = waiting[level][at];
+                at += 1;
+                let mut cut = false;
+                for next in self.around(from as usize) {
+                    if self.is_known(next) || self.number[next] != NONE {
+                        continue;
+                    }
+                    let depth = depth + self.decay[self.room[next] as usize];
+                    if depth > self.depth {
+                        cut = true;
+                        continue;
+                    }
+                    self.number[next] = cells.len() as u32;
+                    cells.push(next as u32);
+                    waiting[depth as usize].push((depth, next as u32));
+                }
+                if cut && self.is_known(from as usize) {
+                    beside = beside.max(self.potential.at(from as usize).mantissa_at(exponent));
+                }
+            }
+        }
+        Some(Window { cells, sources, exponent, beside, greatest })
+    }
+
+    /// The window's equations: the first side for the known values around, the second for 1 at the unknown cells beyond.
+    fn network(&self, window: &Window) -> Network {
+        let mut network = Network::new(window.cells.len());
+        for (i, &position) in window.cells.iter().enumerate() {
+            network.ground(i, self.loss, [0.0; 2]);
+            for n in self.component.neighbors[position as usize].map(|n| n as usize) {
+                if n == self.component.wall() {
+                    network.ground(i, 1.0, [0.0; 2]);
+                } else if self.is_known(n) {
+                    network.ground(i, 1.0, [self.potential.at(n).mantissa_at(window.exponent), 0.0]);
+                } else if self.number[n] == NONE {
+                    network.ground(i, 1.0, [0.0, 1.0]);
+                } else if n != position as usize {
+                    network.join(i, self.number[n] as usize, 1.0);
+                }
+            }
+        }
+        network
+    }
+
+    /// The same equations on the smallest box of cells around them.
+    fn wide(&self, window: &Window) -> Wide {
+        let (mut low, mut high, mut ends) = ([usize::MAX; 2], [0; 2], [Ends::High; 2]);
+        for &position in &window.cells {
+            let place = self.component.place(position as usize);
+            for k in [0, 1] {
+                low[k] = low[k].min(place[k]);
+                high[k] = high[k].max(place[k] + 1);
+                // Across the seam of a circle.
+                let before = self.component.neighbors[position as usize][2 * k] as usize;
+                if place[k] == 0 && before != self.component.wall() && self.number[before] != NONE {
+                    ends[k] = Ends::Joined;
+                }
+            }
+        }
+        for k in [0, 1] {
+            if ends[k] == Ends::Joined {
+                (low[k], high[k]) = (0, self.component.shape[k]);
+            }
+        }
+        let cells = [high[0] - low[0], high[1] - low[1]];
+        let mut wide = Wide::new(cells, ends);
+        for &position in &window.cells {
+            let (mut ground, mut source) = (self.loss, [0.0; 2]);
+            let around = self.component.neighbors[position as usize].map(|n| {
+                if n as usize == self.component.wall() {
+                    ground += 1.0;
+                } else if self.is_known(n as usize) {
+                    ground += 1.0;
+                    source[0] += self.potential.at(n as usize).mantissa_at(window.exponent);
+                } else if self.number[n as usize] == NONE {
+                    ground += 1.0;
+                    source[1] += 1.0;
+                } else if n != position {
+                    return self.number[n as usize];
+                }
+                NONE
+            });
+            wide.neighbors.push(around);
+            wide.ground.push(ground);
+            wide.source.push(source);
+            let [i, j] = self.component.place(position as usize);
+            wide.place.push(((i - low[0]) * cells[1] + j - low[1]) as u32);
+        }
+        wide
+    }
+
+    /// Takes over the values that what is beyond the window has no part in; how many.
+    fn accept(&mut self, window: &Window, solution: &[[f64; 2]], least: f64) -> usize {
+        // Values beyond are at most the greatest of those next to them: of known cells, or of the window's own, which
+        // are at most their value here and their share of what is beyond.
+        let mut beyond = window.beside;
+        let (mut value, mut share) = (0.0_f64, 0.0_f64);
+        for (&position, &[u, e]) in window.cells.iter().zip(solution) {
+            if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NONE) {
+                value = value.max(u);
+                share = share.max(e);
+            }
+        }
+        if value > 0.0 {
+            beyond = if share < 1.0 { beyond.max(value / (1.0 - share)).min(window.greatest) } else { window.greatest };
+        }
+        let mut taken = 0;
+        let mut front = window.sources.clone();
+        for (&position, &[u, e]) in window.cells.iter().zip(solution) {
+            self.number[position as usize] = NONE;
+            if e * beyond <= NEGLIGIBLE * u && u >= least * window.greatest {
+                self.potential.set(position as usize, Scaled { mantissa: u, exponent: window.exponent }.normalized());
+                front.push(position);
+                taken += 1;
+            }
+        }
+        for position in front {
+            if self.is_front(position as usize) {
+                let log2 = self.potential.at(position as usize).log2();
+                self.front.push(Front { log2, position });
+            }
+        }
+        taken
+    }
+}

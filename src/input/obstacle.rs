@@ -1,0 +1,127 @@
+//! The world file's `[[obstacle]]`.
+
+use super::error::{Defect, InputError};
+use super::occupancy::OccupancyMap;
+use super::world::{Number, Numbers, Reader};
+use crate::geometry::{Convex, SimplePolygon};
+use crate::model::{Obstacle, Shape};
+use serde::Deserialize;
+use toml::Spanned;
+
+/// `[[obstacle]]`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ObstacleTable {
+    name: Option<String>,
+    polygon: Option<Spanned<Vec<Numbers>>>,
+    circle: Option<CircleTable>,
+    polyline: Option<Spanned<Vec<Numbers>>>,
+    image: Option<Spanned<String>>,
+    unknown: Option<Spanned<String>>,
+    height: Option<Numbers>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CircleTable {
+    center: Numbers,
+    radius: Number,
+}
+
+/// Convex pieces of the largest map: beyond it each planner takes minutes.
+pub(super) const MOST_PIECES: usize = 1 << 20;
+
+impl ObstacleTable {
+    /// The obstacle, the `index`-th of its file.
+    ///
+    /// # Errors
+    /// On not exactly one shape, values that are not finite, shapes that are none, and files that cannot be used.
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Obstacle, InputError> {
+        let obstacle = table.get_ref();
+        let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
+        let what = format!("obstacle \"{name}\"");
+        let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
+            (Some(corners), None, None, None) => polygon(reader, corners, &what)?,
+            (None, Some(disc), None, None) => circle(reader, disc, &what)?,
+            (None, None, Some(points), None) => polyline(reader, points, &what)?,
+            (None, None, None, Some(file)) => image(reader, file, obstacle.unknown.as_ref(), &what)?,
+            (polygon, circle, polyline, image) => {
+                let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
+                let count = given.iter().filter(|x| **x).count();
+                let message = format!("{what} needs exactly one shape, it has {count}");
+                let cure =
+                    "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
+                return Err(reader.source.defect_at(table.span(), message).cure(cure).into());
+            }
+        };
+        if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
+            let message = format!("{what}: only an image has unknown cells");
+            return Err(reader.source.defect_at(unknown.span(), message).cure("remove the key").into());
+        }
+        let heights = reader.heights(obstacle.height.as_ref(), &what)?;
+        Ok(Obstacle { name, shape, pieces, heights })
+    }
+}
+
+fn image(
+    reader: &Reader,
+    image: &Spanned<String>,
+    unknown: Option<&Spanned<String>>,
+    what: &str,
+) -> Result<(Shape, Vec<Convex>), InputError> {
+    let unknown_is_free = match unknown.map(|u| (u.get_ref().as_str(), u.span())) {
+        None | Some(("solid", _)) => false,
+        Some(("free", _)) => true,
+        Some((other, at)) => {
+            let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
+            return Err(reader.source.defect_at(at, message).into());
+        }
+    };
+    let path = reader.beside(image, what)?;
+    if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
+        let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
+        let cure = "name the YAML; it names the picture";
+        return Err(reader.source.defect_at(image.span(), message).cure(cure).into());
+    }
+    let pieces = OccupancyMap::read(&path)?.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
+        let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");
+        let cure = "remove single pixels from the picture, or make its pixels larger";
+        reader.source.defect_at(image.span(), message).cure(cure)
+    })?;
+    Ok((Shape::Pieces, pieces))
+}
+
+fn polygon(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+    let points = reader.points(corners, what)?;
+    let polygon = SimplePolygon::new(points).map_err(|defect| {
+        reader
+            .source
+            .defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}"))
+            .cure("list the corners in order round the shape, each once; a wall without area is a polyline")
+    })?;
+    Ok((Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces()))
+}
+
+fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+    let center = reader.point(&circle.center, &format!("{what}, center"))?;
+    let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
+    if radius <= 0.0 {
+        let message = format!("{what}: the radius must be positive, is {radius}");
+        return Err(reader.source.defect_at(circle.radius.span(), message));
+    }
+    Ok((Shape::Circle { center, radius }, vec![Convex::disc(center, radius)]))
+}
+
+fn polyline(reader: &Reader, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+    let corners = reader.points(points, what)?;
+    if corners.len() < 2 {
+        let message = format!("{what}: a polyline needs at least two points, it has {}", corners.len());
+        return Err(reader.source.defect_at(points.span(), message));
+    }
+    if let Some(i) = corners.windows(2).position(|w| w[0] == w[1]) {
+        let message = format!("{what}: points {} and {} of the polyline are the same", i + 1, i + 2);
+        return Err(reader.source.defect_at(points.get_ref()[i + 1].span(), message).cure("leave one of them out"));
+    }
+    let pieces = corners.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
+    Ok((Shape::Polyline(corners), pieces))
+}

@@ -1,0 +1,116 @@
+//! Greymaps: PGM in text (P2) or bytes (P5), of 8 or 16 bits.
+//!
+//! Format: <https://netpbm.sourceforge.net/doc/pgm.html>. A `#` in the header begins a comment up to the end of the line.
+
+use super::picture::{Broken, Judge, Picture, checked_size};
+
+/// What to do about most defects.
+const CURE: &str = "save the picture anew";
+
+/// Reads a greymap.
+pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
+    let in_text = bytes[1] == b'2';
+    let mut header = Words { bytes, at: 2 };
+    let [width, height, most] =
+        [header.number(&"width")?, header.number(&"height")?, header.number(&"greatest value (maxval)")?];
+    let count = checked_size(width, height)?;
+    if !(1..=65535).contains(&most) {
+        return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), CURE));
+    }
+    // Once for every shade, not for every pixel.
+    let said: Vec<_> = (0..=most).map(|value| judge(Some(value as f64 / most as f64))).collect();
+    let checked = |value: usize, index: usize| {
+        said.get(value).copied().ok_or_else(|| {
+            let place = format!("row {}, column {}", index / width + 1, index % width + 1);
+            Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), CURE)
+        })
+    };
+    let cells = if in_text {
+        let mut cells = Vec::with_capacity(count.min(bytes.len()));
+        for index in 0..count {
+            let value = header.number(&format_args!("value {} of {count}", index + 1))?;
+            cells.push(checked(value, index)?);
+        }
+        header.skip();
+        ended(header.at, bytes)?;
+        cells
+    } else {
+        // One white space ends the header, which may be the end of a comment's line.
+        header.skip_comment();
+        let start = header.at + 1;
+        let raster = bytes.get(start..).unwrap_or_default();
+        let wide = most > 255;
+        let needed = count * if wide { 2 } else { 1 };
+        if raster.len() < needed {
+            let message = format!("ends early: {width} x {height} pixels take {needed} bytes, it has {}", raster.len());
+            return Err(Broken::new(message, CURE));
+        }
+        ended(start + needed, bytes)?;
+        let value = |index: usize| match wide {
+            true => usize::from(u16::from_be_bytes([raster[2 * index], raster[2 * index + 1]])),
+            false => usize::from(raster[index]),
+        };
+        (0..count).map(|index| checked(value(index), index)).collect::<Result<_, _>>()?
+    };
+    Ok(Picture { width, height, cells })
+}
+
+/// Nothing may follow the picture, which ends before byte `at`.
+fn ended(at: usize, bytes: &[u8]) -> Result<(), Broken> {
+    if at >= bytes.len() {
+        return Ok(());
+    }
+    let message = format!("goes on after the picture that its header announces, at byte {}", at + 1);
+    Err(Broken::new(message, "correct width, height and maxval in the header, or save it anew"))
+}
+
+/// White space, comments and whole numbers.
+struct Words<'a> {
+    bytes: &'a [u8],
+    at: usize,
+}
+
+impl Words<'_> {
+    /// Passes over white space and comments.
+    fn skip(&mut self) {
+        loop {
+            self.skip_comment();
+            match self.bytes.get(self.at) {
+                Some(byte) if byte.is_ascii_whitespace() => self.at += 1,
+                _ => break,
+            }
+        }
+    }
+
+    /// Passes over a comment, if one begins here, up to the end of its line.
+    fn skip_comment(&mut self) {
+        let rest = &self.bytes[self.at..];
+        if rest.first() == Some(&b'#') {
+            self.at += rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+        }
+    }
+
+    /// The next number, with white space before it and after it.
+    fn number(&mut self, what: &dyn std::fmt::Display) -> Result<usize, Broken> {
+        let before = self.at;
+        self.skip();
+        let rest = &self.bytes[self.at..];
+        let length = rest.iter().position(|b| b.is_ascii_whitespace() || *b == b'#').unwrap_or(rest.len());
+        let word = &rest[..length];
+        if word.is_empty() {
+            return Err(Broken::new(format!("ends early: there is no {what}"), CURE));
+        }
+        let value = std::str::from_utf8(word).ok().filter(|w| w.bytes().all(|b| b.is_ascii_digit()));
+        match value.and_then(|w| w.parse().ok()) {
+            Some(value) if self.at > before => {
+                self.at += length;
+                Ok(value)
+            }
+            _ => {
+                // Enough to recognise it by, whatever it is.
+                let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
+                Err(Broken::new(format!("{what}: {shown:?} is no whole number (byte {})", self.at + 1), CURE))
+            }
+        }
+    }
+}

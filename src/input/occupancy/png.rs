@@ -1,0 +1,36 @@
+//! PNG pictures of any kind: grey, colour, palette; 1 to 16 bits; with or without opacity.
+
+use super::picture::{Broken, Judge, Picture, checked_size};
+use ::png::{BitDepth, Decoder, DecodingError, Transformations};
+use std::io::Cursor;
+
+/// Reads a PNG.
+pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
+    let broken = |error: DecodingError| Broken::new(format!("is a broken PNG: {error}"), "save the picture anew");
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    // Palettes become colours, fewer than eight bits eight, a transparent colour an opacity.
+    decoder.set_transformations(Transformations::EXPAND);
+    let header = decoder.read_header_info().map_err(broken)?;
+    let (width, height) = (header.width as usize, header.height as usize);
+    let count = checked_size(width, height)?;
+    let mut reader = decoder.read_info().map_err(broken)?;
+    let size = reader.output_buffer_size().ok_or_else(|| broken(DecodingError::LimitsExceeded))?;
+    let mut samples = vec![0; size];
+    let frame = reader.next_frame(&mut samples).map_err(broken)?;
+    let channels = frame.color_type.samples();
+    // Grey or colour, and the opacity last if there is one.
+    let (shades, has_opacity) = (if channels < 3 { 1 } else { 3 }, channels % 2 == 0);
+    let (bytes_each, most) = if frame.bit_depth == BitDepth::Sixteen { (2, 65535.0) } else { (1, 255.0) };
+    let value = |sample: &[u8]| sample.iter().fold(0.0, |value, byte| 256.0 * value + f64::from(*byte));
+    let cell = |pixel: &[u8]| {
+        let (colors, opacity) = pixel.split_at(shades * bytes_each);
+        let opaque = !has_opacity || value(opacity) == most;
+        let sum: f64 = colors.chunks_exact(bytes_each).map(value).sum();
+        judge(opaque.then(|| sum / (shades as f64 * most)))
+    };
+    let cells: Vec<_> = samples.chunks_exact(channels * bytes_each).take(count).map(cell).collect();
+    if cells.len() < count {
+        return Err(Broken::new("is a broken PNG: pixels are missing", "save the picture anew"));
+    }
+    Ok(Picture { width, height, cells })
+}

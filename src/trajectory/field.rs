@@ -1,0 +1,49 @@
+//! The field that a planner followed, for the result.
+
+use serde::Serialize;
+
+/// Settings of a field and how its relaxation ended, in the words of the command line. What an equation has not is left
+/// out. Sweeps are among the sizes of the report.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct FieldReport {
+    /// `harmonic`, `oriented`, `local`, `bvp`, `bvp2` or `khatib`.
+    pub equation: &'static str,
+    /// Strength of the drift, per cell: everywhere, or outside of preference regions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub epsilon: Option<f64>,
+    /// Its direction in joint space, of length 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<[f64; 2]>,
+    /// `central` or `upwind`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub difference: Option<&'static str>,
+    /// `jacobi`, `weighted-jacobi`, `gauss-seidel` or `sor`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relaxation: Option<&'static str>,
+    /// `rows`, `columns`, `corners` or `red-black`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub order: Option<String>,
+    /// Of the relaxation, on the last grid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+    /// Greatest relative change of a value in a sweep that counts as converged.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<f64>,
+    /// At most so many sweeps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_sweeps: Option<usize>,
+    /// Pull of the goal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub attraction: Option<String>,
+    /// Push of the nearest obstacle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repulsion: Option<String>,
+    /// Whether pull and push go through tanh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub saturated: Option<bool>,
+    /// What lies beyond joint limits: `high` or `reflecting`.
+    pub limits: &'static str,
+    /// Whether the tolerance was met; left out if nothing was relaxed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub converged: Option<bool>,
+}

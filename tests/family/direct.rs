@@ -1,0 +1,143 @@
+//! Direct solutions by dense LU. Shares nothing with the library but the types that say what is asked.
+
+use cplan::field::{Boundary, Cell, Difference, Domain, Equation, Levels};
+use nalgebra::{DMatrix, DVector};
+
+/// A domain drawn in text: `#` obstacle, `G` goal; rows of text are rows of the domain.
+pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
+    let rows: Vec<&str> = text.split_whitespace().collect();
+    let kinds = rows.iter().flat_map(|row| {
+        row.chars().map(|c| match c {
+            '#' => Cell::Obstacle,
+            'G' => Cell::Goal,
+            _ => Cell::Free,
+        })
+    });
+    Domain::new([rows.len(), rows[0].len()], kinds.collect(), boundaries, levels)
+}
+
+/// What is found one step from a cell along an axis.
+#[derive(Clone, Copy, PartialEq)]
+enum There {
+    Cell(usize),
+    Obstacle,
+    Same,
+}
+
+/// One step from `cell` along `axis`, forwards or backwards.
+fn there(domain: &Domain, cell: usize, axis: usize, step: i64) -> There {
+    let [rows, columns] = domain.cells().map(|n| n as i64);
+    let mut at = [cell as i64 / columns, cell as i64 % columns];
+    at[axis] += step;
+    let n = [rows, columns][axis];
+    if !(0..n).contains(&at[axis]) {
+        match domain.boundaries()[axis] {
+            Boundary::Periodic => at[axis] = at[axis].rem_euclid(n),
+            Boundary::High => return There::Obstacle,
+            Boundary::Reflecting => return There::Same,
+        }
+    }
+    There::Cell((at[0] * columns + at[1]) as usize)
+}
+
+/// The value there, among `values`.
+fn value(domain: &Domain, values: &[f64], cell: usize, axis: usize, step: i64) -> f64 {
+    match there(domain, cell, axis, step) {
+        There::Cell(next) => values[next],
+        There::Obstacle => domain.levels().obstacle,
+        There::Same => values[cell],
+    }
+}
+
+fn fixed(domain: &Domain, cell: usize) -> Option<f64> {
+    match domain.kinds()[cell] {
+        Cell::Free => None,
+        Cell::Obstacle => Some(domain.levels().obstacle),
+        Cell::Goal => Some(domain.levels().goal),
+    }
+}
+
+/// Solves `lap p + <b, grad p> = 0` for a drift `b` in each cell.
+fn solve(domain: &Domain, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Vec<f64> {
+    let n = domain.kinds().len();
+    let mut matrix = DMatrix::zeros(n, n);
+    let mut right = DVector::zeros(n);
+    for cell in 0..n {
+        if let Some(value) = fixed(domain, cell) {
+            matrix[(cell, cell)] = 1.0;
+            right[cell] = value;
+            continue;
+        }
+        // Adds a multiple of the value in some direction to the cell's equation.
+        let mut add = |to: There, factor: f64| match to {
+            There::Cell(next) => matrix[(cell, next)] += factor,
+            There::Obstacle => right[cell] -= factor * domain.levels().obstacle,
+            There::Same => matrix[(cell, cell)] += factor,
+        };
+        for axis in [0, 1] {
+            let (before, here, after) =
+                (there(domain, cell, axis, -1), There::Cell(cell), there(domain, cell, axis, 1));
+            for (place, factor) in [(before, 1.0), (here, -2.0), (after, 1.0)] {
+                add(place, factor);
+            }
+            let b = drift(cell)[axis];
+            let (from, to, width) = match difference {
+                Difference::Central => (before, after, 2.0),
+                Difference::Upwind if b > 0.0 => (here, after, 1.0),
+                Difference::Upwind => (before, here, 1.0),
+            };
+            add(to, b / width);
+            add(from, -b / width);
+        }
+    }
+    matrix.lu().solve(&right).expect("the equations determine the field").as_slice().to_vec()
+}
+
+/// The gradient of the published field (obstacles high), normalised.
+fn uphill(domain: &Domain, values: &[f64], cell: usize) -> [f64; 2] {
+    let sign = if domain.levels().obstacle > domain.levels().goal { 0.5 } else { -0.5 };
+    let slope =
+        [0, 1].map(|axis| sign * (value(domain, values, cell, axis, 1) - value(domain, values, cell, axis, -1)));
+    let length = slope[0].hypot(slope[1]);
+    if length == 0.0 { slope } else { slope.map(|x| x / length) }
+}
+
+/// What the altered preferences ask of a cell, as the literature writes it: for obstacles high.
+pub fn altered(domain: &Domain, published: &[f64], epsilon: &[f64], cell: usize) -> f64 {
+    let [west, east] = [-1, 1].map(|step| value(domain, published, cell, 1, step));
+    let [south, north] = [-1, 1].map(|step| value(domain, published, cell, 0, step));
+    let h = (north + south + west + east) / 4.0;
+    let d = (east - west).abs() / 2.0 + (north - south).abs() / 2.0;
+    h + epsilon[cell] / 4.0 * d
+}
+
+/// The field that the equation describes.
+pub fn solution(domain: &Domain, equation: &Equation) -> Vec<f64> {
+    match equation {
+        Equation::Harmonic => solve(domain, |_| [0.0; 2], Difference::Central),
+        Equation::Oriented { direction, epsilon, difference } => {
+            let [a, b] = direction.components();
+            solve(domain, |_| [epsilon * a, epsilon * b], *difference)
+        }
+        Equation::LocallyOriented { drift, difference } => solve(domain, |cell| drift[cell], *difference),
+        Equation::Preference { epsilon, difference } => {
+            let harmonic = solution(domain, &Equation::Harmonic);
+            let v = |cell: usize| uphill(domain, &harmonic, cell);
+            solve(domain, |cell| v(cell).map(|v| epsilon[cell] * v), *difference)
+        }
+        Equation::AlteredPreference { epsilon } => {
+            // Whatever the levels, in the published ones, by the slow way: all cells at once.
+            let Levels { obstacle, goal, free } = domain.levels();
+            let published = Levels::PUBLISHED;
+            let same = Domain::new(domain.cells(), domain.kinds().to_vec(), domain.boundaries(), published);
+            let mut values: Vec<f64> = same.start();
+            for _ in 0..20_000 {
+                let next = (0..values.len())
+                    .map(|cell| fixed(&same, cell).unwrap_or_else(|| altered(&same, &values, epsilon, cell)));
+                values = next.collect();
+            }
+            assert_eq!(free, 0.0);
+            values.into_iter().map(|p| goal + (obstacle - goal) * p).collect()
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! The family of field equations and relaxations against direct solutions of the same equations, assembled here from
+//! difference quotients; and its promises on random grids.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod direct;
+mod divergence;
+mod khatib;
+mod planner;
+mod product;
+mod promises;
+mod stopping;
+mod zones;

@@ -1,0 +1,208 @@
+//! The planner for any field.
+
+use crate::common::rr;
+use cplan::cspace::{Grid, Proves, ZonedGrid};
+use cplan::field::{Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion};
+use cplan::geometry::{Point, SimplePolygon};
+use cplan::model::{Preference, Region, Scene, Workspace};
+use cplan::plan::{
+    EquationChoice, FieldChoice, FieldPlanner, Note, Outcome, Planner, Query, Run, Size, Trace, Wavefront,
+};
+use cplan::space::{Axis, Path, Topology};
+use proptest::prelude::*;
+
+const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
+
+fn scene(preferences: Vec<Preference>) -> Scene {
+    let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences };
+    Scene::new(rr([Axis::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
+}
+
+/// Cells of width 1; `#` is blocked.
+fn drawn(text: &str) -> Grid {
+    let rows: Vec<&str> = text.split_whitespace().collect();
+    let cells = [rows.len(), rows[0].len()];
+    grid(cells, [false; 2], rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect())
+}
+
+fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+    let axis = |k: usize| match circles[k] {
+        true => Axis::Circle,
+        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+    };
+    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+}
+
+fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-12, max_sweeps: 20_000 };
+    FieldPlanner { field, limits: Limits::High, shortcut: false }
+}
+
+fn run(planner: FieldPlanner, zoned: &ZonedGrid, start: usize, goal: usize) -> Run {
+    let query = Query { start: zoned.grid.center(start), goals: vec![zoned.grid.center(goal)] };
+    planner.build(zoned);
+    planner.query(zoned, &(), &query)
+}
+
+fn found(run: &Run) -> &Path {
+    match &run.outcome {
+        Outcome::Found(path) => path,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn reason(run: &Run) -> &str {
+    match &run.outcome {
+        Outcome::GaveUp(reason) => reason,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn equations() -> Vec<EquationChoice> {
+    let direction = Direction::of([0.6, -0.8]).unwrap();
+    let mut equations = vec![EquationChoice::Harmonic, EquationChoice::AlteredPreference { elsewhere: 0.7 }];
+    for difference in [Difference::Central, Difference::Upwind] {
+        equations.extend([
+            EquationChoice::Oriented { direction, epsilon: 0.5, difference },
+            EquationChoice::LocallyOriented { direction: Some(direction), difference },
+            EquationChoice::Preference { elsewhere: 0.7, difference },
+        ]);
+    }
+    equations
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    /// Every field finds a path exactly where the wave does, through free cells, step by step.
+    #[test]
+    fn every_field_answers_as_the_wave_does(
+        (cells, blocked, start, goal) in (2..10_usize, 2..10_usize).prop_flat_map(|(rows, columns)| {
+            let n = rows * columns;
+            let blocked = proptest::collection::vec(proptest::bool::weighted(0.3), n);
+            (Just([rows, columns]), blocked, 0..n, 0..n)
+        }),
+        circle in any::<bool>(),
+    ) {
+        let mut blocked = blocked;
+        (blocked[start], blocked[goal]) = (false, false);
+        let zoned = ZonedGrid::new(grid(cells, [circle, false], blocked), &scene(Vec::new()));
+        let query = Query { start: zoned.grid.center(start), goals: vec![zoned.grid.center(goal)] };
+        let wave = Wavefront::default();
+        let exists = match wave.query(&zoned.grid, &wave.build(&zoned.grid), &query).outcome {
+            Outcome::Found(_) => true,
+            Outcome::NoPath => false,
+            Outcome::GaveUp(reason) => panic!("{reason}"),
+        };
+        for equation in equations() {
+            let run = run(planner(equation, GAUSS_SEIDEL), &zoned, start, goal);
+            prop_assert_eq!(run.outcome == Outcome::NoPath, !exists, "{:?}", equation);
+            if exists {
+                let path = found(&run);
+                for (a, b) in path.segments() {
+                    prop_assert!(!zoned.grid.blocked[zoned.grid.locate(a)] && !zoned.grid.blocked[zoned.grid.locate(b)]);
+                    let apart = [0, 1].map(|k| (b[k] - a[k]).abs() / zoned.grid.step()[k]);
+                    prop_assert!(apart[0] + apart[1] < 1.0 + 1e-9);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_direction_decides_on_which_side_of_an_obstacle_to_pass() {
+    let text = ".........\n".repeat(4) + "....#....\n....#....\n" + &".........\n".repeat(4);
+    let zoned = ZonedGrid::new(drawn(&text), &scene(Vec::new()));
+    let (start, goal) = (4, 9 * 9 + 4);
+    let sides = [[0.0, 1.0], [0.0, -1.0]].map(|vector| {
+        let direction = Direction::of(vector).unwrap();
+        let equation = EquationChoice::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
+        let run = run(planner(equation, GAUSS_SEIDEL), &zoned, start, goal);
+        found(&run).waypoints().iter().map(|q| q[1] - 4.5).collect::<Vec<_>>()
+    });
+    assert!(sides[0].iter().any(|offset| offset.abs() > 0.5));
+    let mirrored: Vec<f64> = sides[1].iter().map(|offset| -offset).collect();
+    assert_eq!(sides[0], mirrored);
+}
+
+#[test]
+fn a_positive_preference_keeps_out_of_a_region_and_a_negative_one_draws_in() {
+    // Two ways round a block; the region lies on one of them.
+    let text = "...........\n".repeat(3) + &"...#####...\n".repeat(5) + &"...........\n".repeat(3);
+    let corners = [(2.0, 0.0), (9.0, 0.0), (9.0, 3.0), (2.0, 3.0)].map(|(x, y)| Point::new(x, y));
+    for choice in [
+        EquationChoice::Preference { elsewhere: 0.0, difference: Difference::Central },
+        EquationChoice::Preference { elsewhere: 0.0, difference: Difference::Upwind },
+        EquationChoice::AlteredPreference { elsewhere: 0.0 },
+    ] {
+        let passes_by = [1.0, -1.0].map(|epsilon| {
+            let region = Region::Configurations(SimplePolygon::new(corners.to_vec()).unwrap());
+            let preference = Preference { name: "left".into(), region, epsilon, direction: None };
+            let zoned = ZonedGrid::new(drawn(&text), &scene(vec![preference]));
+            let run = run(planner(choice, GAUSS_SEIDEL), &zoned, 5, 10 * 11 + 5);
+            found(&run).waypoints().iter().any(|q| q[1] < 3.0)
+        });
+        assert_eq!(passes_by, [false, true], "{choice:?}");
+    }
+}
+
+#[test]
+fn where_doubles_end_the_planner_gives_up_and_says_where() {
+    let zoned = ZonedGrid::new(grid([1, 1300], [false; 2], vec![false; 1300]), &scene(Vec::new()));
+    let run = run(planner(EquationChoice::Harmonic, GAUSS_SEIDEL), &zoned, 1299, 0);
+    let reason = reason(&run);
+    assert!(reason.starts_with("the field is flat at (0.5000, 1299.5000), cell (0, 1299): "), "{reason}");
+    assert!(reason.ends_with("too small for doubles"), "{reason}");
+}
+
+#[test]
+fn a_field_that_is_not_finished_says_so() {
+    let zoned = ZonedGrid::new(drawn(&"..........\n".repeat(10)), &scene(Vec::new()));
+    let hasty = |max_sweeps| {
+        let relaxation = Relaxation::JACOBI;
+        let field =
+            FieldChoice::Relaxed { equation: EquationChoice::Harmonic, relaxation, tolerance: 1e-9, max_sweeps };
+        FieldPlanner { field, limits: Limits::High, shortcut: false }
+    };
+    // After three sweeps nobody ten cells away has heard of the goal.
+    let early = run(hasty(3), &zoned, 99, 0);
+    assert!(reason(&early).ends_with("it is not converged after 3 sweeps"), "{:?}", early.outcome);
+    // After thirty all have: without over-relaxation the field leads to the goal however early it ends.
+    let late = run(hasty(30), &zoned, 99, 0);
+    assert_eq!(found(&late).waypoints().len(), 19);
+    assert!(matches!(late.note, Some(Note::Unconverged { sweeps: 30, .. })), "{:?}", late.note);
+    assert_eq!(late.size, Size::Grid { cells: 100, sweeps: 30 });
+}
+
+#[test]
+fn divergence_and_traps_are_reasons() {
+    let zoned = ZonedGrid::new(drawn(&"..........\n".repeat(10)), &scene(Vec::new()));
+    let sor = Relaxation::sor(Factor::Given(2.5), Order::RedBlack);
+    let diverged = run(planner(EquationChoice::Harmonic, sor), &zoned, 99, 0);
+    assert!(reason(&diverged).contains("the relaxation diverged"), "{:?}", diverged.outcome);
+    let laws = Khatib {
+        attraction: Attraction::Linear(1.0),
+        repulsion: Repulsion::Ranged { gain: 1.0, range: 3.0 },
+        saturated: false,
+    };
+    let khatib = FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::Reflecting, shortcut: false };
+    let trap = ZonedGrid::new(drawn("........\n.####...\n....#...\n....#...\n.####...\n........"), &scene(Vec::new()));
+    let run = run(khatib, &trap, 2 * 8 + 2, 2 * 8 + 7);
+    assert!(reason(&run).contains("local minimum at ("), "{:?}", run.outcome);
+    let Trace::Potential { heights, .. } = &run.trace else { panic!("{:?}", run.trace) };
+    assert_eq!(heights.iter().filter(|height| height.is_infinite()).count(), 10);
+}
+
+#[test]
+fn a_region_without_direction_is_a_reason_where_one_is_needed() {
+    let region = Region::Tip(
+        SimplePolygon::new([(-9.0, -9.0), (9.0, -9.0), (0.0, 9.0)].map(|(x, y)| Point::new(x, y)).to_vec()).unwrap(),
+    );
+    let preference = Preference { name: "everywhere".into(), region, epsilon: 0.5, direction: None };
+    let zoned = ZonedGrid::new(drawn("....\n...."), &scene(vec![preference]));
+    let local = EquationChoice::LocallyOriented { direction: None, difference: Difference::Central };
+    assert_eq!(
+        reason(&run(planner(local, GAUSS_SEIDEL), &zoned, 0, 7)),
+        "the preference \"everywhere\" has no direction"
+    );
+}

@@ -1,0 +1,153 @@
+//! Occupancy maps in the plane: obstacles against the pixels below each place, and what is refused.
+
+use super::{assert_refused, folder, world_in};
+use cplan::geometry::{Convex, Point};
+use cplan::input::{Occupancy, OccupancyMap};
+use cplan::model::Shape;
+use proptest::prelude::*;
+
+const YAML: &str = "image: room.pgm\nresolution: 0.5\norigin: [-1.0, -2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+/// Three columns and two rows: occupied, unknown, free above free, free, occupied.
+const PGM: &[u8] = b"P2\n3 2\n255\n0 128 254 254 254 0\n";
+const WORLD: &str = "[[obstacle]]\nname = \"room\"\nimage = \"room.yaml\"\n";
+
+/// How far inside the counter-clockwise polygon a place lies, or outside of it (negative).
+fn depth(piece: &Convex, place: Point) -> f64 {
+    let core = piece.core();
+    let sides = (0..core.len()).map(|i| (core[i], core[(i + 1) % core.len()]));
+    let depth = |(a, b): (Point, Point)| {
+        let (along, to) = (b - a, place - a);
+        (along.x * to.y - along.y * to.x) / along.norm()
+    };
+    sides.map(depth).fold(f64::INFINITY, f64::min)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn obstacles_are_where_the_picture_is_dark(
+        (width, values) in (1..9_usize, 1..9_usize)
+            .prop_flat_map(|(w, h)| (Just(w), prop::collection::vec(prop::sample::select(vec![0_u8, 128, 254]), w * h))),
+        resolution in 0.01..2.0_f64,
+        (x, y, yaw) in (-5.0..5.0_f64, -5.0..5.0_f64, prop_oneof![Just(0.0), -4.0..4.0_f64]),
+        negate: bool,
+        unknown_is_free: bool,
+    ) {
+        let height = values.len() / width;
+        let picture = [format!("P5 {width} {height} 255\n").as_bytes(), &values].concat();
+        let yaml = format!("image: room.pgm\nresolution: {resolution}\norigin: [{x}, {y}, {yaw}]\nnegate: {}\n\
+            occupied_thresh: 0.65\nfree_thresh: 0.196\nmode: scale\n", u8::from(negate));
+        let folder = folder(&[("room.pgm", &picture), ("room.yaml", yaml.as_bytes())]);
+        let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
+        let pieces = map.pieces(unknown_is_free, usize::MAX).unwrap();
+        // Places by their share of the picture's width and height, from beyond its lower left to beyond its upper right.
+        let steps = 4 * width.max(height) + 3;
+        for i in 0..=steps {
+            for j in 0..=steps {
+                let [u, v] = [i, j].map(|k| -0.13 + 1.26 * k as f64 / steps as f64);
+                let (across, up) = (u * width as f64 * resolution, v * height as f64 * resolution);
+                let place = Point::new(
+                    x + across * yaw.cos() - up * yaw.sin(),
+                    y + across * yaw.sin() + up * yaw.cos(),
+                );
+                let (column, row) = ((u * width as f64).floor(), (v * height as f64).floor());
+                let inside = column >= 0.0 && row >= 0.0 && (column as usize) < width && (row as usize) < height;
+                let expected = inside.then(|| {
+                    let value = values[(height - 1 - row as usize) * width + column as usize];
+                    match (value, negate) {
+                        (128, _) => Occupancy::Unknown,
+                        (0, false) | (254, true) => Occupancy::Occupied,
+                        _ => Occupancy::Free,
+                    }
+                });
+                // Places on the sides of pixels belong to both.
+                let off = |share: f64| (share - share.round()).abs() < 1e-9;
+                if off(u * width as f64) || off(v * height as f64) {
+                    continue;
+                }
+                prop_assert_eq!(map.at(place), expected);
+                let solid = match expected {
+                    Some(Occupancy::Occupied) => true,
+                    Some(Occupancy::Unknown) => !unknown_is_free,
+                    _ => false,
+                };
+                let deepest = pieces.iter().map(|piece| depth(piece, place)).fold(f64::NEG_INFINITY, f64::max);
+                prop_assert_eq!(deepest > 0.0, solid, "({}, {}): {}", u, v, deepest);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_world_has_the_picture_as_one_obstacle() {
+    let files =
+        |world: &str| folder(&[("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())]);
+    let world = world_in(&files(&format!("{WORLD}height = [0, 1]\n"))).unwrap();
+    let [obstacle] = &world.workspace.obstacles[..] else { panic!("one obstacle") };
+    assert_eq!((obstacle.name.as_str(), &obstacle.shape, obstacle.heights.upper), ("room", &Shape::Pieces, 1.0));
+    let area = |pieces: &[Convex]| pieces.iter().map(Convex::area).sum::<f64>();
+    // What nobody has looked at is solid unless the world says otherwise.
+    assert_eq!(area(&obstacle.pieces), 3.0 * 0.25);
+    let world = world_in(&files(&format!("{WORLD}unknown = \"free\"\n"))).unwrap();
+    let pieces = &world.workspace.obstacles[0].pieces;
+    assert_eq!(area(pieces), 2.0 * 0.25);
+    let lower_right = vec![(0.0, -2.0), (0.5, -2.0), (0.5, -1.5), (0.0, -1.5)];
+    let corners = |p: &Convex| p.core().iter().map(|c| (c.x, c.y)).collect::<Vec<_>>();
+    assert!(pieces.iter().any(|p| corners(p) == lower_right), "{pieces:?}");
+}
+
+#[test]
+fn worlds_that_misuse_pictures_are_refused() {
+    for (from, to, parts) in [
+        ("room.yaml", "attic.yaml", &["world.toml: line 3, column 9", "no file", "attic.yaml", "relative"][..]),
+        ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "needs the YAML"]),
+        ("\"room.yaml\"", "\"room.yaml\"\nunknown = \"maybe\"", &["line 4", "\"solid\" or \"free\", not \"maybe\""]),
+        ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, it has 2"]),
+        ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "only an image"]),
+    ] {
+        let world = WORLD.replace(from, to);
+        let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())];
+        assert_refused(world_in(&folder(&files)), parts);
+    }
+}
+
+#[test]
+fn descriptions_are_refused_with_their_line() {
+    for (from, to, parts) in [
+        ("resolution: 0.5", "resolution: 0", &["room.yaml: line 2, column 13", "0 is no length", "cure"][..]),
+        ("resolution: 0.5", "resolution: -1", &["line 2", "-1"]),
+        ("resolution: 0.5", "resolution: .nan", &["line 2", "NaN"]),
+        ("resolution: 0.5", "resolution: 9e5", &["3 x 2 pixels", "900000 m reaches farther"]),
+        ("resolution: 0.5\n", "", &["resolution", "needs image, resolution"]),
+        ("resolution: 0.5", "resolution: fine", &["line 2"]),
+        ("[-1.0, -2.0, 0.0]", "[-1.0, -2.0]", &["line 3", "three numbers, found 2", "[x, y, yaw]"]),
+        ("[-1.0, -2.0, 0.0]", "[-1.0, .inf, 0.0]", &["line 3", "not finite"]),
+        ("negate: 0", "negate: 2", &["line 4", "neither 0 nor 1"]),
+        ("0.65", "1.65", &["line 5", "occupied_thresh: 1.65", "between 0 and 1"]),
+        ("0.196", "-0.1", &["line 6", "free_thresh: -0.1"]),
+        ("0.196", "0.7", &["line 6", "above occupied_thresh, 0.65"]),
+        ("negate: 0", "negate: 0\nmode: raw", &["line 5", "raw", "costs", "trinary or scale"]),
+        ("negate: 0", "negate: 0\nmode: both", &["line 5", "\"both\" is unknown"]),
+        ("negate: 0", "negate: 0\nnegates: 0", &["negates"]),
+        ("room.pgm", "attic.pgm", &["room.yaml: line 1, column 8", "no file", "attic.pgm"]),
+        ("image: room.pgm", "image: [", &["room.yaml"]),
+    ] {
+        assert!(YAML.contains(from), "{from}");
+        let yaml = YAML.replacen(from, to, 1);
+        let files = [("room.pgm", PGM), ("room.yaml", yaml.as_bytes()), ("world.toml", WORLD.as_bytes())];
+        assert_refused(world_in(&folder(&files)), parts);
+    }
+    let broken = [("room.pgm", &PGM[..20]), ("room.yaml", YAML.as_bytes()), ("world.toml", WORLD.as_bytes())];
+    assert_refused(world_in(&folder(&broken)), &["room.pgm: ends early"]);
+}
+
+#[test]
+fn negate_may_be_a_word_and_modes_may_be_named() {
+    for (from, to) in [("negate: 0", "negate: false"), ("negate: 0", "negate: 0\nmode: trinary")] {
+        let yaml = YAML.replacen(from, to, 1);
+        let folder = folder(&[("room.pgm", PGM), ("room.yaml", yaml.as_bytes())]);
+        let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
+        assert_eq!(map.cells[..3], [Occupancy::Occupied, Occupancy::Unknown, Occupancy::Free]);
+    }
+}

@@ -1,0 +1,75 @@
+//! The room-sized gantry in the published line maps. They come from the folder that the environment variable
+//! `CPLAN_REFERENCE` names; without it these tests print a note and check nothing.
+
+use super::robot;
+use cplan::input::{LineMap, Overrides, PreferenceMap, load};
+use cplan::model::Problem;
+use cplan::solve::{Effort, Method, Verdict, solve};
+use std::path::PathBuf;
+
+fn data() -> Option<PathBuf> {
+    let folder = std::env::var_os("CPLAN_REFERENCE").map(|f| PathBuf::from(f).join("data"));
+    if folder.is_none() {
+        println!("skipped: CPLAN_REFERENCE does not name the folder with data/map1.map");
+    }
+    folder
+}
+
+/// The problem of a world that names a map and a preference file by their whole paths.
+fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> Problem {
+    let folder = tempfile::tempdir().unwrap();
+    let world = folder.path().join("world.toml");
+    let [map, preferences] =
+        [format!("map{map}.map"), format!("preference{preferences}.map")].map(|name| data.join(name));
+    let text = format!(
+        "[start]\njoints = {start:?}\n[map]\nfile = {map:?}\npreferences = {preferences:?}\nheight = [0.0, 3.0]\n"
+    );
+    std::fs::write(&world, text).unwrap();
+    load(&robot(), &world, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem
+}
+
+#[test]
+fn the_maps_have_the_lines_that_are_printed() {
+    let Some(data) = data() else { return };
+    for (map, lines, half) in [(1, 36, 20000.0), (2, 10, 25000.0), (3, 15, 10000.0)] {
+        let map = LineMap::read(&data.join(format!("map{map}.map"))).unwrap();
+        assert_eq!(map.lines.len(), lines);
+        assert_eq!(map.bounds[1].x, half);
+    }
+    // The rectangles of the letters and of the room: consecutive lines join.
+    let chains = |map: usize| LineMap::read(&data.join(format!("map{map}.map"))).unwrap().chains().len();
+    assert_eq!([1, 2, 3].map(chains), [5, 2, 5]);
+    for (file, goal) in [(1, [-19500.0, -19500.0, -19000.0, -19000.0]), (2, [-3000.0, -3000.0, -1000.0, -1000.0])] {
+        let map = PreferenceMap::read(&data.join(format!("preference{file}.map"))).unwrap();
+        let [a, b] = map.goal;
+        assert_eq!([a.x, a.y, b.x, b.y], goal);
+        let epsilons: Vec<f64> = map.rectangles.iter().map(|r| r.epsilon).collect();
+        assert_eq!(epsilons, [0.5, 0.5, -0.5, -0.5, 0.5]);
+    }
+}
+
+#[test]
+fn the_gantry_finds_its_way_in_all_three() {
+    let Some(data) = data() else { return };
+    // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, which in map 1 is a wall.
+    for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
+        let problem = problem(&data, map, preferences, start);
+        for method in Method::ALL {
+            let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+            let Verdict::Found(path) = &answer.verdict else { panic!("map {map}, {method}: {:?}", answer.history) };
+            assert_eq!(path.path().start(), problem.start);
+            assert!(problem.goals.contains(&path.path().goal()), "map {map}, {method}");
+            assert!(path.clearance() > 0.0);
+        }
+    }
+}
+
+#[test]
+fn there_is_no_way_out_of_a_letter() {
+    let Some(data) = data() else { return };
+    let problem = problem(&data, 1, 1, [-9.0, 6.5]);
+    for method in Method::ALL {
+        let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+        assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{method}: {:?}", answer.history);
+    }
+}

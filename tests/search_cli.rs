@@ -1,0 +1,46 @@
+//! The searches of a grid on the command line.
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn cplan(options: &[&str]) -> std::process::Output {
+    let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
+    Command::cargo_bin("cplan").expect("the program is built").args(files).args(options).output().expect("it runs")
+}
+
+#[test]
+fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
+    let mut expanded = Vec::new();
+    for search in ["wave", "bfs", "dfs", "dijkstra", "astar"] {
+        for neighbors in ["4", "8"] {
+            let options =
+                ["--planner", "wavefront", "--search", search, "--neighbors", neighbors, "--cells", "128", "--json"];
+            let output = cplan(&options);
+            assert_eq!(output.status.code(), Some(0), "{search} {neighbors}");
+            let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            assert_eq!(json["certified"], true);
+            assert_eq!(json["search"]["search"], search);
+            assert_eq!(json["search"]["neighbors"].to_string(), neighbors);
+            assert_eq!(json["size"]["expanded"].is_u64(), search != "wave");
+            assert_eq!(json["size"]["sweeps"].is_u64(), search == "wave");
+            expanded.extend(json["size"]["expanded"].as_u64().map(|n| (search, n)));
+        }
+    }
+    let of = |name: &str| expanded.iter().find(|(search, _)| *search == name).map(|(_, n)| *n);
+    assert!(of("astar") < of("dijkstra"), "{expanded:?}");
+}
+
+#[test]
+fn searches_are_for_the_wavefront_and_have_their_names() {
+    for (options, told) in [
+        (&["--search", "astar"][..], "--search needs --planner wavefront"),
+        (&["--planner", "harmonic", "--neighbors", "8"], "--neighbors needs --planner wavefront"),
+        (&["--planner", "wavefront", "--search", "best"], "wave, bfs, dfs, dijkstra, astar"),
+        (&["--planner", "wavefront", "--neighbors", "6"], "must be 4 or 8"),
+    ] {
+        let output = cplan(options);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(message.contains(told), "{message}");
+    }
+}
