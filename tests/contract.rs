@@ -46,7 +46,7 @@ const PLANNERS: [(&str, Plan); 13] = [
         answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
     }),
     ("harmonic, cells", |scene, query| {
-        answered(&Harmonic { shortcut: false, ..Harmonic::default() }, &cells(scene), query)
+        answered(&Harmonic { shortcut: false }, &cells(scene), query)
     }),
     ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
     ("oriented, relaxed", |scene, query| {

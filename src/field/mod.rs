@@ -43,7 +43,7 @@ pub use khatib::{Attraction, ForceField, Khatib, Repulsion, Trap};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use potential::Potential;
 pub use relax::{RelaxError, Relaxed, relax, relax_from};
-pub use relaxation::{Factor, Lines, Order, Relaxation, Scan, Scheme};
+pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use step_labels::StepLabels;
 pub use stopping::{Convergence, Measure, Stopping};
 pub use streamline::{Interpolated, LatticePoint, Place, Streamline};

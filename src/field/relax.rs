@@ -1,6 +1,6 @@
 //! Relaxing an equation on a domain.
 
-use super::relaxation::{Relaxation, Scheme};
+use super::relaxation::{Precision, Relaxation, Scheme};
 use super::stencil::{Altered, Mean, Stencil, Weighted};
 use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
@@ -250,7 +250,7 @@ impl<'a> Engine<'a> {
             Scheme::Simultaneous { .. } => Vec::new(),
             Scheme::Successive { order, .. } => order.passes(self.domain.cells(), &self.unknowns),
         };
-        let step = Step { stencil, factor, clamp: relaxation.clamp };
+        let step = Step { stencil, factor, clamp: relaxation.clamp, precision: relaxation.precision };
         let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
         let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
         let mut before = f64::INFINITY;
@@ -321,6 +321,7 @@ struct Step<'a, S> {
     stencil: &'a S,
     factor: f64,
     clamp: Option<[f64; 2]>,
+    precision: Precision,
 }
 
 impl<S: Stencil> Step<'_, S> {
@@ -329,6 +330,10 @@ impl<S: Stencil> Step<'_, S> {
         // With factor 1 exactly what is asked, without the rounding of a detour.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
         // Not `clamp`: the bounds are checked once, for all cells.
-        self.clamp.map_or(new, |[low, high]| new.max(low).min(high))
+        let new = self.clamp.map_or(new, |[low, high]| new.max(low).min(high));
+        match self.precision {
+            Precision::Double => new,
+            Precision::Single => f64::from(new as f32),
+        }
     }
 }

@@ -12,6 +12,19 @@ pub struct Relaxation {
     pub scheme: Scheme,
     /// New values are brought into this range, if any: over-relaxation leaves the range of the fixed values at first.
     pub clamp: Option<[f64; 2]>,
+    /// How new values are kept.
+    pub precision: Precision,
+}
+
+/// With how many digits values are kept from one update to the next. Updates themselves are reckoned in doubles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Precision {
+    /// All.
+    #[default]
+    Double,
+    /// Rounded to single precision, as by programs that store a `float`: what goes less than half a unit in its last place
+    /// stays where it is, so that relaxations come to rest earlier.
+    Single,
 }
 
 /// Who goes when, and how far: a cell's new value is `old + factor * (asked for - old)`.
@@ -100,7 +113,7 @@ impl Relaxation {
     /// Jacobi's with a factor.
     #[must_use]
     pub const fn weighted_jacobi(factor: f64) -> Self {
-        Self { scheme: Scheme::Simultaneous { factor }, clamp: None }
+        Self { scheme: Scheme::Simultaneous { factor }, clamp: None, precision: Precision::Double }
     }
 
     /// Gauss and Seidel's.
@@ -112,13 +125,19 @@ impl Relaxation {
     /// Successive over-relaxation.
     #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
-        Self { scheme: Scheme::Successive { factor, order }, clamp: None }
+        Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double }
     }
 
     /// The same with new values brought into a range.
     #[must_use]
     pub const fn clamped(self, range: [f64; 2]) -> Self {
         Self { clamp: Some(range), ..self }
+    }
+
+    /// The same with new values kept otherwise.
+    #[must_use]
+    pub const fn kept(self, precision: Precision) -> Self {
+        Self { precision, ..self }
     }
 
     /// The factor on a domain of so many cells.
@@ -140,7 +159,10 @@ impl fmt::Display for Relaxation {
             Scheme::Successive { factor: Factor::Given(factor), order } => write!(f, "sor, {order}, factor {factor}")?,
             Scheme::Successive { factor: Factor::Formula, order } => write!(f, "sor, {order}")?,
         }
-        self.clamp.map_or(Ok(()), |[low, high]| write!(f, ", clamped to {low}..{high}"))
+        if let Some([low, high]) = self.clamp {
+            write!(f, ", clamped to {low}..{high}")?;
+        }
+        f.write_str(if self.precision == Precision::Single { ", single precision" } else { "" })
     }
 }
 

@@ -68,8 +68,8 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
                 return Some(Streamline { points, goal, place });
             }
             spot = match spot {
-                Spot::Center(place) => self.from_center(place)?,
-                Spot::Side(a, b, t) => self.from_side(a, b, t)?,
+                Spot::Center(place) => self.leave_center(place)?,
+                Spot::Side(a, b, t) => self.leave_side(a, b, t)?,
             };
         }
         None
@@ -160,7 +160,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
     }
 
     /// From a centre through the triangle or along the side that is the steepest.
-    fn from_center(&self, place: Place) -> Option<Spot> {
+    fn leave_center(&self, place: Place) -> Option<Spot> {
         let position = (self.at)(place)?;
         let scale = self.potential.at(position);
         let mut best: Option<(f64, Spot)> = None;
@@ -192,7 +192,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
     }
 
     /// From a side into the triangle that rises from it, the steeper of two, or along it.
-    fn from_side(&self, a: Place, b: Place, t: f64) -> Option<Spot> {
+    fn leave_side(&self, a: Place, b: Place, t: f64) -> Option<Spot> {
         let [one, two] = self.opposite(a, b).map(|c| {
             let ([along, inward], slope) = self.gradient([a, b, c]);
             (c, along, inward, Scaled { mantissa: slope, exponent: self.scale_of([a, b, c]) })

@@ -29,9 +29,9 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
         blocked[(i + k) * n + j + l] = false;
         stack.push([k, l]);
     }
-    for cell in 0..n * n {
+    for (cell, blocked) in blocked.iter_mut().enumerate() {
         if (cell / n + cell % n) % 2 == 1 && random(&mut state) % 1000 < openings {
-            blocked[cell] = false;
+            *blocked = false;
         }
     }
     blocked
@@ -46,10 +46,9 @@ pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     for (di, dj) in [(0, 1), (1, 0), (0, -1), (-1, 0)].into_iter().cycle() {
         let before = (i, j);
         let inside = |i: i64, j: i64| (0..n).contains(&i) && (0..n).contains(&j);
+        let is_free = |i: i64, j: i64, blocked: &[bool]| inside(i, j) && !blocked[(i * n + j) as usize];
         // On while the corridor does not come next to itself.
-        while inside(i + di, j + dj)
-            && !(inside(i + 2 * di, j + 2 * dj) && !blocked[((i + 2 * di) * n + j + 2 * dj) as usize])
-        {
+        while inside(i + di, j + dj) && !is_free(i + 2 * di, j + 2 * dj, &blocked) {
             (i, j) = (i + di, j + dj);
             blocked[(i * n + j) as usize] = false;
         }

@@ -2,8 +2,8 @@
 
 use crate::direct::drawn;
 use cplan::field::{
-    Boundary, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Order, RelaxError, Relaxation,
-    Scan, Stopping, relax, relax_from,
+    Boundary, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Order, Precision, RelaxError,
+    Relaxation, Scan, Stopping, relax, relax_from,
 };
 
 const MEASURES: [Measure; 5] = [
@@ -110,6 +110,24 @@ fn a_clamp_keeps_over_relaxation_within_bounds() {
     }
     let free = relax(&domain, &Equation::Harmonic, &sor, &Stopping { max_sweeps: 3, ..stopping(Measure::SumOfChange) });
     assert!(free.unwrap().values.iter().any(|v| !(0.0..=1.0).contains(v)), "the clamp is not tested by this case");
+}
+
+#[test]
+fn single_precision_rounds_what_is_kept_and_nothing_else() {
+    let domain = room();
+    let order = Order::Lines(Scan::ROWS);
+    let run = |precision: Precision, max_sweeps: usize| {
+        let stopping = Stopping { max_sweeps, ..stopping(Measure::SumOfChange) };
+        relax(&domain, &Equation::Harmonic, &Relaxation::gauss_seidel(order).kept(precision), &stopping).unwrap()
+    };
+    for max_sweeps in [1, 5, 20] {
+        let [double, single] = [Precision::Double, Precision::Single].map(|kept| run(kept, max_sweeps).values);
+        assert!(single.iter().all(|&value| f64::from(value as f32) == value));
+        assert!(double.iter().any(|&value| f64::from(value as f32) != value), "doubles were rounded, too");
+        // Each update adds half a unit in the last place at most, and takes no more than the mean of the errors over.
+        let bound = max_sweeps as f64 * f64::from(f32::EPSILON);
+        assert!(double.iter().zip(&single).all(|(a, b)| (a - b).abs() <= bound));
+    }
 }
 
 #[test]

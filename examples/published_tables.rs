@@ -1,0 +1,110 @@
+//! Sweep counts from the literature, beside those that this library needs: match, close, or unmatched and why.
+//!
+//! ```text
+//! CPLAN_REFERENCE=folder cargo run --release --example published_tables [-- 100]
+//! ```
+//!
+//! With the argument 100 only the smaller scale of Tables 17 to 19 is measured, in seconds; both take some minutes of CPU.
+//! `folder/data` holds `map1.map` to `map3.map`, `preference1.map` and `preference2.map`, the files printed in the source of Tables 17 to 19;
+//! the other tables need none. The exit code is 1 if a count that is said to match, or to be close, is not.
+
+#[path = "published_tables/alves.rs"]
+mod alves;
+#[path = "published_tables/deicu.rs"]
+mod deicu;
+#[path = "published_tables/line_maps.rs"]
+mod line_maps;
+#[path = "published_tables/row.rs"]
+mod row;
+#[path = "published_tables/silva.rs"]
+mod silva;
+
+use cplan::input::InputError;
+use row::Count;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+fn main() -> Result<ExitCode, InputError> {
+    let mut claims = Claims::default();
+    deicu_tables(&mut claims)?;
+    println!("Room of 40 m x 20 m (S. F. dos Reis Alves): index of the last sweep, counted from 0");
+    for (name, count) in alves::rows() {
+        println!("  {name:<27} {count}");
+        claims.check(&count);
+    }
+    print_notes(alves::NOTES);
+    println!("Robot soccer, 85 x 65 cells (M. Oliveira da Silva 2011): mean sweeps a state");
+    let tables = std::thread::scope(|scope| {
+        let threads = silva::TABLES.each_ref().map(|table| scope.spawn(|| silva::rows(table)));
+        threads.map(|thread| thread.join().expect("no panic"))
+    });
+    for (table, rows) in silva::TABLES.iter().zip(tables) {
+        println!("{}", table.title);
+        for (name, count) in rows {
+            println!("  {name:<27} {count}");
+            claims.check(&count);
+        }
+    }
+    print_notes(silva::NOTES);
+    println!("{claims}");
+    Ok(if claims.broken == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Tables 17 to 19, or what they need.
+fn deicu_tables(claims: &mut Claims) -> Result<(), InputError> {
+    let Some(data) = std::env::var_os("CPLAN_REFERENCE").map(|folder| PathBuf::from(folder).join("data")) else {
+        println!(
+            "Tables 17 to 19 need CPLAN_REFERENCE to name the folder with data/map1.map and the files beside it.\n"
+        );
+        return Ok(());
+    };
+    let small = std::env::args().nth(1).is_some_and(|scale| scale == "100");
+    let scales: &[usize] = if small { &[0] } else { &[0, 1] };
+    for table in &deicu::TABLES {
+        println!("{} (L. E. Deicu 2012): sweeps, published and measured", table.title);
+        println!("algorithm              cells  before preferences                   in all");
+        let scene = deicu::scene(table, &data)?;
+        for line in deicu::lines(table, &scene, scales) {
+            println!("{line}");
+            line.counts().for_each(|count| claims.check(count));
+        }
+        print_notes(table.notes);
+    }
+    print_notes(deicu::METHOD);
+    Ok(())
+}
+
+fn print_notes(notes: &[&str]) {
+    for note in notes {
+        println!("  {note}");
+    }
+    println!();
+}
+
+/// How many counts there are, by what is claimed of them.
+#[derive(Default)]
+struct Claims {
+    matching: usize,
+    close: usize,
+    unmatched: usize,
+    broken: usize,
+}
+
+impl Claims {
+    fn check(&mut self, count: &Count) {
+        let kind = match count.claim {
+            _ if !count.holds() => &mut self.broken,
+            row::Claim::Match => &mut self.matching,
+            row::Claim::Close(_) => &mut self.close,
+            row::Claim::Unmatched => &mut self.unmatched,
+        };
+        *kind += 1;
+    }
+}
+
+impl std::fmt::Display for Claims {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { matching, close, unmatched, broken } = self;
+        write!(f, "{matching} match, {close} are close, {unmatched} are unmatched; {broken} are not as claimed")
+    }
+}

@@ -1,0 +1,73 @@
+//! The counts of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais*: a robot in a room of 40 m x 20 m, cells of 0.5 m,
+//! harmonic and oriented fields for three goals.
+
+use crate::row::{Claim, Count};
+use cplan::field::{
+    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, Scan,
+    Stopping, relax,
+};
+
+/// Rows and columns: 20 m / 0.5 m, 40 m / 0.5 m; row 0 is the north wall.
+const CELLS: [usize; 2] = [40, 80];
+
+/// The sum of squared changes in a sweep must fall below this, within so many sweeps.
+const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
+
+/// A goal, the direction in which it is to be reached, and what is published of it.
+struct Goal {
+    name: &'static str,
+    /// In metres, from the middle of the room; the second rises.
+    at: [f64; 2],
+    /// `v`, along rows (downwards) and columns.
+    direction: [f64; 2],
+    harmonic: usize,
+    oriented: usize,
+}
+
+/// In the order of the source's figures 7 and 8. Its `v` counts the first component upwards: (0, -1) and (-1, 0).
+const GOALS: [Goal; 3] = [
+    Goal { name: "bin (-19, 2)", at: [-19.0, 2.0], direction: [0.0, -1.0], harmonic: 114, oriented: 424 },
+    Goal { name: "object 1 (2, 4)", at: [2.0, 4.0], direction: [0.0, -1.0], harmonic: 104, oriented: 419 },
+    Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
+];
+
+/// The room as far as it is known: its outer walls. Row and column of a place by the source's rule.
+fn room(goal: &Goal) -> Domain {
+    let [rows, columns] = CELLS;
+    let mut kinds = vec![Cell::Obstacle; rows * columns];
+    for row in 1..rows - 1 {
+        kinds[row * columns + 1..(row + 1) * columns - 1].fill(Cell::Free);
+    }
+    let row = (rows as f64 / 2.0 - goal.at[1] / 0.5) as usize;
+    let column = (goal.at[0] / 0.5 + columns as f64 / 2.0) as usize;
+    kinds[row * columns + column] = Cell::Goal;
+    Domain::new(CELLS, kinds, [Boundary::High; 2], Levels::PUBLISHED)
+}
+
+/// Name, field and count of every published number.
+pub fn rows() -> Vec<(String, Count)> {
+    let order = Order::Lines(Scan::ROWS);
+    let count = |goal: &Goal, equation: &Equation, relaxation: Relaxation, published: usize| {
+        let field = relax(&room(goal), equation, &relaxation, &STOPPING).ok().filter(|field| field.converged());
+        // The source prints the index of the last sweep, which counts from 0.
+        Count::of_sweeps(published, field.map(|field| field.sweeps() - 1), Claim::Unmatched)
+    };
+    let harmonic = GOALS.iter().map(|goal| {
+        let sor = Relaxation::sor(Factor::Given(1.8), order);
+        (format!("harmonic, {}", goal.name), count(goal, &Equation::Harmonic, sor, goal.harmonic))
+    });
+    let oriented = GOALS.iter().filter_map(|goal| {
+        let direction = Direction::of(goal.direction)?;
+        let equation = Equation::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
+        let count = count(goal, &equation, Relaxation::gauss_seidel(order), goal.oriented);
+        Some((format!("oriented, {}", goal.name), count))
+    });
+    harmonic.chain(oriented).collect()
+}
+/// What can and what cannot be rebuilt.
+pub const NOTES: &[&str] = &[
+    "Known: cells, goals, factor 1.8, epsilon 0.5, v, order and stopping rule (the source prints its program). Unknown: the",
+    "furniture, which is only in a picture. Without it harmonic fields take 2.15 to 2.23 times, oriented ones 1.22 to 1.23 times",
+    "as many sweeps, in the published order of goals. Tried: outer walls moved inwards (best: 11 rows in the north, 5 in the",
+    "south, 2 and 8 columns: 114, 112, 113 and 413, 414, 292), which says that there are walls, not where.",
+];

@@ -1,0 +1,66 @@
+//! A published number beside a measured one.
+
+use std::fmt;
+
+/// What is claimed of a measured number. The example fails where a claim does not hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Claim {
+    /// It is the published one.
+    Match,
+    /// It differs by at most so many per cent.
+    Close(f64),
+    /// It differs, or nothing says that it should not: the reason stands below the table.
+    Unmatched,
+}
+
+/// A published number, a measured one, and what is claimed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Count {
+    /// As printed in the source.
+    pub published: f64,
+    /// As it comes out here; none if it does not converge.
+    pub measured: Option<f64>,
+    /// How they are to compare.
+    pub claim: Claim,
+}
+
+impl Count {
+    /// Of sweeps.
+    pub fn of_sweeps(published: usize, measured: Option<usize>, claim: Claim) -> Self {
+        Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
+    }
+
+    /// How far the measured number is from the published one, in per cent of it; infinitely if there is none.
+    fn deviation(&self) -> f64 {
+        self.measured.map_or(f64::INFINITY, |measured| 100.0 * (measured / self.published - 1.0))
+    }
+
+    /// Whether the claim is true.
+    pub fn holds(&self) -> bool {
+        match self.claim {
+            Claim::Match => self.measured == Some(self.published),
+            Claim::Close(bound) => self.deviation().abs() <= bound,
+            Claim::Unmatched => true,
+        }
+    }
+}
+
+impl fmt::Display for Count {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Means have decimals, sweeps have none.
+        let decimals = if self.published.fract() == 0.0 { 0 } else { 2 };
+        let verdict = match self.claim {
+            _ if !self.holds() => "NOT AS CLAIMED",
+            Claim::Match => "match",
+            Claim::Close(_) if self.deviation() == 0.0 => "match",
+            Claim::Close(_) => "close",
+            Claim::Unmatched => "unmatched",
+        };
+        write!(f, "{:>7.decimals$}", self.published)?;
+        match self.measured {
+            None => write!(f, "        -  {verdict}: does not converge"),
+            Some(measured) if verdict == "match" => write!(f, " {measured:>8.decimals$}  {verdict}"),
+            Some(measured) => write!(f, " {measured:>8.decimals$}  {verdict} {:+.1} %", self.deviation()),
+        }
+    }
+}
