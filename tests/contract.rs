@@ -45,9 +45,7 @@ const PLANNERS: [(&str, Plan); 13] = [
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
         answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
     }),
-    ("harmonic, cells", |scene, query| {
-        answered(&Harmonic { shortcut: false }, &cells(scene), query)
-    }),
+    ("harmonic, cells", |scene, query| answered(&Harmonic { shortcut: false }, &cells(scene), query)),
     ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
     ("oriented, relaxed", |scene, query| {
         let direction = Direction::of([1.0, 0.5]).expect("not zero");

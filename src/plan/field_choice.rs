@@ -58,11 +58,11 @@ pub enum FieldChoice {
 }
 
 /// Computes a field with the goals' cells as its goals and follows it from the start's cell. Values are those of
-/// [`Levels::PROBABILITY`], relaxed in relative precision, as far as doubles go.
+/// [`Levels::PROBABILITY`](crate::field::Levels::PROBABILITY), relaxed in relative precision, as far as doubles go.
 ///
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
-/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only [`Outcome::NoPath`]
-/// says that the cells hold none.
+/// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
+/// [`Outcome::NoPath`](super::Outcome::NoPath) says that the cells hold none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldPlanner {
     /// The field.

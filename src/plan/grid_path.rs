@@ -94,9 +94,13 @@ pub(super) fn ascent(
     start: usize,
     shorten: bool,
 ) -> Option<Path> {
+    let home = component.cells[start] as usize;
+    if start < component.goals {
+        return path(grid, query, joined, &[home], shorten);
+    }
     let columns = grid.cells[1];
     let position = |[i, j]: Place| component.position_of(place(grid, 0, i)? * columns + place(grid, 1, j)?);
-    let center = unwrap(grid, &[component.cells[start] as usize], query.start);
+    let center = unwrap(grid, &[home], query.start);
     let from = if joined.start.contained { to_lattice(grid, query.start) } else { center[0] };
     // Cells are counted from their corners here, from their centres there.
     let streamline = Interpolated::new(component, potential, position).ascend(from.map(|x| x - 0.5))?;

@@ -9,12 +9,12 @@
 //!
 //! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values.
 
-use super::harmonic::decay;
-use super::multigrid::Ends;
+use super::laplace::decay;
 use super::network::Network;
 use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
+use crate::field::multigrid::Ends;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::LN_2;

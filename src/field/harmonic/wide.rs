@@ -5,14 +5,14 @@
 //! correction again, with the residuals of the cells that are precise already taken as 0: the greatest of the rest, and
 //! with it the error, falls by some digits each time, down to the floor, below which nothing is wanted.
 
-use super::multigrid::{Ends, Multigrid, Workspace};
 use super::network::SIDES;
+use crate::field::multigrid::{Ends, Multigrid, Workspace};
 
 /// No unknown.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Relative residual of a value at which it is precise: half of what walks lose a step
-/// ([`LOSS`](super::harmonic::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.
+/// ([`LOSS`](super::laplace::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.
 const PRECISE: f64 = 64.0 * f64::EPSILON;
 
 /// Unknowns of a window: `(ground + number of neighbours) u = source + sum of the neighbours' u`.
