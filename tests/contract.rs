@@ -188,7 +188,10 @@ fn the_trace_and_size_are_those_of_the_representation() {
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
                     && expanded <= labelled
             }
-            (Trace::Field { cells, potential }, Size::Grid { cells: reached, .. }) => {
+            (
+                Trace::Field { cells, potential },
+                Size::Windows { cells: reached, .. } | Size::Grid { cells: reached, .. },
+            ) => {
                 potential.len() == cells[0] * cells[1] && potential.iter().filter(|p| p.is_finite()).count() == reached
             }
             _ => false,

@@ -113,6 +113,7 @@ fn report(
     report.name = Some(problem.scene.workspace.name.clone()).filter(|name| !name.is_empty());
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
+        Size::Windows { cells, windows } => [("cells", cells), ("windows", windows)].into(),
         Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
         Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };

@@ -37,7 +37,7 @@ impl Planner for Harmonic {
         let gave_up = |reason: String| Run {
             outcome: Outcome::GaveUp(reason),
             trace: Trace::Field { cells: space.cells, potential: vec![f64::NEG_INFINITY; space.blocked.len()] },
-            size: Size::Grid { cells: 0, sweeps: 0 },
+            size: Size::Windows { cells: 0, windows: 0 },
             note: None,
         };
         let joined = match Joined::new(space, query) {
@@ -51,12 +51,12 @@ impl Planner for Harmonic {
             return Run {
                 outcome: Outcome::NoPath,
                 trace: trace(space, &component, &rough_harmonic(&component)),
-                size: Size::Grid { cells: component.len(), sweeps: 0 },
+                size: Size::Windows { cells: component.len(), windows: 0 },
                 note: None,
             };
         };
         let field = harmonic(&component);
-        let size = Size::Grid { cells: component.len(), sweeps: field.windows };
+        let size = Size::Windows { cells: component.len(), windows: field.windows };
         let trace = trace(space, &component, &field.potential);
         let path = grid_path::ascent(space, query, &joined, (&component, &field.potential), start, self.shortcut);
         let outcome = path.map_or_else(|| Outcome::GaveUp("the field has a local maximum".into()), Outcome::Found);

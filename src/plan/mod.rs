@@ -64,6 +64,13 @@ pub enum Size {
         /// Arcs, or adjacencies.
         edges: usize,
     },
+    /// A field on a grid, solved piece by piece.
+    Windows {
+        /// Free cells that were looked at.
+        cells: usize,
+        /// Sets of cells whose equations were solved together.
+        windows: usize,
+    },
     /// A field on a grid.
     Grid {
         /// Free cells that were looked at.
@@ -85,6 +92,9 @@ impl std::fmt::Display for Size {
         let counted = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
         match *self {
             Size::Graph { nodes, edges } => write!(f, "{}, {}", counted(nodes, "node"), counted(edges, "edge")),
+            Size::Windows { cells, windows } => {
+                write!(f, "{}, {}", counted(cells, "cell"), counted(windows, "window"))
+            }
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
             Size::Search { expanded, labelled } => {
                 write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))

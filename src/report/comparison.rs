@@ -108,6 +108,7 @@ impl Comparison {
             let size = match row.size {
                 None => serde_json::Value::Null,
                 Some(Size::Graph { nodes, edges }) => serde_json::json!({ "nodes": nodes, "edges": edges }),
+                Some(Size::Windows { cells, windows }) => serde_json::json!({ "cells": cells, "windows": windows }),
                 Some(Size::Grid { cells, sweeps }) => serde_json::json!({ "cells": cells, "sweeps": sweeps }),
                 Some(Size::Search { expanded, labelled }) => {
                     serde_json::json!({ "cells": labelled, "expanded": expanded })
@@ -167,6 +168,7 @@ fn counts(size: Option<Size>) -> [Option<usize>; 5] {
     match size {
         None => [None; 5],
         Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None, None],
+        Some(Size::Windows { cells, .. }) => [None, None, Some(cells), None, None],
         Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps), None],
         Some(Size::Search { expanded, labelled }) => [None, None, Some(labelled), None, Some(expanded)],
     }

@@ -106,7 +106,7 @@ pub struct Report {
     /// The field that was followed, if one was chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub field: Option<FieldReport>,
-    /// How much the planner built: `nodes` and `edges`, `cells` and `sweeps`, or `cells` and `expanded` ones.
+    /// How much the planner built: `nodes` and `edges`, `cells` and `sweeps`, `windows` or `expanded` ones.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub size: BTreeMap<&'static str, usize>,
     /// Stages in the order in which they ran, with the milliseconds that each took; empty unless asked for, because they

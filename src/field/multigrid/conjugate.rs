@@ -1,7 +1,6 @@
 //! The passes of conjugate gradients over their vectors, in double precision.
 
 use super::around::Around;
-use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::solve::Workspace;
 use super::stencil::FivePoint;
@@ -27,7 +26,7 @@ pub(super) struct State<'a, M> {
     pub work: &'a mut Workspace,
     /// The residual is given to the preconditioner times this, which makes the greatest of the start 1.
     scale: f64,
-    /// 1 for the lanes of the last pack of a row that are cells, 0 for padding.
+    /// Of the last pack of a row, see [`Frame::tail`](super::frame::Frame::tail).
     tail: [f64; LANES],
 }
 
@@ -37,17 +36,21 @@ impl<'a, M: Machine> State<'a, M> {
         let frame = operator.frame;
         let columns = frame.columns;
         // The start lies in `direction`, with its frame, until the residual is known.
+        let mut from_zero = true;
         for (i, values) in values.chunks_exact_mut(columns).enumerate() {
             let row = frame.row(i);
             let start = &mut work.direction[row.clone()];
             for ((to, value), &free) in start.iter_mut().zip(values).zip(&operator.free[row.clone()]) {
                 *value = if free > 0.0 { *value } else { 0.0 };
+                from_zero &= *value == 0.0;
                 *to = *value;
             }
             start[columns..].fill(0.0);
             match right {
                 Right::Given(right) => {
-                    work.residual[row][..columns].copy_from_slice(&right[i * columns..(i + 1) * columns]);
+                    let (cells, padding) = work.residual[row].split_at_mut(columns);
+                    cells.copy_from_slice(&right[i * columns..(i + 1) * columns]);
+                    padding.fill(0.0);
                 }
                 Right::Unit(cell) => {
                     work.residual[row.clone()].fill(0.0);
@@ -57,68 +60,94 @@ impl<'a, M: Machine> State<'a, M> {
                 }
             }
         }
-        frame.finish(&mut work.direction);
+        let mut state = Self { m, operator, values, work, scale: 1.0, tail: frame.tail() };
+        if !from_zero {
+            state.subtract_start(right);
+        }
+        let largest = state.largest_residual();
+        if largest > 0.0 {
+            state.scale = 1.0 / largest;
+        }
+        state.give_residual();
+        state
+    }
+
+    /// Takes what the start, which lies in `direction`, makes up for off the residual; leaves a direction of zeros.
+    fn subtract_start(&mut self, right: Right) {
+        let (m, operator) = (self.m, self.operator);
+        let frame = operator.frame;
+        let Workspace { residual, direction, .. } = &mut *self.work;
+        frame.finish(direction);
         if let Right::Unit(cell) = right {
             // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell is 1.
-            let ([above, middle, below], j) = (frame.three(&work.direction, cell / columns), cell % columns + 1);
+            let ([above, middle, below], j) = (frame.three(direction, cell / frame.columns), cell % frame.columns + 1);
             let source = operator.degree * middle[j] - ((middle[j - 1] + middle[j + 1]) + (above[j] + below[j]));
             if source > 0.0 {
-                values.iter_mut().for_each(|value| *value /= source);
-                work.direction.iter_mut().for_each(|value| *value /= source);
+                self.values.iter_mut().for_each(|value| *value /= source);
+                direction.iter_mut().for_each(|value| *value /= source);
             }
         }
-        let largest = m.run(
+        m.run(
             #[inline(always)]
             || {
-                let mut largest = m.all_double(0.0);
-                let degree = m.all_double(operator.degree);
-                let count = frame.width / LANES;
+                let (degree, count) = (m.all_double(operator.degree), frame.width / LANES);
+                for i in 0..frame.rows {
+                    let around = Around::new(frame.three(direction, i), count);
+                    let residual = packs_mut(residual, frame.row(i).start, count);
+                    for (k, residual) in residual.iter_mut().enumerate() {
+                        (m.pack_double(residual) - around.applied(m, degree, k)).store(residual, 0);
+                    }
+                }
+            },
+        );
+        direction.fill(0.0);
+    }
+
+    /// The greatest residual of an unknown.
+    fn largest_residual(&self) -> f64 {
+        let (m, frame) = (self.m, self.operator.frame);
+        m.run(
+            #[inline(always)]
+            || {
+                let (mut largest, count) = (m.all_double(0.0), frame.width / LANES);
                 for i in 0..frame.rows {
                     let start = frame.row(i).start;
-                    let around = Around::new(frame.three(&work.direction, i), count);
-                    let free = packs(&operator.free, start, count);
-                    let residual = packs_mut(&mut work.residual, start, count);
-                    for k in 0..count {
-                        let left = m.pack_double(&residual[k]) - around.applied(m, degree, k);
-                        let left = left * m.double(m.pack(&free[k]));
-                        left.store(&mut residual[k], 0);
-                        largest = m.greater(largest, m.abs(left));
+                    let residual = packs(&self.work.residual, start, count);
+                    for (left, free) in residual.iter().zip(packs(&self.operator.free, start, count)) {
+                        largest = m.greater(largest, m.abs(m.pack_double(left) * m.double(m.pack(free))));
                     }
                 }
                 greatest(largest)
             },
-        );
-        work.direction.fill(0.0);
-        let scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-        let mut tail = [0.0; LANES];
-        tail[..columns - (frame.width - LANES)].fill(1.0);
-        let mut state = Self { m, operator, values, work, scale, tail };
-        state.step(0.0);
-        state
+        )
     }
 
-    /// Residual times what the preconditioner made of it.
-    pub fn preconditioned_product(&self) -> f64 {
-        let m = self.m;
-        let Frame { rows, width, .. } = self.operator.frame;
-        let finest = &self.work.stack.levels[0];
-        let sum = m.run(
+    /// Sets the right-hand side of the preconditioner.
+    fn give_residual(&mut self) {
+        let (m, frame) = (self.m, self.operator.frame);
+        let Workspace { stack, residual, .. } = &mut *self.work;
+        let right = &mut stack.levels[0].right;
+        m.run(
             #[inline(always)]
             || {
-                let tail = m.load_double(&self.tail, 0);
-                let mut sum = m.all_double(0.0);
-                for i in 0..rows {
-                    let start = self.operator.frame.row(i).start;
-                    let end = start + width - LANES;
-                    for at in (start..end).step_by(LANES) {
-                        sum = sum + m.double(m.load(&finest.right, at)) * m.double(m.load(&finest.solution, at));
+                let (scale, count) = (m.all_double(self.scale), frame.width / LANES);
+                for i in 0..frame.rows {
+                    let start = frame.row(i).start;
+                    let free = packs(&self.operator.free, start, count);
+                    let (residual, to) = (packs(residual, start, count), packs_mut(right, start, count));
+                    for ((left, free), to) in residual.iter().zip(free).zip(to) {
+                        let single = m.significant(m.single(m.pack_double(left) * scale), NEGLIGIBLE);
+                        (single * m.pack(free)).store(to, 0);
                     }
-                    sum = sum + m.double(m.load(&finest.right, end)) * m.double(m.load(&finest.solution, end)) * tail;
+                    frame.finish_row(right, i);
                 }
-                total(sum)
             },
         );
-        sum / (self.scale * self.scale)
+    }
+
+    /// Residual times what the preconditioner made of it, from the product of the two as they are there.
+    pub fn unscaled(&self, product: f64) -> f64 {
+        product / (self.scale * self.scale)
     }
 
     /// Takes the next direction, `beta` times the last added; its energy, `p . A p`.

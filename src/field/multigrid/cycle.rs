@@ -60,8 +60,9 @@ impl Hierarchy {
         }
     }
 
-    /// One V-cycle from zero for the right-hand side of the finest level, which has its frame.
-    pub fn cycle<M: Machine>(&self, m: M, finest: &FivePoint, stack: &mut Stack) {
+    /// One V-cycle from zero for the right-hand side of the finest level, which has its frame; the product of that and
+    /// the solution.
+    pub fn cycle<M: Machine>(&self, m: M, finest: &FivePoint, stack: &mut Stack) -> f64 {
         let Stack { levels: vectors, rows, bottom } = stack;
         for (k, transfer) in self.transfers.iter().enumerate() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
@@ -82,14 +83,21 @@ impl Hierarchy {
             row.iter_mut().zip(bottom).for_each(|(to, &from)| *to = from as f32);
         }
         frame.finish(&mut vectors[last].solution);
+        let mut product = 0.0;
+        if last == 0 {
+            let cells = (0..frame.rows).flat_map(|i| frame.row(i).take(frame.columns));
+            let Vectors { right, solution, .. } = &vectors[0];
+            product = cells.map(|at| f64::from(right[at]) * f64::from(solution[at])).sum();
+        }
         for (k, transfer) in self.transfers.iter().enumerate().rev() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
             transfer.prolong(m, &lower[0].solution, rows, &mut upper[k].solution);
             match k.checked_sub(1) {
-                None => finest.go_on(m, &mut upper[0]),
+                None => product = finest.go_on(m, &mut upper[0]),
                 Some(level) => self.levels[level].go_on(m, &mut upper[k]),
             }
         }
+        product
     }
 }
 

@@ -34,8 +34,6 @@ impl Vectors {
 pub(super) trait Smooth {
     /// Two steps from zero, for a right-hand side that has its frame.
     fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
-    /// Two steps more, from a solution without frame.
-    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Row `i` of the residual, padding included.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
 }
@@ -53,6 +51,40 @@ impl FivePoint {
             let sum = around.sum(m, k) + m.pack(&right[k]);
             (keep * m.pack(&around.middle[k]) + take * m.pack(&free[k]) * sum).store(&mut to[k], 0);
         }
+    }
+
+    /// Two steps more, from a solution without frame; the product of right-hand side and result.
+    pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) -> f64 {
+        let Vectors { right, solution, other } = vectors;
+        self.frame.finish(solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        let product = m.run(
+            #[inline(always)]
+            || {
+                let (tail, last) = (m.pack_double(&self.frame.tail()), self.frame.width / LANES - 1);
+                let mut sum = m.all_double(0.0);
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                        let start = self.frame.row(i).start;
+                        let [right, solution] = [&*right, &*solution].map(|part| packs(part, start, last + 1));
+                        let term = |k: usize| m.double(m.pack(&right[k])) * m.double(m.pack(&solution[k]));
+                        for k in 0..last {
+                            sum = sum + term(k);
+                        }
+                        sum = sum + term(last) * tail;
+                    }
+                }
+                sum.lanes().iter().sum()
+            },
+        );
+        self.frame.finish(solution);
+        product
     }
 }
 
@@ -77,28 +109,6 @@ impl Smooth for FivePoint {
                 }
             },
         );
-    }
-
-    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
-        let Vectors { right, solution, other } = vectors;
-        self.frame.finish(solution);
-        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
-        // needs the old values of that row.
-        m.run(
-            #[inline(always)]
-            || {
-                for i in self.frame.ahead() {
-                    if let Some(i) = i.made {
-                        self.step(m, WEIGHTS[1], right, solution, other, i);
-                        self.frame.finish_row(other, i);
-                    }
-                    if let Some(i) = i.used {
-                        self.step(m, WEIGHTS[0], right, other, solution, i);
-                    }
-                }
-            },
-        );
-        self.frame.finish(solution);
     }
 
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
@@ -131,6 +141,29 @@ impl Stencil {
             let sum = nine.sum(m, k) + m.pack(&right[k]);
             (keep * m.pack(&nine.middle[k]) + take * m.pack(&inverse[k]) * sum).store(&mut to[k], 0);
         }
+    }
+
+    /// Two steps more, from a solution without frame.
+    pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+        let Vectors { right, solution, other } = vectors;
+        self.frame.finish(solution);
+        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
+        // needs the old values of that row.
+        m.run(
+            #[inline(always)]
+            || {
+                for i in self.frame.ahead() {
+                    if let Some(i) = i.made {
+                        self.step(m, WEIGHTS[1], right, solution, other, i);
+                        self.frame.finish_row(other, i);
+                    }
+                    if let Some(i) = i.used {
+                        self.step(m, WEIGHTS[0], right, other, solution, i);
+                    }
+                }
+            },
+        );
+        self.frame.finish(solution);
     }
 }
 
@@ -165,28 +198,6 @@ impl Smooth for Stencil {
                 }
             },
         );
-    }
-
-    fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
-        let Vectors { right, solution, other } = vectors;
-        self.frame.finish(solution);
-        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
-        // needs the old values of that row.
-        m.run(
-            #[inline(always)]
-            || {
-                for i in self.frame.ahead() {
-                    if let Some(i) = i.made {
-                        self.step(m, WEIGHTS[1], right, solution, other, i);
-                        self.frame.finish_row(other, i);
-                    }
-                    if let Some(i) = i.used {
-                        self.step(m, WEIGHTS[0], right, other, solution, i);
-                    }
-                }
-            },
-        );
-        self.frame.finish(solution);
     }
 
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {

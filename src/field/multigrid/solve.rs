@@ -134,8 +134,8 @@ impl Multigrid {
                 convergence.converged = true;
                 break;
             }
-            self.hierarchy.cycle(m, &self.operator, &mut state.work.stack);
-            let next = state.preconditioned_product();
+            let scaled = self.hierarchy.cycle(m, &self.operator, &mut state.work.stack);
+            let next = state.unscaled(scaled);
             if next == 0.0 {
                 convergence = Convergence { error: 0.0, converged: true, ..convergence };
                 break;
