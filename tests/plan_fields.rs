@@ -288,7 +288,7 @@ fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
     for planner in BOTH {
         let run = run(planner, &grid, &query(&grid, 0, 4), true);
         assert_eq!(run.outcome, Outcome::NoPath);
-        assert!(matches!(run.size, Size::Windows { cells: 6, .. }));
+        assert!(matches!(run.size, Size::Grid { cells: 6, .. } | Size::Windows { cells: 6, .. }));
         let reached = match run.trace {
             Trace::Field { potential, .. } => potential.iter().filter(|p| p.is_finite()).count(),
             Trace::Wavefront { labels, .. } => labels.iter().filter(|&&label| label != UNREACHED).count(),
