@@ -1,8 +1,9 @@
 //! The whole run in one process: from the files of an arm with five obstacles to the file of a certified trajectory.
 
+use cplan::certify::blend;
 use cplan::input::{self, Overrides};
 use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::trajectory::{Report, time, write_whole};
+use cplan::trajectory::{Limits, Report, Timed, time, write_whole};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
 
@@ -12,8 +13,9 @@ fn run(urdf: &Path, world: &Path, output: &Path, method: Method) -> usize {
     let joints = &problem.scene.arm.joints;
     let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
     let Verdict::Found(certified) = &answer.verdict else { panic!("{method} found no path") };
-    let trajectory = time(certified, joints, 0.01).expect("limits that allow motion");
-    let json = Report::found(method.name(), joints, certified, trajectory).json();
+    let curve = blend(&problem.scene, certified, f64::INFINITY, problem.scene.workspace.clearance);
+    let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).expect("limits that allow motion");
+    let json = Report::found(method.name(), joints, &curve, trajectory).json();
     write_whole(output, json.as_bytes()).expect("a folder to write into");
     json.len()
 }

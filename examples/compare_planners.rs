@@ -6,7 +6,7 @@
 
 use cplan::input::{self, Overrides};
 use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::trajectory::time;
+use cplan::trajectory::{Limits, time};
 use std::error::Error;
 use std::path::PathBuf;
 
@@ -20,7 +20,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let answer = solve(&problem, method, &Effort::default(), &mut |text| eprintln!("{text}"));
         match &answer.verdict {
             Verdict::Found(certified) => {
-                let trajectory = time(certified, &problem.scene.arm.joints, 0.01)?;
+                let limits = Limits::from(&problem.scene.arm.joints);
+                let trajectory = time(certified.clone(), &limits, 0.01)?.trajectory;
                 println!(
                     "{method:<11} length {:.4}, proven clearance {:.4} m, motion {:.2} s; built in {:.1?}, asked in {:.1?}",
                     certified.path().length(),

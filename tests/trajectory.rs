@@ -1,11 +1,11 @@
 //! From a certified path to files, and back through independent readers.
 
-use cplan::certify::{CertifiedPath, certify};
+use cplan::certify::{CertifiedPath, blend, certify};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::Heights;
 use cplan::model::{Arm, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
 use cplan::space::{Axis, Configuration, Path};
-use cplan::trajectory::{Format, Report, Status, Trajectory, time};
+use cplan::trajectory::{Format, Limits, Report, Status, Timed, Trajectory, time};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -56,8 +56,9 @@ fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
 fn found(obstacle: bool, waypoints: &[[f64; 2]]) -> Report {
     let scene = scene(obstacle);
     let path = certified(&scene, waypoints);
-    let trajectory = time(&path, &scene.arm.joints, 0.01).expect("an ordinary motion");
-    Report::found("visibility", &scene.arm.joints, &path, trajectory)
+    let curve = blend(&scene, &path, f64::INFINITY, 0.0);
+    let Timed { curve, trajectory } = time(curve, &Limits::from(&scene.arm.joints), 0.01).expect("an ordinary motion");
+    Report::found("visibility", &scene.arm.joints, &curve, trajectory)
 }
 
 const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
@@ -98,13 +99,15 @@ fn json_holds_the_contract() {
     assert_close(&json["trajectory"]["velocity"], &trajectory.velocity);
     assert_close(&json["trajectory"]["acceleration"], &trajectory.acceleration);
     assert_eq!(json["trajectory"]["time"].as_array().expect("a list").len(), trajectory.time.len());
+    assert_eq!(json["blends"]["count"], 1);
+    assert!(json["blends"]["largest_radius"].as_f64().is_some_and(|radius| radius > 0.1 && radius < 2.0));
     assert_eq!(json["duration"].as_f64(), Some(trajectory.duration()));
     let length: f64 = WAYPOINTS.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
     assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
     // The layout: a line a field, in the order of the type.
     let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
-    let order = "status name planner joints units path length certified clearance closest size timings duration \
-                 interpolation trajectory";
+    let order = "status name planner joints units path length certified clearance closest size timings blends \
+                 duration interpolation trajectory";
     assert_eq!(keys.join(" "), order);
     assert!(text.starts_with("{\n  \"status\": \"found\",\n") && text.ends_with("]}\n}\n"));
 }

@@ -4,6 +4,7 @@
 //! error there cannot hide here.
 
 mod bands;
+mod blends;
 mod boxes;
 mod chain;
 mod channel;
@@ -19,6 +20,7 @@ mod slab;
 mod slabs;
 mod vicinity;
 
+pub use blends::{CertifiedCurve, blend};
 pub use boxes::Cell;
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};

@@ -1,9 +1,11 @@
 //! Continuous collision check of a path.
 
+use super::blends::CertifiedCurve;
 use super::deviation::{Deviation, Posture};
+use super::passage::along;
 use super::vicinity::Vicinity;
 use crate::model::{Contact, Pair, Scene};
-use crate::space::{Configuration, Path};
+use crate::space::{Blend, Configuration, HAIR, Path};
 
 /// The proven clearance is at least this share of the true one: below it, pieces of the path are looked at again in
 /// halves. Nearer to 1 costs more evaluations, a few more for every halving of the gap.
@@ -41,6 +43,10 @@ impl CertifiedPath {
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
+    }
+
+    pub(super) fn into_path(self) -> Path {
+        self.path
     }
 
     /// Proven lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if
@@ -92,7 +98,7 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     }
     let vicinity = Vicinity::new(scene);
     let budget = MAX_EVALUATIONS + EVALUATIONS_PER_PIECE * path.waypoints().len();
-    let mut search = Search { scene, required: clearance, proven: f64::INFINITY, nearest: None, budget };
+    let mut search = Search::new(scene, clearance, budget);
     for &q in path.waypoints() {
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
@@ -114,18 +120,30 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
 
-struct Search<'a> {
+/// What is known while pieces of a motion are looked at.
+#[derive(Debug, Clone)]
+pub(super) struct Search<'a> {
     scene: &'a Scene,
     required: f64,
     /// Least of the bounds that were accepted.
-    proven: f64,
+    pub(super) proven: f64,
     /// Least distance seen.
-    nearest: Option<Nearest>,
+    pub(super) nearest: Option<Nearest>,
     /// Looks that are left.
     budget: usize,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
+        Self { scene, required, proven: f64::INFINITY, nearest: None, budget }
+    }
+
+    /// A search that goes on from what is known of a motion.
+    pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
+        let (proven, nearest) = (known.clearance(), known.nearest());
+        Self { scene, required, proven, nearest, budget }
+    }
+
     /// Takes note of a distance on the path.
     fn see(&mut self, at: Configuration, contact: Contact) -> Result<(), Rejection> {
         let distance = contact.separation.distance;
@@ -149,11 +167,26 @@ impl Search<'_> {
     }
 
     fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
-        // Pieces of the segment as (middle, half width) of the parameter, the first one on top.
+        self.curve(pair, |middle, half| (from + (to - from) * middle, Deviation::Along((to - from) * half)))
+    }
+
+    /// A blend and all that is no farther off it than a hair.
+    pub(super) fn blend(&mut self, vicinity: &Vicinity, blend: &Blend) -> Result<(), Rejection> {
+        let (piece, hair) = (blend.piece(), HAIR * blend.radius());
+        let part = |middle: f64, half: f64| along(&piece, middle - half, middle + half, hair);
+        let (middle, deviation) = part(0.5, 0.5);
+        let posture = Posture::new(self.scene, middle);
+        vicinity.near(&posture, deviation, BEYOND * self.target(), |pair| self.curve(pair, part))
+    }
+
+    /// A curve given by what its part about a middle, so and so much to either side, is: a configuration, and the
+    /// deviations from it. The parameter goes from 0 to 1.
+    fn curve(&mut self, pair: Pair, part: impl Fn(f64, f64) -> (Configuration, Deviation)) -> Result<(), Rejection> {
+        // Parts of the curve as (middle, half width) of the parameter, the first one on top.
         let mut open = vec![(0.5, 0.5)];
         while let Some((middle, half)) = open.pop() {
-            let at = from + (to - from) * middle;
-            let (posture, deviation) = (Posture::new(self.scene, at), Deviation::Along((to - from) * half));
+            let (at, deviation) = part(middle, half);
+            let posture = Posture::new(self.scene, at);
             self.budget = self.budget.saturating_sub(1);
             let apart = posture.apart(pair, deviation);
             if apart > 0.0 && apart >= self.target() {

@@ -225,7 +225,7 @@ impl Search<'_> {
     fn judge(&mut self, span: Span, pairs: &mut Vec<Pair>) {
         let (middle, deviation) = match span {
             Span::Pieces(first, end) => around(&self.pieces[first..end]),
-            Span::Part(index, from, to) => along(&self.pieces[index], from, to),
+            Span::Part(index, from, to) => along(&self.pieces[index], from, to, 0.0),
         };
         let posture = Posture::new(self.scene, middle);
         pairs.retain(|&pair| {
@@ -297,14 +297,15 @@ fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
     (middle, Deviation::Box(half))
 }
 
-/// The tube about a part of a piece, from the configuration halfway through it.
-fn along(piece: &Piece, from: f64, to: f64) -> (Configuration, Deviation) {
+/// The tube about a part of a piece, from the configuration halfway through it, and all that is in each joint no more
+/// than `beside` off it.
+pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
     let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
     let bend = piece.bend(from, to);
     let off_chord = (first + last) / 2.0 - middle;
     let half = [0, 1].map(|k| {
         let largest = piece.control().iter().map(|p| p[k].abs()).fold(0.0, f64::max);
-        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + ROUNDING * largest
+        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + ROUNDING * largest + beside
     });
     (middle, Deviation::Tube((last - first) / 2.0, half))
 }

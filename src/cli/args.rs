@@ -1,6 +1,7 @@
 //! The command line's words.
 
 use super::field_args::FieldArgs;
+use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
 use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
@@ -103,9 +104,6 @@ pub struct EffortArgs {
     /// Attempts, each finer than the one before.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=12))]
     pub levels: u8,
-    /// Time between two samples of the trajectory, seconds.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
-    pub period: f64,
 }
 
 impl EffortArgs {
@@ -190,7 +188,7 @@ fn share(text: &str) -> Result<f64, String> {
     number_in(text, |x| x > 0.0 && x <= 0.1, "of more than 0 and at most 0.1 (of the arm's reach)")
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(super) fn seconds(text: &str) -> Result<f64, String> {
     let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
     number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)
 }
@@ -211,6 +209,8 @@ pub struct PlanArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub optimum: OptimumArgs,
+    #[command(flatten)]
+    pub motion: MotionArgs,
     #[command(flatten)]
     pub search: SearchArgs,
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
@@ -242,6 +242,8 @@ pub struct CompareArgs {
     pub query: QueryArgs,
     #[command(flatten)]
     pub effort: EffortArgs,
+    #[command(flatten)]
+    pub motion: MotionArgs,
     /// Only these planners; can be repeated.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,

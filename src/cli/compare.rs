@@ -2,6 +2,7 @@
 
 use super::args::CompareArgs;
 use super::failure::Failure;
+use super::motion::MotionArgs;
 use super::output::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::Picture;
@@ -9,7 +10,7 @@ use crate::input;
 use crate::model::Problem;
 use crate::report::{Comparison, Row};
 use crate::solve::{Answer, Method, Verdict, solve};
-use crate::trajectory::time;
+use crate::trajectory::Timed;
 use std::time::Duration;
 
 /// Compares, and returns the exit code: that of the best answer.
@@ -39,7 +40,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
                 output::say(text);
             }
         });
-        rows.push(row(problem, label, &answer, args.effort.period)?);
+        rows.push(row(problem, label, &answer, &args.motion)?);
         answers.push(answer);
     }
     let comparison = Comparison { problem: output::title(problem), length_unit: length_unit(problem), rows };
@@ -65,7 +66,7 @@ pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     })
 }
 
-fn row(problem: &Problem, planner: String, answer: &Answer, period: f64) -> Result<Row, Failure> {
+fn row(problem: &Problem, planner: String, answer: &Answer, motion: &MotionArgs) -> Result<Row, Failure> {
     let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
     let mut row = Row {
         planner,
@@ -82,9 +83,10 @@ fn row(problem: &Problem, planner: String, answer: &Answer, period: f64) -> Resu
     match &answer.verdict {
         Verdict::Found(certified) => {
             row.outcome = "found".into();
+            let Timed { curve, trajectory } = motion.drive(problem, certified)?;
             row.length = Some(certified.path().length());
-            row.clearance = Some(certified.clearance()).filter(|c| c.is_finite());
-            row.duration = Some(time(certified, &problem.scene.arm.joints, period)?.duration());
+            row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
+            row.duration = Some(trajectory.duration());
         }
         Verdict::Infeasible(_) => row.outcome = "infeasible".into(),
         Verdict::Unknown(_) => {}

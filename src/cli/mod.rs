@@ -8,6 +8,7 @@ mod field_args;
 mod field_report;
 mod inspect;
 mod inspect_text;
+mod motion;
 mod output;
 mod plan;
 mod recheck;

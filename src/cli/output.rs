@@ -1,6 +1,7 @@
 //! Files and streams.
 
 use super::failure::Failure;
+use crate::certify::CertifiedCurve;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, Picture, Posture};
 use crate::model::{Problem, Scene};
@@ -102,11 +103,12 @@ pub fn write_picture(
     path: &Path,
     problem: &Problem,
     answer: &Answer,
+    curve: Option<&CertifiedCurve>,
     report: &Report,
 ) -> Result<(), Failure> {
     let scene = &problem.scene;
     let contours = contours(scene);
-    let found = if let Verdict::Found(certified) = &answer.verdict { Some(certified.path()) } else { None };
+    let outline = curve.map(|curve| curve.curve().outline());
     let (status, detail) = match (&answer.verdict, report.length) {
         (Verdict::Found(_), Some(length)) => {
             let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
@@ -121,7 +123,7 @@ pub fn write_picture(
         scene,
         start: problem.start,
         goals: &problem.goals,
-        paths: found.map(|path| (answer.method.to_string(), path)).into_iter().collect(),
+        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
         trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),
         c_obstacles: &contours,

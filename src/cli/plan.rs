@@ -3,16 +3,17 @@
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
 use super::field_report::field_report;
+use super::motion::MotionArgs;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN};
-use crate::certify::ProofBox;
+use crate::certify::{CertifiedCurve, ProofBox};
 use crate::input;
 use crate::model::Problem;
 use crate::plan::{Size, Wavefront};
 use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::space::Metric;
-use crate::trajectory::{Optimum, Report, SearchUsed, time};
+use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -54,7 +55,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
             effort.levels
         ));
     }
-    let mut report = report(problem, &answer, args.effort.period)?;
+    let (mut report, curve) = report(problem, &answer, &args.motion)?;
     report.field = field.map(|field| field_report(&field, &answer));
     report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
     clock.stage("trajectory");
@@ -64,14 +65,16 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     for sink in &sinks {
         match sink {
             Sink::Result(format, path) => output::write_result(*format, path, &report)?,
-            Sink::Picture(format, path) => output::write_picture(*format, path, problem, &answer, &report)?,
+            Sink::Picture(format, path) => {
+                output::write_picture(*format, path, problem, &answer, curve.as_ref(), &report)?
+            }
         }
     }
     clock.stage("write");
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, &report, field.as_ref(), &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &answer, curve.as_ref(), &report, field.as_ref(), &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,
@@ -80,16 +83,22 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     })
 }
 
-/// The result file's content.
-fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Failure> {
+/// The result file's content, and what the motion follows.
+fn report(
+    problem: &Problem,
+    answer: &Answer,
+    motion: &MotionArgs,
+) -> Result<(Report, Option<CertifiedCurve>), Failure> {
     let joints = &problem.scene.arm.joints;
     let planner = answer.method.name();
+    let mut followed = None;
     let mut report = match &answer.verdict {
         Verdict::Found(certified) => {
-            let trajectory = time(certified, joints, period)?;
-            let mut report = Report::found(planner, joints, certified, trajectory);
+            let Timed { curve, trajectory } = motion.drive(problem, certified)?;
+            let mut report = Report::found(planner, joints, &curve, trajectory);
             report.optimum = answer.bound.map(Optimum::from);
-            report.closest = certified.nearest().map(|n| problem.scene.describe(n.contact.pair));
+            report.closest = curve.nearest().map(|n| problem.scene.describe(n.contact.pair));
+            followed = Some(curve);
             report
         }
         Verdict::Infeasible(proof) => {
@@ -108,7 +117,7 @@ fn report(problem: &Problem, answer: &Answer, period: f64) -> Result<Report, Fai
         Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
         Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };
-    Ok(report)
+    Ok((report, followed))
 }
 
 impl From<Bound> for Optimum {

@@ -1,8 +1,9 @@
 //! The summary for people.
 
 use super::output::Sink;
+use crate::certify::CertifiedCurve;
 use crate::input::Loaded;
-use crate::model::{Arm, Joint};
+use crate::model::{Arm, Joint, Scene};
 use crate::plan::FieldPlanner;
 use crate::solve::{Answer, Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric};
@@ -72,6 +73,7 @@ pub fn range(joint: &Joint) -> String {
 pub fn text(
     loaded: &Loaded,
     answer: &Answer,
+    curve: Option<&CertifiedCurve>,
     report: &Report,
     field: Option<&FieldPlanner>,
     sinks: &[Sink],
@@ -111,27 +113,16 @@ pub fn text(
             if let Some(bound) = &answer.bound {
                 lines.push(("optimum", optimum(bound)));
             }
-            lines.push((
-                "clearance",
-                match certified.nearest() {
-                    Some(nearest) => format!(
-                        "{:.6} m proven; closest: {} at {}",
-                        certified.clearance(),
-                        scene.describe(nearest.contact.pair),
-                        configuration(arm, nearest.at)
-                    ),
-                    None => "nothing can be hit".into(),
-                },
-            ));
         }
         Verdict::Infeasible(_) => {
             lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));
         }
         Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
     }
-    if let Some(trajectory) = &report.trajectory {
-        let samples = trajectory.time.len();
-        lines.push(("motion", format!("{:.3} s, {samples} samples", trajectory.duration())));
+    if let (Some(curve), Some(trajectory)) = (curve, &report.trajectory) {
+        lines.push(("clearance", clearance(scene, curve)));
+        let (samples, corners) = (trajectory.time.len(), corners(curve));
+        lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     }
     for sink in sinks.iter().filter(|sink| sink.is_filled_by(report)) {
         lines.push(("file", sink.path().display().to_string()));
@@ -147,6 +138,34 @@ pub fn text(
         before = key;
     }
     text
+}
+
+/// What the motion keeps, and where it comes nearest.
+fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
+    match curve.nearest() {
+        Some(nearest) => format!(
+            "{:.6} m proven; closest: {} at {}",
+            curve.clearance(),
+            scene.describe(nearest.contact.pair),
+            configuration(&scene.arm, nearest.at)
+        ),
+        None => "nothing can be hit".into(),
+    }
+}
+
+/// What becomes of the path's corners, if it has any.
+fn corners(curve: &CertifiedCurve) -> String {
+    let radii = curve.curve().radii();
+    let corners = radii.len().saturating_sub(2);
+    let blended = radii.iter().filter(|radius| **radius > 0.0).count();
+    match blended {
+        _ if corners == 0 => String::new(),
+        0 => format!("; stops at {corners} corners"),
+        _ => {
+            let largest = radii.iter().copied().fold(0.0, f64::max);
+            format!("; {blended} of {corners} corners blended, radius up to {largest:.4}")
+        }
+    }
 }
 
 /// How near the path is to the optimum.

@@ -40,6 +40,12 @@ impl Piece {
         Self { from, to, control: [a, a + va * third, b - vb * third, b] }
     }
 
+    /// The quadratic curve with these control points, raised to a cubic.
+    #[must_use]
+    pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
+        Self { from, to, control: [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c] }
+    }
+
     /// Its control points, the ends first and last.
     #[must_use]
     pub fn control(&self) -> &[Configuration; 4] {

@@ -1,11 +1,13 @@
 //! Configurations, motions, and the topology of the space they live in.
 
+mod blend;
 mod curve;
 mod metric;
 mod path;
 mod recording;
 mod topology;
 
+pub use blend::{Blend, BlendedPath, HAIR, Stretch};
 pub use curve::{Derivative, Piece};
 pub use metric::Metric;
 pub use path::Path;

@@ -1,15 +1,19 @@
 //! From a certified path to a motion in time, and to files.
 //!
-//! [`time`] puts a path under a clock within the joints' limits, [`Report`] collects what a run found, [`Format`] writes
-//! either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
+//! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found,
+//! [`Format`] writes either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
 
+mod corner;
 mod csv;
 mod field;
 mod format;
+mod limits;
 mod profile;
 mod result;
 mod ros;
 mod sample;
+mod schedule;
+mod tip;
 mod whole_file;
 
 #[cfg(test)]
@@ -18,7 +22,9 @@ mod tests;
 pub use csv::csv;
 pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
-pub use result::{INTERPOLATION, Optimum, Report, SearchUsed, Status};
+pub use limits::Limits;
+pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
-pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory, time};
+pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
+pub use tip::TipSpeed;
 pub use whole_file::{WriteError, check_writable, write_whole};

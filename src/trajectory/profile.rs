@@ -1,19 +1,23 @@
-//! Speed along one straight segment.
+//! Speed along one straight stretch.
 
-/// A rest-to-rest motion over a distance: constant acceleration, constant speed (perhaps for no time at all), constant
-/// deceleration, as long as the acceleration. The fastest such motion is the time-optimal one for limits on speed and
-/// acceleration (bang-bang, or bang-coast-bang where the speed limit is reached).
+/// A time of constant acceleration along a stretch, distances counted from the stretch's beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Profile {
-    length: f64,
-    acceleration: f64,
-    /// Duration of the acceleration, and of the deceleration.
-    ramp: f64,
-    /// Duration of the constant speed between them: 0 in a triangular profile.
-    cruise: f64,
+pub(super) struct Phase {
+    /// Seconds.
+    pub(super) duration: f64,
+    /// Distance at which it begins.
+    pub(super) from: f64,
+    /// Distance at which it ends.
+    pub(super) to: f64,
+    /// Speed at which it begins.
+    pub(super) enter: f64,
+    /// Speed at which it ends.
+    pub(super) leave: f64,
+    /// The acceleration.
+    pub(super) acceleration: f64,
 }
 
-/// Distance covered, speed and acceleration along the segment.
+/// Distance covered, speed and acceleration along a stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct State {
     pub(super) distance: f64,
@@ -21,77 +25,92 @@ pub(super) struct State {
     pub(super) acceleration: f64,
 }
 
-/// One stretch of constant acceleration.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Phase {
-    kind: Kind,
-    /// Seconds from the segment's beginning.
-    pub(super) begin: f64,
-    /// Seconds.
-    pub(super) duration: f64,
-}
+impl Phase {
+    /// From one distance to another and from one speed to another.
+    pub(super) fn between([from, to]: [f64; 2], [enter, leave]: [f64; 2]) -> Self {
+        let duration = 2.0 * (to - from) / (enter + leave);
+        Self { duration, from, to, enter, leave, acceleration: (leave - enter) / duration }
+    }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Kind {
-    Up,
-    Level,
-    Down,
-}
-
-impl Profile {
-    /// The fastest profile over `length` within the limits, none of whose phases is shorter than `shortest`.
+    /// The state `time` seconds after the phase began.
     ///
-    /// Where that floor acts, the motion is slowed down, by at most `4 shortest`: ramps are stretched to the floor at a
-    /// lower acceleration, and a shorter cruise is spread over the ramps. All limits stay kept. `length`, `speed`,
-    /// `acceleration` and `shortest` are positive; the limits may be infinite.
-    pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Self {
-        let ramp = (speed / acceleration).max(shortest);
-        let cruise = length / speed - ramp;
-        if cruise >= shortest {
-            return Self { length, acceleration: speed / ramp, ramp, cruise };
-        }
+    /// A deceleration is counted back from its end: a short one after a long way at top speed would drown in the rounding
+    /// of the latter.
+    pub(super) fn at(&self, time: f64) -> State {
+        let Self { duration, from, to, enter, leave, acceleration } = *self;
+        let (distance, speed) = if acceleration < 0.0 {
+            let left = duration - time;
+            (to - left * (leave - 0.5 * acceleration * left), leave - acceleration * left)
+        } else {
+            (from + time * (enter + 0.5 * acceleration * time), enter + acceleration * time)
+        };
+        State { distance, speed, acceleration }
+    }
+}
+
+/// The fastest motion over `length` from rest to rest: constant acceleration, constant speed (perhaps for no time at
+/// all), constant deceleration as long as the acceleration (bang-bang, or bang-coast-bang where the speed limit is
+/// reached). No phase is shorter than `shortest`.
+///
+/// Where that floor acts, the motion is slowed down, by at most `4 shortest`: ramps are stretched to the floor at a
+/// lower acceleration, and a shorter cruise is spread over the ramps. All limits stay kept. `length`, `speed`,
+/// `acceleration` and `shortest` are positive; the limits may be infinite.
+pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Vec<Phase> {
+    let ramp = (speed / acceleration).max(shortest);
+    let cruise = length / speed - ramp;
+    let (ramp, cruise, acceleration) = if cruise >= shortest {
+        (ramp, cruise, speed / ramp)
+    } else {
         // Without a cruise the peak speed is length / ramp and the acceleration length / ramp^2: both limits are lower
         // bounds of the ramp.
         let ramp = (length / acceleration).sqrt().max(length / speed).max(shortest);
-        Self { length, acceleration: length / ramp / ramp, ramp, cruise: 0.0 }
-    }
+        (ramp, 0.0, length / ramp / ramp)
+    };
+    let peak = acceleration * ramp;
+    let covered = 0.5 * acceleration * ramp * ramp;
+    let up = Phase { duration: ramp, from: 0.0, to: covered, enter: 0.0, leave: peak, acceleration };
+    let down = Phase { from: length - covered, to: length, enter: peak, leave: 0.0, acceleration: -acceleration, ..up };
+    let level = Phase { duration: cruise, from: covered, to: down.from, enter: peak, leave: peak, acceleration: 0.0 };
+    if cruise > 0.0 { vec![up, level, down] } else { vec![up, down] }
+}
 
-    /// Seconds from rest to rest.
-    pub(super) fn duration(&self) -> f64 {
-        2.0 * self.ramp + self.cruise
-    }
-
-    /// The two or three phases, in order.
-    pub(super) fn phases(&self) -> impl Iterator<Item = Phase> {
-        let up = Phase { kind: Kind::Up, begin: 0.0, duration: self.ramp };
-        let level = Phase { kind: Kind::Level, begin: self.ramp, duration: self.cruise };
-        let down = Phase { kind: Kind::Down, begin: self.ramp + self.cruise, duration: self.ramp };
-        [Some(up), (self.cruise > 0.0).then_some(level), Some(down)].into_iter().flatten()
-    }
-
-    /// The state `time` seconds after the beginning of `phase`.
-    ///
-    /// Counted from there, and not from the segment's beginning, because a short ramp after a long cruise would drown
-    /// in the rounding of the latter.
-    pub(super) fn at(&self, phase: Phase, time: f64) -> State {
-        let peak = self.acceleration * self.ramp;
-        match phase.kind {
-            Kind::Up => State {
-                distance: 0.5 * self.acceleration * time * time,
-                speed: self.acceleration * time,
-                acceleration: self.acceleration,
-            },
-            Kind::Level => State { distance: peak * (0.5 * self.ramp + time), speed: peak, acceleration: 0.0 },
-            Kind::Down => {
-                let left = self.ramp - time;
-                State {
-                    distance: self.length - 0.5 * self.acceleration * left * left,
-                    speed: self.acceleration * left,
-                    acceleration: -self.acceleration,
-                }
-            }
-        }
-    }
+/// The fastest motion over `length` between two speeds, not both 0, that are within `speed` and near enough to each
+/// other for `acceleration`. None if even a single phase would be shorter than `shortest`.
+///
+/// A phase that would be too short is left out, and the greater of the two speeds held instead of passed: the speed that
+/// is lost is no more than what `shortest` seconds would have gained.
+pub(super) fn passing(
+    length: f64,
+    [enter, leave]: [f64; 2],
+    speed: f64,
+    acceleration: f64,
+    shortest: f64,
+) -> Option<Vec<Phase>> {
+    let ramp = |slow: f64, fast: f64| (fast - slow).max(0.0) * ((fast + slow) / (2.0 * acceleration));
+    let over = |peak: f64| {
+        let (up, down) = (ramp(enter, peak), ramp(leave, peak));
+        let level = (length - up - down) / peak;
+        // A level way that is too short, or nothing but rounding, is spread over the ramps.
+        let gentle = if level < shortest { ((up + down) / length).min(1.0) } else { 1.0 };
+        let meet = (up / gentle).min(length);
+        let rest = if level < shortest { meet } else { length - down };
+        // By their speeds: short distances behind a long one are known but roughly.
+        let phase = |[from, to]: [f64; 2], [enter, leave]: [f64; 2], acceleration: f64| {
+            let duration = ((leave - enter) / acceleration).max(0.0);
+            Phase { duration, from, to, enter, leave, acceleration }
+        };
+        let middle = Phase { duration: (rest - meet) / peak, acceleration: 0.0, ..phase([meet, rest], [peak; 2], 1.0) };
+        let first = phase([0.0, meet], [enter, peak], acceleration * gentle);
+        let last = phase([rest, length], [peak, leave], -acceleration * gentle);
+        [first, middle, last].into_iter().filter(|phase| phase.duration > 0.0).collect::<Vec<_>>()
+    };
+    let single = || {
+        let phase = Phase::between([0.0, length], [enter, leave]);
+        vec![Phase { acceleration: phase.acceleration.clamp(-acceleration, acceleration), ..phase }]
+    };
+    let highest = speed.min((acceleration * length + (enter * enter + leave * leave) / 2.0).sqrt());
+    let lasts = |phases: &Vec<Phase>| !phases.is_empty() && phases.iter().all(|phase| phase.duration >= shortest);
+    [over(highest), over(enter.max(leave))].into_iter().find(lasts).or_else(|| Some(single()).filter(lasts))
 }
 
 #[cfg(test)]
@@ -99,22 +118,45 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn duration(phases: &[Phase]) -> f64 {
+        phases.iter().map(|phase| phase.duration).sum()
+    }
+
     #[test]
     fn triangle_and_trapezoid_last_as_long_as_in_closed_form() {
-        let triangle = Profile::rest_to_rest(0.5, 10.0, 2.0, 1e-6);
-        assert_eq!(triangle.duration(), 2.0 * (0.5f64 / 2.0).sqrt());
-        assert_eq!(triangle.phases().count(), 2);
-        let trapezoid = Profile::rest_to_rest(6.0, 2.0, 4.0, 1e-6);
-        assert_eq!(trapezoid.duration(), 6.0 / 2.0 + 2.0 / 4.0);
-        assert_eq!(trapezoid.phases().count(), 3);
+        let triangle = rest_to_rest(0.5, 10.0, 2.0, 1e-6);
+        assert_eq!(duration(&triangle), 2.0 * (0.5f64 / 2.0).sqrt());
+        assert_eq!(triangle.len(), 2);
+        let trapezoid = rest_to_rest(6.0, 2.0, 4.0, 1e-6);
+        assert_eq!(duration(&trapezoid), 6.0 / 2.0 + 2.0 / 4.0);
+        assert_eq!(trapezoid.len(), 3);
     }
 
     #[test]
     fn infinite_limits_leave_the_floor() {
-        let both = Profile::rest_to_rest(1.0, f64::INFINITY, f64::INFINITY, 1e-6);
-        assert_eq!(both.duration(), 2e-6);
-        let speed_only = Profile::rest_to_rest(1.0, 2.0, f64::INFINITY, 1e-6);
-        assert!((speed_only.duration() - 0.500_001).abs() < 1e-12);
+        assert_eq!(duration(&rest_to_rest(1.0, f64::INFINITY, f64::INFINITY, 1e-6)), 2e-6);
+        let speed_only = rest_to_rest(1.0, 2.0, f64::INFINITY, 1e-6);
+        assert!((duration(&speed_only) - 0.500_001).abs() < 1e-12);
+    }
+
+    /// The phases follow each other, and both formulas of a phase agree.
+    fn joined(phases: &[Phase], length: f64, [enter, leave]: [f64; 2]) {
+        let top = phases.iter().map(|p| p.enter.max(p.leave)).fold(0.0, f64::max);
+        let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
+        let (first, last) = (phases[0], phases[phases.len() - 1]);
+        assert_eq!([first.from, first.enter, last.to, last.leave], [0.0, enter, length, leave]);
+        for pair in phases.windows(2) {
+            same(pair[0].to, pair[1].from, length);
+            same(pair[0].leave, pair[1].enter, top);
+        }
+        for phase in phases {
+            same(phase.leave - phase.enter, phase.acceleration * phase.duration, top);
+            same(phase.to - phase.from, (phase.enter + phase.leave) / 2.0 * phase.duration, length);
+            for (time, distance, speed) in [(0.0, phase.from, phase.enter), (phase.duration, phase.to, phase.leave)] {
+                same(phase.at(time).distance, distance, length);
+                same(phase.at(time).speed, speed, top);
+            }
+        }
     }
 
     proptest! {
@@ -123,22 +165,51 @@ mod tests {
             length in -18.0..6.0f64, speed in -4.0..5.0f64, acceleration in -4.0..6.0f64,
         ) {
             let [length, speed, acceleration] = [length, speed, acceleration].map(|e| 10f64.powf(e));
-            let profile = Profile::rest_to_rest(length, speed, acceleration, 1e-6);
-            let down = profile.phases().last().expect("two at least");
-            let peak = profile.at(down, 0.0).speed;
-            prop_assert!(peak <= speed * (1.0 + 1e-14));
-            prop_assert!(profile.acceleration <= acceleration * (1.0 + 1e-14));
-            prop_assert!(profile.phases().all(|p| p.duration >= 1e-6));
-            // Area under the speed is the length.
-            let covered = peak * (profile.ramp + profile.cruise);
-            prop_assert!((covered - length).abs() <= 1e-12 * length, "{covered} {length}");
+            let phases = rest_to_rest(length, speed, acceleration, 1e-6);
+            joined(&phases, length, [0.0, 0.0]);
+            for phase in &phases {
+                prop_assert!(phase.enter.max(phase.leave) <= speed * (1.0 + 1e-14));
+                prop_assert!(phase.acceleration.abs() <= acceleration * (1.0 + 1e-14));
+                prop_assert!(phase.duration >= 1e-6);
+            }
             let optimum = if length * acceleration <= speed * speed {
                 2.0 * (length / acceleration).sqrt()
             } else {
                 length / speed + speed / acceleration
             };
-            prop_assert!(profile.duration() >= optimum * (1.0 - 1e-12));
-            prop_assert!(profile.duration() <= optimum + 4e-6 + 1e-12 * optimum);
+            prop_assert!(duration(&phases) >= optimum * (1.0 - 1e-12));
+            prop_assert!(duration(&phases) <= optimum + 4e-6 + 1e-12 * optimum);
+        }
+
+        /// Against the time that the distance and the limits leave in closed form: the ramps to and from the peak.
+        #[test]
+        fn passing_is_as_fast_as_the_limits_allow(
+            length in -4.0..3.0f64, acceleration in -1.0..3.0f64, at in (0.0..1.0f64, 0.0..1.0f64), top in 0.05..3.0f64,
+        ) {
+            let [length, acceleration] = [length, acceleration].map(|e| 10f64.powf(e));
+            // Speeds that the length allows, relative to what it allows from rest.
+            let most = (2.0 * acceleration * length).sqrt();
+            let enter = at.0 * most;
+            let leave = (enter * enter + (2.0 * at.1 - 1.0) * most * most).max(0.0).sqrt();
+            let speed = enter.max(leave).max(top * most);
+            prop_assume!(enter + leave > 1e-3 * most);
+            let phases = passing(length, [enter, leave], speed, acceleration, 1e-6).expect("long enough");
+            joined(&phases, length, [enter, leave]);
+            for phase in &phases {
+                prop_assert!(phase.enter.max(phase.leave) <= speed * (1.0 + 1e-12));
+                prop_assert!(phase.acceleration.abs() <= acceleration * (1.0 + 1e-9), "{phase:?}");
+                prop_assert!(phase.duration >= 1e-6);
+            }
+            let meeting = ((enter * enter + leave * leave) / 2.0 + acceleration * length).sqrt();
+            let optimum = if meeting <= speed {
+                (2.0 * meeting - enter - leave) / acceleration
+            } else {
+                let ramps = (2.0 * speed * speed - enter * enter - leave * leave) / (2.0 * acceleration);
+                (2.0 * speed - enter - leave) / acceleration + (length - ramps) / speed
+            };
+            let took = duration(&phases);
+            prop_assert!(took >= optimum * (1.0 - 1e-9), "{took} {optimum}");
+            prop_assert!(took <= optimum * (1.0 + 1e-9) + 1e-5 + 1e-6 * acceleration / enter.max(leave) * took);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a run found, as JSON.
 
 use super::{FieldReport, Trajectory};
-use crate::certify::{CertifiedPath, ProofBox};
+use crate::certify::{CertifiedCurve, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
@@ -10,8 +10,10 @@ use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 /// How to read a trajectory between its samples; see [`Trajectory`].
-pub const INTERPOLATION: &str = "acceleration[k] is constant from time[k] to time[k+1]: \
-    position = position[k] + velocity[k] t + acceleration[k] t^2 / 2 with t = time - time[k]";
+pub const INTERPOLATION: &str = "from time[k] to time[k+1], with p = position, v = velocity, a = acceleration, \
+    h = time[k+1] - time[k] and t = time - time[k]: p[k] + v[k] t + a[k] t^2 / 2 + c t^3 + d t^4 where \
+    E = p[k+1] - p[k] - v[k] h - a[k] h^2 / 2, F = v[k+1] - v[k] - a[k] h, c = (4 E - F h) / h^3, d = (F h - 3 E) / h^4; \
+    c = d = 0 on straight pieces of the path, where the acceleration is constant";
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -39,6 +41,15 @@ pub struct Optimum {
     pub lower_bound: f64,
     /// `length / lower_bound - 1`; none where the bound is 0 and the length is not.
     pub gap: Option<f64>,
+}
+
+/// The corners that a motion does not stop at.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Blends {
+    /// How many there are; the path's other corners are stopped at.
+    pub count: usize,
+    /// Greatest distance between a blend's ends and its corner, in joint space (radians and metres as they come).
+    pub largest_radius: f64,
 }
 
 /// How a grid was searched.
@@ -77,7 +88,7 @@ pub struct Report {
     /// Of an infeasible problem: boxes of colliding configurations that separate the start from all goals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Vec<ProofBox>>,
-    /// Waypoints, straight segments between them.
+    /// Waypoints, straight segments between them: what the motion follows, but for its blends.
     pub path: Option<Vec<[f64; 2]>>,
     /// Euclidean length of the path in joint space.
     pub length: Option<f64>,
@@ -86,7 +97,7 @@ pub struct Report {
     pub optimum: Option<Optimum>,
     /// Whether the whole continuous motion was shown free of collision; false without a path.
     pub certified: bool,
-    /// Proven lower bound on the distance between arm and obstacles along the path, metres. None without a path, and
+    /// Proven lower bound on the distance between arm and obstacles along the path and its blends, metres. None without a path, and
     /// where nothing can be hit: then it is infinite, for which JSON has no word.
     pub clearance: Option<f64>,
     /// The link and the obstacle that come closest, in words.
@@ -102,6 +113,9 @@ pub struct Report {
     /// differ from run to run and nothing else in a result does.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "as_map")]
     pub timings: Vec<(String, f64)>,
+    /// The path's corners that the motion rounds; none without a path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blends: Option<Blends>,
     /// Of the motion, seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
@@ -113,16 +127,18 @@ pub struct Report {
 }
 
 impl Report {
-    /// A run that found `path`, timed as `trajectory`. What is optional and not known here (name, closest pair, size,
+    /// A run that found a path, whose motion follows `curve` as `trajectory` says. What is optional and not known here (name, closest pair, size,
     /// timings) is left empty, for the caller to fill.
     #[must_use]
-    pub fn found(planner: &str, joints: &[Joint; 2], path: &CertifiedPath, trajectory: Trajectory) -> Self {
-        let (path, clearance) = (path.path(), path.clearance());
+    pub fn found(planner: &str, joints: &[Joint; 2], curve: &CertifiedCurve, trajectory: Trajectory) -> Self {
+        let (path, clearance) = (curve.curve().path(), curve.clearance());
+        let radii = || curve.curve().radii().iter().copied().filter(|radius| *radius > 0.0);
         Self {
             path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
             length: Some(path.length()),
             certified: true,
             clearance: clearance.is_finite().then_some(clearance),
+            blends: Some(Blends { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }),
             duration: Some(trajectory.duration()),
             interpolation: Some(INTERPOLATION),
             trajectory: Some(trajectory),
@@ -161,6 +177,7 @@ impl Report {
             field: None,
             size: BTreeMap::new(),
             timings: Vec::new(),
+            blends: None,
             duration: None,
             interpolation: None,
             trajectory: None,

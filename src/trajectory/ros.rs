@@ -9,8 +9,9 @@ use std::fmt::Write;
 /// increase strictly, because samples are at least [`super::SHORTEST_INTERVAL`] apart. Numbers have as many digits as it
 /// takes to read the same `f64` back.
 ///
-/// A controller that joins samples by quintic splines follows the motion exactly wherever two samples have the same
-/// acceleration; where it changes within the period, the spline smooths the change.
+/// A controller that joins samples by cubics, of positions and velocities, follows the motion exactly on straight pieces
+/// and within [`crate::space::HAIR`] on blends, and keeps the limits. One that joins them by quintic splines follows it
+/// exactly wherever two samples have the same acceleration; where it changes between them, the spline smooths the change.
 #[must_use]
 pub fn ros_yaml(joints: &[String; 2], trajectory: &Trajectory) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");

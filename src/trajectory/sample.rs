@@ -1,9 +1,9 @@
 //! A path under a clock.
 
-use super::profile::{Phase, Profile, State};
-use crate::certify::CertifiedPath;
-use crate::model::Joint;
-use crate::space::{Configuration, Path};
+use super::limits::Limits;
+use super::schedule::schedule;
+use crate::certify::CertifiedCurve;
+use crate::space::{BlendedPath, Configuration};
 use serde::Serialize;
 use thiserror::Error;
 
@@ -21,10 +21,12 @@ pub const MOST_SAMPLES: usize = 5_000_000;
 
 /// A motion of both joints, sampled.
 ///
-/// Within each interval from `time[k]` to `time[k + 1]` the acceleration is constant, so with `t = time - time[k]` the
-/// motion is, up to rounding, `position[k] + velocity[k] t + acceleration[k] t^2 / 2`: the samples are the motion, not an
-/// approximation of it. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`]. Radians or metres, and
-/// seconds; joints in the order base to tip.
+/// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree, on straight
+/// pieces of the second, and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
+/// beginning and position and velocity `k + 1` at its end, as [`super::INTERPOLATION`] writes it down. So the samples are
+/// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample: the one that is given is
+/// that of the interval that begins there. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`].
+/// Radians or metres, and seconds; joints in the order base to tip.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
@@ -33,7 +35,7 @@ pub struct Trajectory {
     pub position: Vec<[f64; 2]>,
     /// Joint velocities; the first and the last are 0.
     pub velocity: Vec<[f64; 2]>,
-    /// Joint accelerations on the interval that begins here; 0 at the last sample.
+    /// Joint accelerations at the beginning of the interval that begins here; 0 at the last sample.
     pub acceleration: Vec<[f64; 2]>,
 }
 
@@ -88,95 +90,85 @@ impl Trajectory {
     }
 }
 
-/// A straight piece of the path with its motion along it.
-struct Leg {
-    from: Configuration,
-    to: Configuration,
-    length: f64,
-    direction: Configuration,
-    profile: Profile,
-    /// When it begins and ends, seconds.
-    begin: f64,
-    end: f64,
+/// A motion in time and what it follows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Timed {
+    /// The path, with the blends that the motion takes: those that would not make it faster are gone.
+    pub curve: CertifiedCurve,
+    /// The motion.
+    pub trajectory: Trajectory,
 }
 
-impl Leg {
-    fn new(from: Configuration, to: Configuration, joints: &[Joint; 2], begin: f64) -> Self {
-        let offset = to - from;
-        // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
-        let length = offset[0].hypot(offset[1]);
-        let direction = offset / length;
-        // The distance may grow as fast as the slower joint allows; a joint that stands still does not limit it.
-        let least = |limit: fn(&Joint) -> f64| {
-            (0..2).map(|k| limit(&joints[k]) / direction[k].abs()).fold(f64::INFINITY, f64::min)
-        };
-        let profile =
-            Profile::rest_to_rest(length, least(|j| j.velocity), least(|j| j.acceleration), SHORTEST_INTERVAL);
-        Self { from, to, length, direction, profile, begin, end: begin + profile.duration() }
-    }
-
-    fn at(&self, phase: Phase, time: f64) -> [Configuration; 3] {
-        let State { distance, speed, acceleration } = self.profile.at(phase, time);
-        let part = distance / self.length;
-        let between = |k: usize| {
-            let (a, b) = (self.from[k], self.to[k]);
-            // Rounding must not carry a sample beyond the corner, which may lie on a joint limit.
-            (a + (b - a) * part).clamp(a.min(b), a.max(b))
-        };
-        let position = Configuration::new(between(0), between(1));
-        [position, self.direction * speed, self.direction * acceleration]
-    }
-}
-
-/// Times a path: along each straight piece from rest to rest, both joints in step, as fast as the joints' velocity and
-/// acceleration limits allow.
+/// Times a path: along its straight pieces and blends from rest to rest, at rest at every corner that has no blend, both
+/// joints in step, as fast as the limits allow.
 ///
-/// The motion stops at every corner, so it follows the path exactly. Samples lie at the multiples of `period` and, so
-/// that the acceleration is constant within each interval, wherever it changes; multiples of the period closer than
-/// [`SHORTEST_INTERVAL`] to such an instant are left out. A path that stays where it is gives one sample.
+/// Forward-backward integration of the squared speed along the path: on straight pieces in closed form, on a blend over up
+/// to 256 spans, on each of which the second derivative of the path's parameter is constant and both joints keep their
+/// limits throughout (a thousandth of these stays unused there). Never slower than a motion that stops at every corner:
+/// between two stops that motion is taken where it is faster.
 ///
-/// The duration of a piece of length `L`, with speed and acceleration limits `v` and `a` along it, is `2 sqrt(L / a)` if
-/// `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be shorter than that.
-/// Linear in the number of samples.
+/// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
+/// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
+/// [`crate::space::HAIR`] of the blend. Multiples of the period closer than [`SHORTEST_INTERVAL`] to another sample are
+/// left out. A path that stays where it is gives one sample.
+///
+/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
+/// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
+/// shorter than that. Linear in the number of samples.
 ///
 /// # Errors
 /// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.
-pub fn time(path: &CertifiedPath, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
-    time_path(path.path(), joints, period)
+pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<Timed, TimingError> {
+    let curve = curve.into();
+    let (used, trajectory) = time_curve(curve.curve(), limits, period)?;
+    let gone = (0..used.radii().len()).filter(|&w| used.radii()[w] == 0.0 && curve.curve().radii()[w] > 0.0);
+    let curve = gone.collect::<Vec<_>>().into_iter().fold(curve, CertifiedCurve::without);
+    Ok(Timed { curve, trajectory })
 }
 
-/// [`time`], whatever the path is good for.
-pub(super) fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+/// [`time`], whatever the path is good for; and the blends in use.
+pub(super) fn time_curve(
+    curve: &BlendedPath,
+    limits: &Limits,
+    period: f64,
+) -> Result<(BlendedPath, Trajectory), TimingError> {
     if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
         return Err(TimingError::Period(period));
     }
-    let mut legs: Vec<Leg> = Vec::new();
-    for (from, to) in path.segments() {
-        let begin = legs.last().map_or(0.0, |leg| leg.end);
-        legs.push(Leg::new(from, to, joints, begin));
-    }
-    let duration = legs.last().map_or(0.0, |leg| leg.end);
+    let (used, passages) = schedule(curve, limits);
+    let phases = || passages.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)));
+    let duration = phases().map(|(_, phase)| phase.duration).fold(0.0, |sum, duration| sum + duration);
     if duration.is_nan() || duration > LONGEST_MOTION {
         return Err(TimingError::TooLong(duration));
     }
-    let samples = duration / period + 3.0 * legs.len() as f64 + 1.0;
+    let within = phases().map(|(track, phase)| 1.0 + (phase.duration / track.interval(phase, limits)).ceil());
+    let samples = duration / period + within.sum::<f64>() + 1.0;
     if samples > MOST_SAMPLES as f64 {
         return Err(TimingError::TooManySamples { duration, period });
     }
 
     let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
-    for leg in &legs {
-        for phase in leg.profile.phases() {
-            let begin = leg.begin + phase.begin;
-            let end = begin + phase.duration;
-            trajectory.push(begin, leg.at(phase, 0.0));
-            let first = (begin / period) as u64;
-            let multiples = (first..).map(|k| k as f64 * period).skip_while(|&t| t - begin < SHORTEST_INTERVAL);
-            for time in multiples.take_while(|&t| end - t >= SHORTEST_INTERVAL) {
-                trajectory.push(time, leg.at(phase, time - begin));
+    let mut begin = 0.0;
+    for (track, phase) in phases() {
+        let end = begin + phase.duration;
+        let mut before = begin;
+        trajectory.push(begin, track.at(phase.at(0.0)));
+        let interval = track.interval(phase, limits);
+        let first = (begin / period) as u64;
+        let multiples = (first..).map(|k| k as f64 * period).skip_while(|&t| t - begin < SHORTEST_INTERVAL);
+        for next in multiples.take_while(|&t| end - t >= SHORTEST_INTERVAL).chain([end]) {
+            let parts = ((next - before) / interval).ceil().max(1.0);
+            for part in 1..parts as u64 {
+                let time = before + (next - before) * (part as f64 / parts);
+                trajectory.push(time, track.at(phase.at(time - begin)));
             }
+            if next < end {
+                trajectory.push(next, track.at(phase.at(next - begin)));
+            }
+            before = next;
         }
+        begin = end;
     }
-    trajectory.push(duration, [path.goal(), Configuration::zeros(), Configuration::zeros()]);
-    Ok(trajectory)
+    trajectory.push(begin, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
+    Ok((used, trajectory))
 }

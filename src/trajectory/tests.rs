@@ -1,7 +1,7 @@
-//! The motion in time, against integration, closed forms and the path itself.
+//! Motions that stop at every corner, against integration, closed forms and the path itself.
 
-use super::sample::time_path;
-use super::{MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory};
+use super::sample::time_curve;
+use super::{Limits, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory};
 use crate::geometry::Vector;
 use crate::model::{Joint, Motion};
 use crate::space::{Axis, Configuration, Path};
@@ -14,6 +14,11 @@ fn joint(revolute: bool, velocity: f64, acceleration: f64) -> Joint {
 
 fn path(waypoints: &[[f64; 2]]) -> Path {
     Path::new(waypoints.iter().map(|&[a, b]| Configuration::new(a, b)).collect())
+}
+
+/// Without blends.
+fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
+    time_curve(&path.clone().into(), &Limits::from(joints), period).map(|(_, trajectory)| trajectory)
 }
 
 fn as_vector(row: [f64; 2]) -> Configuration {

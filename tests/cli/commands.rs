@@ -17,6 +17,12 @@ fn wrong_command_lines_end_with_2() {
         ("--clearance -1", "not negative"),
         ("--clearance nan", "number of metres"),
         ("--margin 0", "more than 0"),
+        ("--blend 0", "more than 0"),
+        ("--blend=-0.1", "more than 0"),
+        ("--blend inf", "none, auto"),
+        ("--blend round", "none, auto"),
+        ("--tip-speed 0", "more than 0"),
+        ("--tip-speed nan", "more than 0"),
         ("--period 0", "at least"),
         ("--period -1", "at least"),
         ("--cells 3", "8..=2048"),
@@ -72,6 +78,34 @@ fn options_go_over_the_world_file() {
     assert_eq!(path("--goal=-0.25,90deg")[1], serde_json::json!([-0.25, std::f64::consts::FRAC_PI_2]));
     let reached = path("--goal-tip 0.5,1.2");
     assert_ne!(reached[1], serde_json::json!([1.55, -0.35]), "{reached}");
+}
+
+#[test]
+fn corners_are_rounded_as_far_as_asked_for() {
+    let place = Place::new();
+    let run = |options: &str| {
+        let done = place.run(&shelf(), &format!("{options} --output plan.json"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let result: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let [urdf, world] = shelf();
+        let verified = place.run(&["verify", &urdf, &world, "plan.json"], "");
+        assert_eq!(verified.code, 0, "{}", verified.stdout);
+        (done.stdout, result)
+    };
+    let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
+    let radius = |result: &Value| result["blends"]["largest_radius"].as_f64().unwrap();
+    let (text, stops) = run("--blend none");
+    assert!(text.contains("; stops at 11 corners"), "{text}");
+    assert_eq!((&stops["blends"]["count"], radius(&stops)), (&serde_json::json!(0), 0.0));
+    let (text, blended) = run("");
+    assert!(text.contains("; 11 of 11 corners blended, radius up to 0.0"), "{text}");
+    assert_eq!((&blended["path"], &blended["length"]), (&stops["path"], &stops["length"]));
+    assert!(number(&blended, "duration") < 0.7 * number(&stops, "duration"));
+    assert!(number(&blended, "clearance") >= 0.5 * number(&stops, "clearance"));
+    let (_, small) = run("--blend 0.002");
+    assert!(radius(&small) <= 0.002 && radius(&small) < radius(&blended));
+    assert!(number(&small, "duration") > number(&blended, "duration"));
+    assert!(number(&small, "duration") < number(&stops, "duration"));
 }
 
 #[test]

@@ -1,10 +1,10 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
-use cplan::certify::{Excess, Limit, Passage, limits_kept, passage};
+use cplan::certify::{Excess, Limit, Passage, blend, limits_kept, passage};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
 use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::{Configuration, Path, Recording};
-use cplan::trajectory::{Format, Report, Trajectory, time};
+use cplan::trajectory::{Format, Limits, Report, Timed, Trajectory, time};
 use std::path::PathBuf;
 
 fn root(file: &str) -> PathBuf {
@@ -18,7 +18,10 @@ fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Report)> {
     let joints = &loaded.problem.scene.arm.joints;
     let answer = solve(&loaded.problem, Method::Visibility, &Effort::default(), &mut |_| {});
     let Verdict::Found(certified) = &answer.verdict else { return None };
-    let report = Report::found("visibility", joints, certified, time(certified, joints, 0.01).unwrap());
+    let scene = &loaded.problem.scene;
+    let curve = blend(scene, certified, f64::INFINITY, scene.workspace.clearance);
+    let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).unwrap();
+    let report = Report::found("visibility", joints, &curve, trajectory);
     Some((load_scene(&files[0], &files[1]).unwrap(), report))
 }
 
@@ -92,7 +95,8 @@ fn tampered_results_are_caught() {
             worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
         };
         let (speed, pull) = (ratio(Limit::Velocity), ratio(Limit::Acceleration));
-        assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.1, "{name}: {speed}, {pull}");
+        // Nanoseconds make the accelerations of blends, whose samples lie close together, a little more than that.
+        assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.2, "{name}: {speed}, {pull}");
     }
 
     let (verdict, broken) = read(&with(&report, |t| t.velocity[0][1] = 0.25), Format::Csv, "a.csv");

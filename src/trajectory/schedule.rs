@@ -1,0 +1,254 @@
+//! When a motion is where: the fastest passage along a path with blends.
+
+use super::corner::{Bounds, Corner};
+use super::limits::Limits;
+use super::profile::{Phase, State, passing, rest_to_rest};
+use super::sample::SHORTEST_INTERVAL;
+use super::tip::{Part, TIP_STEP};
+use crate::space::{Blend, BlendedPath, Configuration};
+use std::ops::Range;
+
+/// Parts of a straight stretch at the most.
+const MOST_PARTS: f64 = 1024.0;
+
+/// A stretch of a path with the distance along it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Track {
+    Line(Line),
+    Corner(Corner),
+}
+
+/// A straight stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    from: Configuration,
+    to: Configuration,
+    length: f64,
+    direction: Configuration,
+    /// What the joints' limits allow along it.
+    speed: f64,
+    acceleration: f64,
+}
+
+impl Line {
+    fn new(from: Configuration, to: Configuration, limits: &Limits) -> Self {
+        let offset = to - from;
+        // Unlike the root of the sum of squares this does not vanish for the shortest of offsets.
+        let length = offset[0].hypot(offset[1]);
+        let direction = offset / length;
+        let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        let part =
+            Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
+        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
+        Self { from, to, length, direction, speed, acceleration }
+    }
+
+    /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
+    fn parts(from: Configuration, to: Configuration, limits: &Limits) -> Vec<Self> {
+        let whole = Self::new(from, to, limits);
+        let own = limits.speed_along(whole.direction);
+        let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
+        let part = Part {
+            middle: from + (to - from) / 2.0,
+            slope: whole.direction,
+            bend: Configuration::zeros(),
+            half: whole.length / 2.0,
+        };
+        // The derivative of the tip's way may be off by this much where it matters: where it is more than speed / own.
+        let off = TIP_STEP * tip.speed / own;
+        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MOST_PARTS);
+        let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
+        (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
+    }
+
+    fn at(&self, state: State) -> [Configuration; 3] {
+        let State { distance, speed, acceleration } = state;
+        let part = distance / self.length;
+        let between = |k: usize| {
+            let (a, b) = (self.from[k], self.to[k]);
+            // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
+            (a + (b - a) * part).clamp(a.min(b), a.max(b))
+        };
+        let position = Configuration::new(between(0), between(1));
+        [position, self.direction * speed, self.direction * acceleration]
+    }
+}
+
+impl Track {
+    /// Position, velocity and acceleration of the joints.
+    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+        match self {
+            Track::Line(line) => line.at(state),
+            Track::Corner(corner) => corner.at(state),
+        }
+    }
+
+    /// The longest interval between samples within a phase.
+    pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
+        match self {
+            Track::Line(_) => f64::INFINITY,
+            Track::Corner(corner) => corner.interval(phase, limits),
+        }
+    }
+}
+
+/// A track and the phases in which it is passed.
+pub(super) type Passage = (Track, Vec<Phase>);
+
+/// The passages along a path, in order, and the blends in use: waypoints whose blend is of no use are left out of them,
+/// and their corners are stopped at.
+pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Passage>) {
+    let corner = |waypoint: usize| curve.blend(waypoint).and_then(|blend: Blend| Corner::new(blend, limits));
+    let count = curve.radii().len();
+    let mut used = curve.clone();
+    for waypoint in (0..count).filter(|&w| curve.radii()[w] > 0.0) {
+        if corner(waypoint).is_none() {
+            used = used.with(waypoint, 0.0);
+        }
+    }
+    let mut passages = Vec::new();
+    let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
+    for run in stops.windows(2) {
+        let stopping = stopping(&used, run[0]..run[1], limits);
+        let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits)).flatten();
+        match blended.filter(|blended| duration(blended) <= duration(&stopping)) {
+            Some(blended) => passages.extend(blended),
+            None => {
+                used = (run[0] + 1..run[1]).fold(used, |used, waypoint| used.with(waypoint, 0.0));
+                passages.extend(stopping);
+            }
+        }
+    }
+    (used, passages)
+}
+
+/// Seconds.
+fn duration(passages: &[Passage]) -> f64 {
+    passages.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
+}
+
+/// From rest to rest on each leg from one waypoint to another.
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Passage> {
+    let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
+    let passages = |leg: &[Configuration]| {
+        let whole = || {
+            let line = Line::new(leg[0], leg[1], limits);
+            let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
+            vec![(Track::Line(line), phases)]
+        };
+        let parts = Line::parts(leg[0], leg[1], limits);
+        let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
+        driven.unwrap_or_else(whole)
+    };
+    legs.flat_map(passages).collect()
+}
+
+/// A part of a run over which the squared speed is linear, or on a line as fast as can be.
+enum Span {
+    Line(Line),
+    Part(Bounds),
+}
+
+impl Span {
+    /// The greatest squared speed at the beginning from which one of at most `most` at the end can be reached.
+    fn back(&self, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
+            Span::Part(bounds) => bounds.back(most),
+        }
+    }
+
+    /// The greatest squared speed at the end, at most `most`, that can be reached from one at the beginning.
+    fn onward(&self, from: f64, most: f64) -> f64 {
+        match self {
+            Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
+            Span::Part(bounds) => bounds.onward(from, most),
+        }
+    }
+}
+
+/// From rest at one waypoint to rest at another, with a blend at each between them. None if that cannot be sampled.
+fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
+    driven(tracks(curve, waypoints, limits)?, limits)
+}
+
+/// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
+/// these are fine enough. None if a phase would be too short to be sampled.
+fn driven(mut tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
+    let squared = loop {
+        let squared = squared_speeds(&tracks, limits);
+        let mut refined = false;
+        for (track, squared) in tracks.iter_mut().zip(&squared) {
+            if let Track::Corner(corner) = track
+                && let Some(finer) = corner.finer(squared, limits)
+            {
+                (*corner, refined) = (finer, true);
+            }
+        }
+        if !refined {
+            break squared;
+        }
+    };
+    let passage = |(track, squared): (Track, Vec<f64>)| {
+        let phases = match &track {
+            Track::Line(line) => {
+                let ends = [squared[0].sqrt(), squared[1].sqrt()];
+                passing(line.length, ends, line.speed, line.acceleration, SHORTEST_INTERVAL)?
+            }
+            Track::Corner(corner) => corner.phases(&squared),
+        };
+        let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
+        phases.iter().all(lasts).then_some((track, phases))
+    };
+    tracks.into_iter().zip(squared).map(passage).collect()
+}
+
+/// The squared speeds of a motion from rest to rest along some tracks: of each track at its ends, of a corner at the ends of
+/// its spans.
+///
+/// Forward-backward integration in the phase plane: from the end backwards the greatest squared speed from which the rest
+/// of the way can still be driven, then from the beginning forwards the greatest that can be reached within that. On
+/// lines in closed form, on blends span by span.
+fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
+    let spans: Vec<Vec<Span>> = tracks
+        .iter()
+        .map(|track| match track {
+            Track::Line(line) => vec![Span::Line(*line)],
+            Track::Corner(corner) => corner.bounds(limits).into_iter().map(Span::Part).collect(),
+        })
+        .collect();
+    let mut next = 0.0;
+    let mut most: Vec<f64> = Vec::new();
+    for span in spans.iter().flatten().rev() {
+        most.push(next);
+        next = span.back(next);
+    }
+    let mut most = most.into_iter().rev();
+    let mut squared = 0.0;
+    let mut speeds = Vec::with_capacity(tracks.len());
+    for spans in spans {
+        let mut along = vec![squared];
+        for (span, most) in spans.iter().zip(&mut most) {
+            squared = span.onward(squared, most);
+            along.push(squared);
+        }
+        speeds.push(along);
+    }
+    speeds
+}
+
+fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Track>> {
+    let q = curve.path().waypoints();
+    let mut from = q[waypoints.start];
+    let mut tracks = Vec::new();
+    for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
+        let blend = curve.blend(waypoint);
+        let leg = Line::parts(from, blend.map_or(corner, |b| b.from), limits);
+        tracks.extend(leg.into_iter().map(Track::Line));
+        if let Some(blend) = blend {
+            tracks.push(Track::Corner(Corner::new(blend, limits)?));
+            from = blend.to;
+        }
+    }
+    Some(tracks)
+}

@@ -1,0 +1,59 @@
+//! Motions on blended paths: what they follow, what they keep, and how near they are to the optimum.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod certificate;
+mod optimum;
+mod sampled;
+
+use common::{arm, joint, link, q, scene};
+use cplan::certify::{CertifiedCurve, CertifiedPath, blend, certify};
+use cplan::geometry::{Point, Vector};
+use cplan::model::{Motion, Scene};
+use cplan::space::{Axis, Path};
+use proptest::prelude::*;
+
+/// A gantry in an empty room: nothing keeps a blend from being as large as asked for.
+fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
+    let slide = |k: usize, x, y| {
+        let range = Axis::Interval { lower: -100.0, upper: 100.0 };
+        let mut joint = joint(["x", "y"][k], Motion::Prismatic { direction: Vector::new(x, y) }, range);
+        (joint.velocity, joint.acceleration) = (velocity[k], acceleration[k]);
+        joint
+    };
+    let joints = [slide(0, 1.0, 0.0), slide(1, 0.0, 1.0)];
+    scene(arm(joints, [link("a", vec![]), link("b", vec![])], Vector::zeros(), Point::origin()), vec![])
+}
+
+fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
+    let path = Path::new(waypoints.iter().map(|&[a, b]| q(a, b)).collect());
+    certify(scene, path, 0.0).expect("an empty room")
+}
+
+fn curve(scene: &Scene, waypoints: &[[f64; 2]], radius: f64) -> CertifiedCurve {
+    blend(scene, &certified(scene, waypoints), radius, 0.0)
+}
+
+/// Limits of two joints that differ by up to a thousand.
+fn limits() -> impl Strategy<Value = [[f64; 2]; 2]> {
+    let power = |range: std::ops::Range<f64>| range.prop_map(|e| 10f64.powf(e));
+    let both = move |range: std::ops::Range<f64>| [power(range.clone()), power(range)];
+    (both(-1.0..1.0), both(-0.5..2.5)).prop_map(|(velocity, acceleration)| [velocity, acceleration])
+}
+
+/// Paths with long and short legs, sharp and gentle corners.
+fn waypoints() -> impl Strategy<Value = Vec<[f64; 2]>> {
+    let turn = prop_oneof![-3.2..3.2_f64, -0.3..0.3_f64, Just(std::f64::consts::PI), Just(0.0)];
+    prop::collection::vec((-2.5..0.7_f64, turn), 1..7).prop_map(|legs| {
+        let (mut at, mut heading) = ([0.0, 0.0], 0.4);
+        let mut waypoints = vec![at];
+        for (exponent, turn) in legs {
+            heading += turn;
+            let length = 10f64.powf(exponent);
+            at = [at[0] + length * f64::cos(heading), at[1] + length * f64::sin(heading)];
+            waypoints.push(at);
+        }
+        waypoints
+    })
+}

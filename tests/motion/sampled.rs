@@ -1,0 +1,149 @@
+//! Samples against the curve, the limits and each other, read by the interpolation that the result states.
+
+use crate::common::q;
+use crate::{curve, empty, limits, waypoints};
+use cplan::certify::{CertifiedCurve, limits_kept};
+use cplan::model::Joint;
+use cplan::space::{Configuration, HAIR, Recording};
+use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
+use proptest::prelude::*;
+
+fn as_vector(row: [f64; 2]) -> Configuration {
+    q(row[0], row[1])
+}
+
+/// The polynomial of an interval as `INTERPOLATION` writes it down: position, velocity and acceleration at `t`.
+fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
+    let [p, v, a] =
+        [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
+    let h = trajectory.time[k + 1] - trajectory.time[k];
+    let e = as_vector(trajectory.position[k + 1]) - p - v * h - a * (h * h / 2.0);
+    let f = as_vector(trajectory.velocity[k + 1]) - v - a * h;
+    let (c, d) = ((e * 4.0 - f * h) / h.powi(3), (f * h - e * 3.0) / h.powi(4));
+    [
+        p + v * t + a * (t * t / 2.0) + c * t.powi(3) + d * t.powi(4),
+        v + a * t + c * (3.0 * t * t) + d * (4.0 * t.powi(3)),
+        a + c * (6.0 * t) + d * (12.0 * t * t),
+    ]
+}
+
+/// Distance from a curve in one joint space unit, by Newton's method on every leg and blend.
+fn off(curve: &CertifiedCurve, at: Configuration) -> f64 {
+    let (points, radii) = (curve.curve().path().waypoints(), curve.curve().radii());
+    let mut least = (at - points[0]).norm();
+    for i in 1..points.len() {
+        let (a, b) = (points[i - 1], points[i]);
+        let share = ((at - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+        least = least.min((at - a - (b - a) * share).norm());
+        if radii[i] > 0.0 {
+            let toward = |end: Configuration| b + (end - b) * (radii[i] / (end - b).norm());
+            let (from, to) = (toward(a), toward(points[i + 1]));
+            let on = |u: f64| from * ((1.0 - u) * (1.0 - u)) + b * (2.0 * u * (1.0 - u)) + to * (u * u);
+            for start in [0.0, 0.25, 0.5, 0.75, 1.0] {
+                let mut u: f64 = start;
+                for _ in 0..30 {
+                    let (slope, bend) =
+                        ((b - from) * (2.0 * (1.0 - u)) + (to - b) * (2.0 * u), (from - b * 2.0 + to) * 2.0);
+                    let (gap, rate) = ((on(u) - at).dot(&slope), slope.norm_squared() + (on(u) - at).dot(&bend));
+                    let next = u - gap / rate;
+                    u = if next.is_finite() { next.clamp(0.0, 1.0) } else { u };
+                }
+                least = least.min((on(u) - at).norm());
+            }
+        }
+    }
+    least
+}
+
+/// Everything that holds of every motion.
+fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
+    let Timed { curve, trajectory } = timed;
+    let n = trajectory.time.len();
+    let path = curve.curve().path();
+    assert_eq!([as_vector(trajectory.position[0]), as_vector(trajectory.position[n - 1])], [path.start(), path.goal()]);
+    assert_eq!([trajectory.velocity[0], trajectory.velocity[n - 1], trajectory.acceleration[n - 1]], [[0.0; 2]; 3]);
+    let size = path.waypoints().iter().map(|q| q.amax()).fold(1.0, f64::max);
+    let (mut position, mut velocity) = (path.start(), Configuration::zeros());
+    let mut step = 0;
+    for k in 0..n - 1 {
+        let h = trajectory.time[k + 1] - trajectory.time[k];
+        assert!((0.999 * SHORTEST_INTERVAL..=period + 2.0 * SHORTEST_INTERVAL).contains(&h), "sample {k} lasts {h} s");
+        // The stated acceleration alone, from rest at the start: Gauss's rule with three points, exact for the fifth
+        // degree.
+        let nodes = [0.5 - 0.15f64.sqrt(), 0.5, 0.5 + 0.15f64.sqrt()];
+        let weights = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
+        position += velocity * h;
+        for (node, weight) in nodes.into_iter().zip(weights) {
+            let acceleration = between(trajectory, k, node * h)[2];
+            velocity += acceleration * (weight * h);
+            position += acceleration * (weight * h * h * (1.0 - node));
+        }
+        for i in 0..2 {
+            // Times are rounded to half a unit in the last place of the duration at each sample, and so drift.
+            let drift = joints[i].acceleration * f64::EPSILON * trajectory.duration() * (k + 1) as f64;
+            let speed = joints[i].velocity.min(joints[i].acceleration * trajectory.duration());
+            let fast = (velocity[i] - trajectory.velocity[k + 1][i]).abs();
+            assert!(fast <= 1e-9 * speed + drift, "velocity {i} at {k}: {fast}");
+            let far = (position[i] - trajectory.position[k + 1][i]).abs();
+            assert!(far <= 1e-9 * size + drift * trajectory.duration(), "position {i} at {k}: {far}");
+        }
+        // On the curve and within the limits, between samples too. What rounded positions say of accelerations gets
+        // lost in intervals as short as can be.
+        step += 1;
+        for share in [0.0, 0.3, 0.7, 1.0] {
+            let [at, speed, pull] = between(trajectory, k, share * h);
+            if step % 5 == 0 {
+                assert!(off(curve, at) <= 1e-11 * size, "{} off at {k} + {share}", off(curve, at));
+            }
+            let rounding = 16.0 * f64::EPSILON * size;
+            for i in 0..2 {
+                assert!(speed[i].abs() <= joints[i].velocity * (1.0 + 1e-12) + 16.0 * rounding / h);
+                let most = joints[i].acceleration * (1.0 + 1e-12) + 32.0 * rounding / (h * h);
+                assert!(pull[i].abs() <= most, "acceleration {i} at {k} + {share}: {}", pull[i]);
+            }
+        }
+    }
+    // So does the cubic through positions and velocities, and it is never farther off than a hair.
+    let rows = |rows: &[[f64; 2]]| rows.iter().copied().map(as_vector).collect::<Vec<_>>();
+    let recording =
+        Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(rows(&trajectory.velocity)));
+    let recording = recording.unwrap();
+    assert_eq!(limits_kept(joints, &recording), []);
+    let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
+    for (k, piece) in recording.pieces().iter().enumerate() {
+        let there = between(trajectory, k, (piece.to - piece.from) / 2.0)[0];
+        let apart = (piece.at(0.5) - there).amax();
+        assert!(apart <= HAIR * largest + 1e-13 * size, "{apart} at {k}");
+    }
+}
+
+#[test]
+fn a_right_angle() {
+    let scene = empty([2.0, 3.0], [8.0, 12.0]);
+    let limits = Limits::from(&scene.arm.joints);
+    let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.3), &limits, 0.01).unwrap();
+    check(&scene.arm.joints, &timed, 0.01);
+    // It never rests on the way.
+    let moving = |k: usize| as_vector(timed.trajectory.velocity[k]).norm() > 0.1;
+    let n = timed.trajectory.time.len();
+    assert!((n / 10..n * 9 / 10).all(moving));
+    assert!(n < 200, "{n} samples");
+    // A share of the speed takes that much longer, and keeps the limits of that share.
+    let slow = limits.scaled(0.5);
+    let half = time(timed.curve.clone(), &slow, 0.01).unwrap().trajectory;
+    assert!((half.duration() - 2.0 * timed.trajectory.duration()).abs() < 1e-9);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn random_paths(
+        waypoints in waypoints(), [velocity, acceleration] in limits(), radius in -3.0..0.5_f64,
+        period in prop_oneof![Just(0.01), 0.003..1.0_f64],
+    ) {
+        let scene = empty(velocity, acceleration);
+        let timed = time(curve(&scene, &waypoints, 10f64.powf(radius)), &Limits::from(&scene.arm.joints), period);
+        check(&scene.arm.joints, &timed.unwrap(), period);
+    }
+}
