@@ -13,7 +13,6 @@
 
 mod error;
 mod inspection;
-mod inverse;
 mod line_map;
 mod map_text;
 mod obstacle;
@@ -33,7 +32,6 @@ pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role,
 };
-pub use inverse::{Inverse, inverse};
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};

@@ -1,11 +1,10 @@
 //! Start and goal: within the limits, free, and for a goal of the tip every posture that reaches it.
 
 use super::error::{Defect, InputError};
-use super::inverse::{inverse, within};
 use super::world::WorldGoal;
 use super::{Loaded, LoadedScene, Overrides, clearance as checked_clearance};
-use crate::geometry::{Point, shapes_meet};
-use crate::model::{Contact, Goal, Problem, Scene};
+use crate::geometry::Point;
+use crate::model::{Goal, Problem, Scene, inverse, within};
 use crate::space::{Axis, Configuration};
 use std::ops::Range;
 
@@ -195,49 +194,9 @@ fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Why `q` is not free, the worst pair of shapes for each link and obstacle: contact, exactly decided, or a distance
-/// below the clearance.
+/// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
 fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
-    let clearance = scene.workspace.clearance;
-    let poses = scene.arm.poses(q);
-    let mut worst: Vec<(Contact, bool)> = Vec::new();
-    for contact in scene.separations(q) {
-        let pair = contact.pair;
-        let touches = contact.separation.distance <= 0.0
-            || shapes_meet(&scene.part(pair).at(&poses[pair.link]), scene.piece(pair));
-        if !touches && contact.separation.distance >= clearance {
-            continue;
-        }
-        let same = worst.iter_mut().find(|(w, _)| w.pair.link == pair.link && w.pair.obstacle == pair.obstacle);
-        match same {
-            Some(known) if known.0.separation.distance <= contact.separation.distance => {}
-            Some(known) => *known = (contact, touches),
-            None => worst.push((contact, touches)),
-        }
-    }
-    let describe = |(contact, touches): &(Contact, bool)| {
-        let pair = contact.pair;
-        let link = &scene.arm.links[pair.link];
-        let body = &link.parts[pair.part].body;
-        let body = if *body == link.name { String::new() } else { format!(" (body \"{body}\")") };
-        let obstacle = &scene.workspace.obstacles[pair.obstacle].name;
-        let distance = contact.separation.distance;
-        if !touches {
-            return format!(
-                "link \"{}\"{body} is {distance:.6} m from obstacle \"{obstacle}\", nearer than the clearance of {clearance} m",
-                link.name
-            );
-        }
-        let depth = (-distance).max(0.0);
-        let how = if depth < 1e-9 { "just touching".to_owned() } else { format!("{} m deep", significant(depth)) };
-        format!("link \"{}\"{body} hits obstacle \"{obstacle}\", {how}", link.name)
-    };
-    worst.iter().map(describe).collect()
-}
-
-/// Four decimals, or more where these would show nothing.
-fn significant(depth: f64) -> String {
-    if depth >= 1e-3 { format!("{depth:.4}") } else { format!("{depth:.2e}") }
+    scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
 
 fn cure_for_contact(scene: &Scene) -> &'static str {
