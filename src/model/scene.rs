@@ -49,7 +49,7 @@ pub struct Scene {
 
 /// What a payload's part can meet.
 #[derive(Clone, Copy, PartialEq)]
-enum Meets {
+pub(crate) enum Meets {
     /// Everything but the payload's supports.
     Others,
     /// The supports: the part is smaller by what it may press into them.
@@ -102,7 +102,7 @@ impl Scene {
                         None => 0..o.pieces.len(),
                         Some(k) => {
                             let (carrier, (_, meets)) = &carried[k];
-                            if (*meets == Meets::Supports) != carrier.supports.contains(&obstacle) {
+                            if !carrier.meets(*meets, obstacle) {
                                 continue;
                             }
                             ranges[k][obstacle].clone()
@@ -196,10 +196,15 @@ impl Scene {
 
 impl Payload {
     /// Its pieces, and smaller ones for its supports, in its own frame.
-    fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
+    pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
         let whole = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others));
         let by = Self::give(arm) + clearance;
         let smaller = self.pieces.iter().filter(|_| !self.supports.is_empty()).filter_map(|piece| piece.eroded(by));
         whole.chain(smaller.map(|piece| (piece, Meets::Supports))).collect()
+    }
+
+    /// Whether its parts of that kind can meet an obstacle.
+    pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
+        (kind == Meets::Supports) == self.supports.contains(&obstacle)
     }
 }
