@@ -55,10 +55,15 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
     });
     let mut world = World { task, lies: lies.collect(), held: None, released: None };
-    order(task, answer, all)?;
+    let renewed = order(task, answer, all)?;
     let mut q = [task.start[0], task.start[1]];
     let mut clock = 0.0;
     for (index, leg) in answer.legs.iter().enumerate() {
+        for &object in &renewed[index] {
+            let (sin, cos) = task.objects[object].at.rotation.angle().sin_cos();
+            let at = task.objects[object].at.translation;
+            world.lies[object] = Some(([cos, sin], [at.x, at.y]));
+        }
         let t = &leg.timed.trajectory;
         let say = |what: &str| format!("leg {index}, step {}: {what}", leg.step.number);
         if t.position[0] != q {
@@ -93,38 +98,63 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         }
         q = *t.position.last().ok_or_else(|| say("has no samples"))?;
         clock += t.duration() + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds);
-        world.finish(q, &leg.step, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep).map_err(|what| say(&what))?;
+        let then = next_supports(task, answer, index);
+        world
+            .finish(q, &leg.step, &then, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep)
+            .map_err(|what| say(&what))?;
     }
     Ok(())
 }
 
-/// Whether the steps are done in an order that the task allows.
-fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String> {
-    let mut legs = answer.legs.iter().map(|leg| leg.step.number).peekable();
+/// What the object picked by a leg may touch where it is placed.
+fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
+    let picked = &answer.legs[index].step;
+    let follows = |step: &&Step| (step.cycle, step.number) > (picked.cycle, picked.number);
+    // Pairs stay together, and a place has the number after its pick, moves between them aside.
+    task.steps()
+        .filter(follows)
+        .find_map(|step| match &step.action {
+            Action::Place { supports, .. } => Some(supports.clone()),
+            _ => None,
+        })
+        .unwrap_or_default()
+}
+
+/// Of each leg the objects that are supplied before it.
+///
+/// # Errors
+/// Steps in an order that the task does not allow.
+fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>, String> {
+    let mut renewed = vec![Vec::new(); answer.legs.len() + 1];
+    let mut next = 0;
+    let take = |next: &mut usize| {
+        *next += 1;
+        answer.legs.get(*next - 1).map(|leg| leg.step.number)
+    };
     for item in &task.items {
         match item {
-            Item::Step(step) => match legs.next() {
+            Item::Step(step) => match take(&mut next) {
                 Some(number) if number == step.number => {}
-                None if !all => return Ok(()),
+                None if !all => return Ok(renewed),
                 other => return Err(format!("step {} is missing: {other:?}", step.number)),
             },
             Item::AnyOrder(pairs) => {
                 let mut open: Vec<[usize; 2]> = pairs.iter().map(|pair| [pair[0].number, pair[1].number]).collect();
                 while !open.is_empty() {
-                    match (legs.next(), legs.next()) {
+                    match (take(&mut next), take(&mut next)) {
                         (Some(pick), Some(place)) if open.contains(&[pick, place]) => {
                             open.retain(|pair| *pair != [pick, place]);
                         }
-                        (Some(pick), None) if !all && open.iter().any(|pair| pair[0] == pick) => return Ok(()),
-                        (None, None) if !all => return Ok(()),
+                        (Some(pick), None) if !all && open.iter().any(|pair| pair[0] == pick) => return Ok(renewed),
+                        (None, None) if !all => return Ok(renewed),
                         other => return Err(format!("{other:?} is no pair")),
                     }
                 }
             }
-            Item::Renew(_) => return Err("nothing is renewed here".into()),
+            Item::Renew(objects) => renewed[next].extend(objects),
         }
     }
-    if legs.next().is_some() { Err("more steps than asked for".into()) } else { Ok(()) }
+    if next < answer.legs.len() { Err("more steps than asked for".into()) } else { Ok(renewed) }
 }
 
 /// Position and velocity between samples, as the documentation of trajectories says.
@@ -236,8 +266,8 @@ impl World<'_> {
         Ok(())
     }
 
-    /// What happens at the end of a motion.
-    fn finish(&mut self, q: V, step: &Step, turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
+    /// What happens at the end of a motion; `then` is what the next place may touch.
+    fn finish(&mut self, q: V, step: &Step, then: &[usize], turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
         let (frames, tip) = self.frames(q);
         let near = |a: V, b: V| norm(sub(a, b)) < NEAR;
         match &step.action {
@@ -270,8 +300,9 @@ impl World<'_> {
                 } else {
                     compose(inverse(frames[1]), lies)
                 };
-                // What it will be placed on may be touched as well: the same here.
-                self.held = Some(Held { object: *object, frame, level, supports: supports.clone(), grasp });
+                let mut supports = supports.clone();
+                supports.extend(then);
+                self.held = Some(Held { object: *object, frame, level, supports, grasp });
                 self.turn(q, turn, keep)?;
                 self.released = None;
             }

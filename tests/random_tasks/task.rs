@@ -101,13 +101,14 @@ pub fn task(seed: u64) -> Task {
     };
     let mut pairs = Vec::new();
     for object in 0..count {
-        let supports: Vec<usize> = (0..fixed).filter(|_| dice.chance(0.2)).collect();
+        let mut supports = || (0..fixed).filter(|_| dice.chance(0.2)).collect::<Vec<usize>>();
+        let (from, onto) = (supports(), supports());
         let grasp = if dice.chance(0.3) { Point::new(dice.range(-0.05, 0.05), 0.02) } else { Point::origin() };
-        let pick = step(Action::Pick { object, grasp, supports: supports.clone() }, &mut dice);
+        let pick = step(Action::Pick { object, grasp, supports: from }, &mut dice);
         let at = task.arm.tip_at(anywhere(&mut dice));
         let level = task.objects[object].holding == Holding::Level;
         let angle = (level && dice.chance(0.5)).then(|| dice.range(-TAU, TAU));
-        let place = step(Action::Place { at, angle, supports }, &mut dice);
+        let place = step(Action::Place { at, angle, supports: onto }, &mut dice);
         pairs.push([pick, place]);
     }
     if dice.chance(0.4) {
