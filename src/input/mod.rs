@@ -12,6 +12,7 @@
 //! ```
 
 mod error;
+mod group;
 mod inspection;
 mod line_map;
 mod map_text;
@@ -22,6 +23,7 @@ mod posture;
 mod preference;
 mod preference_map;
 mod problem;
+mod requirement;
 mod sequence;
 mod source;
 mod step;
