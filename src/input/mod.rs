@@ -1,11 +1,12 @@
-//! Files and options to a planning problem: URDF, world TOML, and errors that name the place and the cure.
+//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and the cure.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
 //!       |
-//! world.toml --+-> World ------------------+
-//!              |                           +--> Scene --+--> Problem
-//! arm.urdf ----+-> Arm (planar reduction) -+            |
+//! world.toml --+-> World ------------------+            +--> Task (of a world with steps)
+//!              |                           +--> Scene --+
+//! arm.urdf ----+-> Arm (planar reduction) -+            +--> Problem (of any other)
+//!                                                       |
 //! --start, --goal, --goal-tip, --clearance -------------+
 //!
 //! motion.json, .csv, .yaml ---> Recording

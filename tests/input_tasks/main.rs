@@ -234,3 +234,23 @@ fn steps_count_for_more_than_the_goal_of_a_map() {
     );
     assert_eq!(task_of(&format!("{CELL}{map}"), &Overrides::default()).unwrap().task.steps().count(), 1);
 }
+
+#[test]
+fn the_readme_shows_what_can_be_written() {
+    let readme = include_str!("../../README.md");
+    let block = readme.split("```toml\n").map(|b| b.split("```").next().unwrap_or_default());
+    let block = block.filter(|b| b.contains("[[step]]")).collect::<Vec<_>>();
+    let [block] = block[..] else { panic!("one block with steps") };
+    let circle = |table: &str, name: &str, center: &str| {
+        format!("[[{table}]]\nname = \"{name}\"\ncircle = {{ center = {center}, radius = 0.02 }}\n")
+    };
+    let rest = [
+        "[start]\njoints = [2.5, 0.0]\n".to_owned(),
+        circle("obstacle", "table", "[0.3, 0.15]"),
+        circle("obstacle", "tray", "[-0.1, 0.4]"),
+        circle("object", "lid", "[0, 0]") + "at = [0.4, 0.5]\n",
+    ];
+    let loaded = task_of(&format!("{block}{}", rest.concat()), &Overrides::default()).unwrap();
+    assert_eq!(loaded.task.steps().count(), 10 * (3 + 2 * 100));
+    assert_eq!(loaded.task.items.iter().filter(|item| matches!(item, Item::AnyOrder(_))).count(), 1000);
+}
