@@ -1,14 +1,14 @@
 //! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
 
 use super::error::Defect;
+use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, Names, Supports, rests_on_itself};
-use super::step::{Body, Group, Leaf, LeafAction, Node};
+
+use super::requirement::{Required, Requirement, Requirements};
 use super::world::Reader;
 use crate::geometry::Point;
 use crate::model::{Action, Goal, Holding, Item, Step};
-use crate::space::Configuration;
 use nalgebra::Rotation2;
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -22,32 +22,11 @@ pub(super) struct Sequence {
     pub at: Range<usize>,
 }
 
-/// Something that a step requires.
-#[derive(Debug, Clone)]
-pub(super) struct Requirement {
-    pub required: Required,
-    /// The step's number.
-    pub step: usize,
-    /// What in the file asks for it.
-    pub at: Range<usize>,
-}
-
-/// What can be required.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Required {
-    /// The arm can take these values.
-    Joints(Configuration),
-    /// The tip can be here.
-    Tip(Point),
-    /// This object can rest on something.
-    Rest(usize),
-}
-
 /// Orientations that differ by no more than this, radians, are the same: far above the rounding of angles, and below
 /// what any wrist repeats.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Writes a group of steps out.
+/// Writes the file's steps out, the first of which stands at `at`.
 ///
 /// # Errors
 /// On picks with something carried, places with nothing carried, repetitions that do not begin with what they end with,
@@ -58,6 +37,7 @@ pub(super) fn write_out(
     objects: &[Movable],
     has_wrist: bool,
     steps: &Group,
+    at: Range<usize>,
 ) -> Result<Sequence, Defect> {
     let lying = objects.iter().map(Lying::at_first).collect();
     let mut writer = Writer {
@@ -69,11 +49,10 @@ pub(super) fn write_out(
         lying,
         cycles: Vec::new(),
         items: Vec::new(),
-        known: BTreeSet::new(),
-        requirements: Vec::new(),
+        requirements: Requirements::default(),
     };
     writer.group(steps)?;
-    Ok(Sequence { items: writer.items, requirements: writer.requirements, at: steps.at.clone() })
+    Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
 /// Where an object lies, or what is known of it while it is carried.
@@ -82,12 +61,14 @@ struct Lying {
     at: Point,
     /// None when it depends on the posture in which a rigid payload was let go of.
     angle: Option<f64>,
+    /// The tip when it was let go of, which has been required already.
+    tip: Option<Point>,
 }
 
 impl Lying {
     fn at_first(movable: &Movable) -> Self {
         let pose = &movable.object.at;
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()) }
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None }
     }
 
     /// Where a point of the object is, if that is known.
@@ -117,9 +98,7 @@ struct Writer<'a> {
     /// Of each step, how often it has been done.
     cycles: Vec<usize>,
     items: Vec<Item>,
-    /// Requirements by step, with bits of their values.
-    known: BTreeSet<(usize, u8, [u64; 2])>,
-    requirements: Vec<Requirement>,
+    requirements: Requirements,
 }
 
 impl Writer<'_> {
@@ -191,7 +170,7 @@ impl Writer<'_> {
                     Goal::Joints(q) => Required::Joints(q),
                     Goal::Tip(tip) => Required::Tip(tip),
                 };
-                self.require(leaf, required, leaf.at.clone());
+                self.requirements.add(leaf.number, required, leaf.at.clone());
                 Action::Move(*goal)
             }
         };
@@ -222,8 +201,9 @@ impl Writer<'_> {
             return Err(defect.cure("place what is carried first"));
         }
         self.rest(leaf, object, supports)?;
-        if let Some(tip) = self.lying[object].point(grasp) {
-            self.require(leaf, Required::Tip(tip), leaf.at.clone());
+        let lying = self.lying[object];
+        if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         self.carried = Some(Carried { object, grasp });
         Ok(Action::Pick { object, grasp, supports: supports.numbers.clone() })
@@ -243,13 +223,14 @@ impl Writer<'_> {
         let supports = supports.unwrap_or(&self.objects[object].supports);
         self.rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
-        let lying = match self.objects[object].object.holding {
-            Holding::Rigid => Lying { at, angle: None },
-            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle) },
+        let mut lying = match self.objects[object].object.holding {
+            Holding::Rigid => Lying { at, angle: None, tip: None },
+            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None },
         };
+        lying.tip = lying.point(grasp);
         self.lying[object] = lying;
-        if let Some(tip) = lying.point(grasp) {
-            self.require(leaf, Required::Tip(tip), leaf.at.clone());
+        if let Some(tip) = lying.tip {
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
@@ -283,19 +264,8 @@ impl Writer<'_> {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));
         }
         if !supports.numbers.is_empty() {
-            self.require(leaf, Required::Rest(object), supports.at.clone());
+            self.requirements.add(leaf.number, Required::Rest(object), supports.at.clone());
         }
         Ok(())
-    }
-
-    fn require(&mut self, leaf: &Leaf, required: Required, at: Range<usize>) {
-        let (kind, values) = match required {
-            Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),
-            Required::Tip(tip) => (1, [tip.x, tip.y].map(f64::to_bits)),
-            Required::Rest(object) => (2, [object as u64, at.start as u64]),
-        };
-        if self.known.insert((leaf.number, kind, values)) {
-            self.requirements.push(Requirement { required, step: leaf.number, at });
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
-use super::object::{self, ObjectTable};
+use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
 use super::sequence::{Sequence, write_out};
@@ -143,7 +143,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let reader = Reader { source: &source };
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
-    let goal = file.goal.as_ref().map(|g| reader.goal(g, "goal")).transpose()?;
+    let goal = file.goal.as_ref().map(|g| reader.goal(g.get_ref(), g.span(), "goal")).transpose()?;
     let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
     let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
@@ -158,25 +158,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let wrist = wrist.transpose()?;
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
-    let steps = match (&file.step[..], &file.task) {
-        ([], None) => None,
-        ([], Some(task)) => {
-            let message = "[task] is about steps, and there are none";
-            return Err(source
-                .defect_at(task.span(), message)
-                .cure("give the world a [[step]], or remove [task]")
-                .into());
-        }
-        (tables, task) => {
-            let task = task.as_ref().map(Spanned::get_ref);
-            let steps = StepReader::new(&reader, &names, &movables).all(tables, task)?;
-            Some(write_out(&reader, &names, &movables, wrist.is_some(), &steps)?)
-        }
-    };
-    if let (Some(_), Some(goal)) = (&steps, &file.goal) {
-        let defect = source.defect_at(goal.span(), "a world has either a goal or steps, not both");
-        return Err(defect.cure("remove [goal]; move = { joints = [q1, q2] } in a [[step]] goes there").into());
-    }
+    let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
@@ -191,12 +173,37 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     })
 }
 
+/// The steps, written out; none if there are none.
+fn steps(
+    reader: &Reader,
+    file: &WorldFile,
+    names: &Names,
+    movables: &[Movable],
+    has_wrist: bool,
+) -> Result<Option<Sequence>, Defect> {
+    if file.step.is_empty() {
+        return file.task.as_ref().map_or(Ok(None), |task| {
+            let defect = reader.source.defect_at(task.span(), "[task] is about steps, and there are none");
+            Err(defect.cure("give the world a [[step]], or remove [task]"))
+        });
+    }
+    if let Some(goal) = &file.goal {
+        let defect = reader.source.defect_at(goal.span(), "a world has either a goal or steps, not both");
+        return Err(defect.cure("remove [goal]; a [[step]] with move = { joints = [q1, q2] } goes there"));
+    }
+    let task = file.task.as_ref().map(Spanned::get_ref);
+    let group = StepReader::new(reader, names, movables).all(&file.step, task)?;
+    let at = file.step[0].span();
+    write_out(reader, names, movables, has_wrist, &group, at).map(Some)
+}
+
 /// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
 fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")
         .replace("missing field", "missing key")
         .replace("expected f64", "expected a number")
+        .replace("map, expected a sequence", "one table, expected a list of tables: [[...]]")
         .replace("expected i64", "expected a whole number")
 }
 
@@ -242,8 +249,8 @@ impl Reader<'_> {
     }
 
     /// Joint values or a point for the tip, and where they stand.
-    pub fn goal(&self, goal: &Spanned<GoalTable>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
-        match (&goal.get_ref().joints, &goal.get_ref().tip) {
+    pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
+        match (&goal.joints, &goal.tip) {
             (Some(joints), None) => {
                 let values = self.two(joints, &format!("{what} joints"))?;
                 Ok((Goal::Joints(Configuration::from(values)), joints.span()))
@@ -252,7 +259,7 @@ impl Reader<'_> {
             (joints, _) => {
                 let found = if joints.is_some() { "both" } else { "neither" };
                 let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
-                Err(self.source.defect_at(goal.span(), message).cure("joints = [q1, q2], or tip = [x, y]"))
+                Err(self.source.defect_at(at, message).cure("joints = [q1, q2], or tip = [x, y]"))
             }
         }
     }
