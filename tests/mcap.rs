@@ -167,7 +167,7 @@ fn several_motions_follow_each_other() {
 
 #[test]
 fn a_file_of_many_chunks() {
-    // Some 300 bytes a sample, and a chunk is a megabyte.
+    // Some 250 bytes a sample, and a chunk is a megabyte.
     let many = 20_000;
     let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();
     let motion = trajectory(&vec![1e-3; many], &values);

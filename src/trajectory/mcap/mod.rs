@@ -18,7 +18,7 @@ use std::io::Cursor;
 /// Each motion comes with the time at which it begins, seconds from the beginning of the recording; the caller puts them
 /// in order. Times are rounded to nanoseconds: those of the log, the stamps of states and `time_from_start` agree to the
 /// nanosecond. Positions, velocities and accelerations are the trajectory's own `f64`. The same motions give the same bytes.
-/// Linear in the number of samples, some 300 bytes each.
+/// Linear in the number of samples, some 250 bytes each.
 #[must_use]
 pub fn mcap(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> Vec<u8> {
     write(joints, motions).expect("two channels with a schema each, and a buffer that takes all")
