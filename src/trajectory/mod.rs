@@ -1,7 +1,7 @@
 //! From a certified path to a motion in time, and to files.
 //!
 //! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found,
-//! [`Format`] writes either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
+//! [`Format`] writes either as JSON, CSV, ROS 2 YAML or MCAP, and [`write_whole`] puts that into a file, whole or not at all.
 
 mod corner;
 mod csv;
@@ -9,6 +9,8 @@ mod drive;
 mod field;
 mod format;
 mod limits;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod profile;
 mod result;
 mod ros;
@@ -20,10 +22,12 @@ mod whole_file;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "mcap")]
+pub use self::mcap::mcap;
 pub use csv::csv;
 pub use drive::Drive;
 pub use field::FieldReport;
-pub use format::{Format, UnknownFormat};
+pub use format::{Format, FormatError};
 pub use limits::Limits;
 pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
