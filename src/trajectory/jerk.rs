@@ -154,6 +154,24 @@ mod tests {
     }
 
     #[test]
+    fn times_too_short_for_the_limits_are_lengthened() {
+        let times = Times { grow: 1.0, hold: 2.0, cruise: 0.5 };
+        assert_eq!(times.within(9.0, times.rates(9.0)), times);
+        // In the same shape: until the limit that is missed by most is reached.
+        let [speed, acceleration, jerk] = times.rates(9.0);
+        for (limits, longer) in [
+            ([speed / 3.0, acceleration, jerk], 3.0),
+            ([speed, acceleration / 4.0, jerk / 1.5], 2.0),
+            ([speed, acceleration, jerk / 8.0], 2.0),
+        ] {
+            let slower = times.within(9.0, limits);
+            assert!((slower.grow - longer).abs() < 1e-15 && (slower.cruise - longer / 2.0).abs() < 1e-15);
+            let rates = slower.rates(9.0);
+            assert!((0..3).all(|i| rates[i] <= limits[i] * (1.0 + 1e-15)), "{rates:?} {limits:?}");
+        }
+    }
+
+    #[test]
     fn infinite_limits_leave_the_floor_and_the_jerk() {
         let free = rest_to_rest(2.0, f64::INFINITY, f64::INFINITY, 1.0, SHORTEST);
         assert!((duration(&free) - 4.0).abs() < 1e-14);
