@@ -21,6 +21,8 @@
 //!          |
 //!     [trajectory]        timing under limits on velocity, acceleration, jerk; JSON, CSV, ROS 2
 //!          |
+//!       [task]            motions one after another: grips, postures and order chosen together
+//!          |
 //!   [draw] [report]       pictures and tables, pure functions of results
 //!          |
 //!        [cli]
@@ -49,6 +51,7 @@ pub mod plan;
 pub mod certify;
 pub mod solve;
 pub mod trajectory;
+pub mod task;
 pub mod draw;
 pub mod report;
 pub mod cli;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Who may import whom.
-const MAY_IMPORT: [(&str, &[&str]); 13] = [
+const MAY_IMPORT: [(&str, &[&str]); 14] = [
     ("geometry", &[]),
     ("space", &["geometry"]),
     ("model", &["geometry", "space"]),
@@ -15,7 +15,8 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
     ("certify", &["geometry", "space", "model"]),
     ("solve", &["geometry", "space", "model", "cspace", "plan", "certify"]),
     ("trajectory", &["geometry", "space", "model", "certify"]),
-    ("draw", &["geometry", "space", "model", "cspace", "plan", "certify", "solve"]),
+    ("task", &["geometry", "space", "model", "certify", "solve", "trajectory"]),
+    ("draw", &["geometry", "space", "model", "cspace", "plan", "certify", "solve", "trajectory", "task"]),
     ("report", &["geometry", "space", "model", "plan", "certify", "solve", "trajectory"]),
     (
         "cli",
@@ -30,6 +31,7 @@ const MAY_IMPORT: [(&str, &[&str]); 13] = [
             "certify",
             "solve",
             "trajectory",
+            "task",
             "draw",
             "report",
         ],

@@ -2,8 +2,8 @@
 //! kinematics.
 
 use cplan::geometry::{Convex, Point, separation};
-use cplan::input::{LoadedScene, inverse, load_scene};
-use cplan::model::{Arm, OutlineSource};
+use cplan::input::{LoadedScene, load_scene};
+use cplan::model::{Arm, OutlineSource, inverse};
 use cplan::space::{Axis, Configuration};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;

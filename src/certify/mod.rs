@@ -19,6 +19,7 @@ mod recheck;
 mod slab;
 mod slabs;
 mod vicinity;
+mod wrist;
 
 pub use blends::{CertifiedCurve, blend};
 pub use boxes::Cell;
@@ -32,3 +33,4 @@ pub use passage::{Encounter, Moment, Passage, passage};
 pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};
 pub use slabs::{short_slab_channel, slab_connectivity};
+pub use wrist::{WristTurn, wrist_turn};

@@ -84,7 +84,7 @@ fn row(problem: &Problem, planner: String, answer: &Answer, motion: &MotionArgs)
     match &answer.verdict {
         Verdict::Found(certified) => {
             row.outcome = "found".into();
-            let Timed { curve, trajectory } = motion.drive(problem, certified)?;
+            let Timed { curve, trajectory } = motion.drive().along(&problem.scene, certified, 1.0)?;
             row.length = Some(certified.path().length());
             row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
             row.duration = Some(trajectory.duration());

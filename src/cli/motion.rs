@@ -1,10 +1,8 @@
-//! From a certified path to a motion: corners and time.
+//! How to drive along a path, on the command line.
 
 use super::args::{number_in, seconds};
-use super::failure::Failure;
-use crate::certify::{CertifiedCurve, CertifiedPath, blend};
-use crate::model::{Joint, Problem};
-use crate::trajectory::{Limits, Timed, TipSpeed, time};
+use crate::model::Joint;
+use crate::trajectory::Drive;
 use clap::Args;
 
 /// How to drive along a path.
@@ -17,7 +15,7 @@ pub struct MotionArgs {
     /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide. With a limit on
     /// a jerk the motion stops at every corner.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
-    pub blend: Radius,
+    pub blend: f64,
     /// Greatest speed of the tip, metres a second; without it the joints alone have limits.
     #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
     pub tip_speed: Option<f64>,
@@ -30,20 +28,12 @@ pub struct MotionArgs {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jerk(pub [Option<f64>; 2]);
 
-/// How far corners may be rounded.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Radius {
-    /// Not at all.
-    None,
-    /// Up to a radius, which may be infinite.
-    UpTo(f64),
-}
-
-fn radius(text: &str) -> Result<Radius, String> {
+/// As [`Drive::blend`] has it.
+fn radius(text: &str) -> Result<f64, String> {
     match (text, text.parse::<f64>()) {
-        ("none", _) => Ok(Radius::None),
-        ("auto", _) => Ok(Radius::UpTo(f64::INFINITY)),
-        (_, Ok(radius)) if radius.is_finite() && radius > 0.0 => Ok(Radius::UpTo(radius)),
+        ("none", _) => Ok(0.0),
+        ("auto", _) => Ok(f64::INFINITY),
+        (_, Ok(radius)) if radius.is_finite() && radius > 0.0 => Ok(radius),
         _ => Err("must be none, auto, or a number of more than 0 (radians or metres of joint space)".into()),
     }
 }
@@ -74,20 +64,8 @@ impl MotionArgs {
         }
     }
 
-    /// The motion along a path.
-    ///
-    /// # Errors
-    /// A motion that lasts too long, or has too many samples.
-    pub fn drive(&self, problem: &Problem, path: &CertifiedPath) -> Result<Timed, Failure> {
-        let arm = &problem.scene.arm;
-        let tip = self.tip_speed.map(|speed| TipSpeed { arm, speed });
-        let limits = Limits { tip, ..Limits::from(&arm.joints) };
-        let curve = match self.blend {
-            Radius::UpTo(greatest) if !limits.stops_at_corners() => {
-                blend(&problem.scene, path, greatest, problem.scene.workspace.clearance)
-            }
-            _ => CertifiedCurve::from(path.clone()),
-        };
-        Ok(time(curve, &limits, self.period)?)
+    /// The same for the trajectory.
+    pub fn drive(&self) -> Drive {
+        Drive { period: self.period, blend: self.blend, tip_speed: self.tip_speed }
     }
 }

@@ -95,7 +95,7 @@ fn report(
     let mut followed = None;
     let mut report = match &answer.verdict {
         Verdict::Found(certified) => {
-            let Timed { curve, trajectory } = motion.drive(problem, certified)?;
+            let Timed { curve, trajectory } = motion.drive().along(&problem.scene, certified, 1.0)?;
             let mut report = Report::found(planner, joints, &curve, trajectory);
             report.optimum = answer.bound.map(Optimum::from);
             report.closest = curve.nearest().map(|n| problem.scene.describe(n.contact.pair));

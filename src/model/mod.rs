@@ -2,19 +2,27 @@
 
 mod arm;
 mod carried;
+mod inverse;
 mod joint;
 mod link;
+mod obstruction;
+mod payload;
 mod preference;
 mod problem;
 mod scene;
+mod task;
 mod workspace;
 
 pub use arm::{Arm, Plane};
 pub use carried::Carried;
 pub(crate) use carried::{on_axis, swept};
+pub use inverse::{Inverse, inverse, within};
 pub use joint::{Joint, Motion};
 pub use link::{Link, OutlineSource, Part};
+pub use obstruction::Obstruction;
+pub use payload::{Grip, Payload};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, Problem};
 pub use scene::{Contact, Pair, Scene};
+pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
 pub use workspace::{Heights, Obstacle, Shape, Workspace};

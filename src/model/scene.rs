@@ -1,8 +1,10 @@
 //! The arm among its obstacles.
 
-use super::{Arm, Workspace};
+use super::{Arm, Grip, Obstacle, Part, Payload, Workspace};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::Configuration;
+use nalgebra::{Isometry2, Translation2};
+use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,7 +15,7 @@ pub struct Pair {
     pub part: usize,
     /// Into the workspace's obstacles.
     pub obstacle: usize,
-    /// Into the obstacle's pieces.
+    /// Into the obstacle's pieces; beyond these, what a level payload makes of them.
     pub piece: usize,
 }
 
@@ -28,30 +30,102 @@ pub struct Contact {
 
 /// Arm and workspace, with the pairs of shapes that can meet at all. Every module that asks about collisions asks
 /// about these pairs, so a pair that heights rule out is ruled out everywhere.
+///
+/// A payload is a part of link 2. One that a wrist keeps level only translates with the tip: it meets a piece exactly
+/// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
-    /// The arm.
+    /// The arm, with what it carries.
     pub arm: Arm,
     /// What surrounds it.
     pub workspace: Workspace,
+    payload: Option<Payload>,
+    /// Parts of link 2 that are the arm's own; those that follow are the payload's.
+    own_parts: usize,
     pairs: Vec<Pair>,
+    /// Of each obstacle, what a level payload makes of its pieces.
+    differences: Vec<Vec<Convex>>,
+}
+
+/// What a payload's part can meet.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Meets {
+    /// Everything but the payload's supports.
+    Others,
+    /// The supports: the part is smaller by what it may press into them.
+    Supports,
 }
 
 impl Scene {
     /// Puts the arm into the workspace.
     #[must_use]
     pub fn new(arm: Arm, workspace: Workspace) -> Self {
+        Self::handling(arm, workspace, None, &[])
+    }
+
+    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
+    /// just let go of or is about to take. Where a payload may press into its supports, parts of it that are thinner than that (and the
+    /// clearance) do not count there.
+    #[must_use]
+    pub fn handling(mut arm: Arm, workspace: Workspace, payload: Option<Payload>, spared: &[usize]) -> Self {
+        let own_parts = arm.links[1].parts.len();
+        let mut differences = vec![Vec::new(); workspace.obstacles.len()];
+        let carried = payload.as_ref().map_or_else(Vec::new, |payload| {
+            payload.parts(&arm, workspace.clearance).into_iter().map(|part| (payload, part)).collect()
+        });
+        // Of each part of the payload, what of each obstacle it can meet.
+        let mut ranges: Vec<Vec<Range<usize>>> = Vec::new();
+        for (carrier, (shape, _)) in &carried {
+            let (part, level) = match carrier.grip {
+                Grip::Rigid(in_link) => (shape.at(&in_link), None),
+                Grip::Level { angle, point } => {
+                    let pose = Isometry2::rotation(angle) * Translation2::from(-point.coords);
+                    (Convex::disc(arm.tip, 0.0), Some(shape.at(&pose)))
+                }
+            };
+            let of = |(obstacle, differences): (&Obstacle, &mut Vec<Convex>)| {
+                let Some(level) = &level else { return 0..obstacle.pieces.len() };
+                let first = obstacle.pieces.len() + differences.len();
+                differences.extend(obstacle.pieces.iter().map(|piece| piece.minkowski_difference(level)));
+                first..obstacle.pieces.len() + differences.len()
+            };
+            ranges.push(workspace.obstacles.iter().zip(&mut differences).map(of).collect());
+            arm.links[1].parts.push(Part { shape: part, heights: carrier.heights, body: carrier.object.clone() });
+        }
         let mut pairs = Vec::new();
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
-                for (obstacle, o) in workspace.obstacles.iter().enumerate() {
-                    if p.heights.meet(o.heights) {
-                        pairs.extend((0..o.pieces.len()).map(|piece| Pair { link, part, obstacle, piece }));
-                    }
+                let payload_part = (link == 1).then(|| part.checked_sub(own_parts)).flatten();
+                for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(|(_, o)| p.heights.meet(o.heights)) {
+                    let pieces = match payload_part {
+                        None if link == 1 && spared.contains(&obstacle) => continue,
+                        None => 0..o.pieces.len(),
+                        Some(k) => {
+                            let (carrier, (_, meets)) = &carried[k];
+                            if !carrier.meets(*meets, obstacle) {
+                                continue;
+                            }
+                            ranges[k][obstacle].clone()
+                        }
+                    };
+                    pairs.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
                 }
             }
         }
-        Self { arm, workspace, pairs }
+        Self { arm, workspace, payload, own_parts, pairs, differences }
+    }
+
+    /// What the arm carries, if anything.
+    #[must_use]
+    pub fn payload(&self) -> Option<&Payload> {
+        self.payload.as_ref()
+    }
+
+    /// The link's own outline, without what it carries.
+    #[must_use]
+    pub fn own_parts(&self, link: usize) -> &[Part] {
+        let parts = &self.arm.links[link].parts;
+        if link == 1 { &parts[..self.own_parts] } else { parts }
     }
 
     /// All pairs that can meet, ordered by link, part, obstacle, piece.
@@ -66,10 +140,11 @@ impl Scene {
         &self.arm.links[pair.link].parts[pair.part].shape
     }
 
-    /// The obstacle piece of a pair, in plane coordinates.
+    /// The obstacle piece of a pair, or what a level payload makes of it, in plane coordinates.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
-        &self.workspace.obstacles[pair.obstacle].pieces[pair.piece]
+        let own = &self.workspace.obstacles[pair.obstacle].pieces;
+        own.get(pair.piece).unwrap_or_else(|| &self.differences[pair.obstacle][pair.piece - own.len()])
     }
 
     /// Signed distance of every pair at `q`, in the order of [`Scene::pairs`].
@@ -96,13 +171,40 @@ impl Scene {
     /// The pair in words: `link "forearm" and obstacle "shelf"`.
     #[must_use]
     pub fn describe(&self, pair: Pair) -> String {
+        format!("{} and obstacle \"{}\"", self.describe_part(pair), self.workspace.obstacles[pair.obstacle].name)
+    }
+
+    /// Whether a pair's part is the payload's.
+    #[must_use]
+    pub fn is_payload(&self, pair: Pair) -> bool {
+        pair.link == 1 && pair.part >= self.own_parts
+    }
+
+    /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
+    pub(super) fn describe_part(&self, pair: Pair) -> String {
         let link = &self.arm.links[pair.link];
         let body = &link.parts[pair.part].body;
-        let obstacle = &self.workspace.obstacles[pair.obstacle].name;
-        if *body == link.name {
-            format!("link \"{}\" and obstacle \"{obstacle}\"", link.name)
+        if self.is_payload(pair) {
+            format!("payload \"{body}\"")
+        } else if *body == link.name {
+            format!("link \"{}\"", link.name)
         } else {
-            format!("link \"{}\" (body \"{body}\") and obstacle \"{obstacle}\"", link.name)
+            format!("link \"{}\" (body \"{body}\")", link.name)
         }
+    }
+}
+
+impl Payload {
+    /// Its pieces, and smaller ones for its supports, in its own frame.
+    pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
+        let whole = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others));
+        let by = Self::give(arm) + clearance;
+        let smaller = self.pieces.iter().filter(|_| !self.supports.is_empty()).filter_map(|piece| piece.eroded(by));
+        whole.chain(smaller.map(|piece| (piece, Meets::Supports))).collect()
+    }
+
+    /// Whether its parts of that kind can meet an obstacle.
+    pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
+        (kind == Meets::Supports) == self.supports.contains(&obstacle)
     }
 }

@@ -1,7 +1,7 @@
 //! Obstacles in the plane.
 
 use super::Preference;
-use crate::geometry::{Convex, Point};
+use crate::geometry::{Convex, Point, Pose};
 
 /// Extent along the plane's normal, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,20 @@ pub enum Shape {
     Polyline(Vec<Point>),
     /// The union of the obstacle's pieces, such as the occupied cells of a map.
     Pieces,
+}
+
+impl Shape {
+    /// The shape moved by `pose`.
+    #[must_use]
+    pub fn at(&self, pose: &Pose) -> Self {
+        let moved = |points: &[Point]| points.iter().map(|p| pose * p).collect();
+        match self {
+            Shape::Polygon(corners) => Shape::Polygon(moved(corners)),
+            Shape::Circle { center, radius } => Shape::Circle { center: pose * center, radius: *radius },
+            Shape::Polyline(points) => Shape::Polyline(moved(points)),
+            Shape::Pieces => Shape::Pieces,
+        }
+    }
 }
 
 /// Something the arm must not touch.

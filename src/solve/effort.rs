@@ -19,6 +19,8 @@ pub struct Effort {
     /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
     /// planner only).
     pub gap: Option<f64>,
+    /// Whether to bound the optimum from below though no gap is asked for (visibility planner only).
+    pub bounded: bool,
     /// How the wavefront planner searches its grid.
     pub wavefront: Wavefront,
     /// The field to follow in place of the default one (harmonic planner only).
@@ -35,6 +37,7 @@ impl Default for Effort {
             boxes: 200_000,
             metric: Metric::Euclidean,
             gap: None,
+            bounded: true,
             wavefront: Wavefront::default(),
             field: None,
         }

@@ -134,7 +134,8 @@ impl Climb<'_> {
 
     /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
     fn keep(&mut self, path: CertifiedPath, level: usize) {
-        let bounded = (self.method == Method::Visibility).then(|| {
+        let wanted = self.effort.bounded || self.effort.gap.is_some();
+        let bounded = (wanted && self.method == Method::Visibility).then(|| {
             let clock = Instant::now();
             let margin = margin(self.problem, self.effort, level);
             let bound = bound(self.problem, path.path(), self.effort.metric, margin);

@@ -5,6 +5,7 @@
 
 mod corner;
 mod csv;
+mod drive;
 mod field;
 mod format;
 mod jerk;
@@ -21,6 +22,7 @@ mod whole_file;
 mod tests;
 
 pub use csv::csv;
+pub use drive::Drive;
 pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
 pub use limits::Limits;

@@ -71,6 +71,32 @@ impl Trajectory {
         self.time.last().copied().unwrap_or(0.0)
     }
 
+    /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest. Without samples it becomes
+    /// that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
+    pub fn then(&mut self, pause: f64, next: &Trajectory) {
+        let begin = self.time.last().map_or(0.0, |end| if pause < SHORTEST_INTERVAL { *end } else { end + pause });
+        if pause < SHORTEST_INTERVAL {
+            // One sample for both: the acceleration is that of the interval that begins.
+            self.time.pop();
+            self.position.pop();
+            self.velocity.pop();
+            self.acceleration.pop();
+        }
+        self.time.extend(next.time.iter().map(|time| begin + time));
+        self.position.extend(&next.position);
+        self.velocity.extend(&next.velocity);
+        self.acceleration.extend(&next.acceleration);
+    }
+
+    /// Stands still for so many seconds at the end; less than [`SHORTEST_INTERVAL`] counts as nothing.
+    pub fn stand(&mut self, pause: f64) {
+        if let (Some(&end), Some(&position), true) =
+            (self.time.last(), self.position.last(), pause >= SHORTEST_INTERVAL)
+        {
+            self.push(end + pause, [position.into(), Configuration::zeros(), Configuration::zeros()]);
+        }
+    }
+
     fn with_capacity(samples: usize) -> Self {
         Self {
             time: Vec::with_capacity(samples),

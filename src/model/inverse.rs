@@ -1,7 +1,7 @@
 //! Inverse kinematics of the tip, in closed form.
 
+use super::{Arm, Motion};
 use crate::geometry::{Point, Vector, cross};
-use crate::model::{Arm, Motion};
 use crate::space::{Axis, Configuration};
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
@@ -147,7 +147,8 @@ fn both(middle: f64, root: f64) -> Vec<f64> {
 
 /// The values that stand for `value` on an axis: every copy by whole turns of a revolute joint that is within the
 /// limits, on a circle the one in `[-pi, pi)`. Values that rounding put beyond a limit count as the limit.
-pub(super) fn within(axis: Axis, revolute: bool, value: f64) -> Vec<f64> {
+#[must_use]
+pub fn within(axis: Axis, revolute: bool, value: f64) -> Vec<f64> {
     let Axis::Interval { lower, upper } = axis else { return vec![axis.wrap(value)] };
     if !revolute {
         let inside = lower - LIMIT_ROUNDING <= value && value <= upper + LIMIT_ROUNDING;

@@ -1,0 +1,69 @@
+//! Why a configuration is not free.
+
+use super::{Contact, Scene};
+use crate::geometry::shapes_meet;
+use crate::space::Configuration;
+
+/// A contact, or a distance below the clearance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Obstruction {
+    /// The shapes, and how they lie to each other.
+    pub contact: Contact,
+    /// Whether they meet, exactly decided; else they are nearer than the clearance.
+    pub touches: bool,
+}
+
+/// Depths below this, metres, are called touching.
+const SHALLOW: f64 = 1e-9;
+
+/// Depths of this and more, metres, are shown with four decimals, which would show nothing of smaller ones.
+const DEEP: f64 = 1e-3;
+
+impl Scene {
+    /// Why `q` is not free: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
+    #[must_use]
+    pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
+        let poses = self.arm.poses(q);
+        let mut worst: Vec<Obstruction> = Vec::new();
+        for contact in self.separations(q) {
+            let (pair, distance) = (contact.pair, contact.separation.distance);
+            let touches = distance <= 0.0 || shapes_meet(&self.part(pair).at(&poses[pair.link]), self.piece(pair));
+            if !touches && distance >= self.workspace.clearance {
+                continue;
+            }
+            let found = Obstruction { contact, touches };
+            let whose = |o: &Obstruction| {
+                let pair = o.contact.pair;
+                (pair.link, self.is_payload(pair), pair.obstacle)
+            };
+            match worst.iter_mut().find(|known| whose(known) == whose(&found)) {
+                Some(known) if known.contact.separation.distance <= distance => {}
+                Some(known) => *known = found,
+                None => worst.push(found),
+            }
+        }
+        worst
+    }
+
+    /// An obstruction in words: `link "forearm" hits obstacle "shelf", 0.0120 m deep`.
+    #[must_use]
+    pub fn explain(&self, obstruction: &Obstruction) -> String {
+        let Contact { pair, separation } = obstruction.contact;
+        let part = self.describe_part(pair);
+        let obstacle = &self.workspace.obstacles[pair.obstacle].name;
+        let distance = separation.distance;
+        if !obstruction.touches {
+            let clearance = self.workspace.clearance;
+            return format!(
+                "{part} is {distance:.6} m from obstacle \"{obstacle}\", nearer than the clearance of {clearance} m"
+            );
+        }
+        let depth = (-distance).max(0.0);
+        let how = match depth {
+            _ if depth < SHALLOW => "just touching".to_owned(),
+            _ if depth >= DEEP => format!("{depth:.4} m deep"),
+            _ => format!("{depth:.2e} m deep"),
+        };
+        format!("{part} hits obstacle \"{obstacle}\", {how}")
+    }
+}

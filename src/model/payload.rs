@@ -1,0 +1,67 @@
+//! Something that the arm carries.
+
+use super::{Arm, Heights};
+use crate::geometry::{Convex, Point, Pose};
+use crate::space::Configuration;
+use nalgebra::{Isometry2, Translation2};
+
+/// How an object hangs on the arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Grip {
+    /// It turns with link 2: its pose in link 2's frame.
+    Rigid(Pose),
+    /// A wrist keeps its orientation in the plane, whatever the joints do.
+    Level {
+        /// The orientation, radians.
+        angle: f64,
+        /// The point of the object, in its own frame, that stays at the tip.
+        point: Point,
+    },
+}
+
+/// An object while the arm carries it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Payload {
+    /// The object's name.
+    pub object: String,
+    /// Its outline as a union of convex pieces, in its own frame.
+    pub pieces: Vec<Convex>,
+    /// Its extent along the plane's normal while it is carried.
+    pub heights: Heights,
+    /// How it is held.
+    pub grip: Grip,
+    /// What it may touch, though not press into by more than [`Payload::give`]: what it rests on. Obstacles by their
+    /// number in the workspace.
+    pub supports: Vec<usize>,
+}
+
+/// Depth to which a payload may press into what supports it, as a share of the arm's reach: above the rounding of
+/// coordinates that people write down, below what any gripper yields.
+const GIVE: f64 = 1e-4;
+
+impl Payload {
+    /// Depth to which a payload may press into its supports, metres.
+    #[must_use]
+    pub fn give(arm: &Arm) -> f64 {
+        GIVE * arm.reach()
+    }
+
+    /// Where the object is at `q`: the pose of its frame in the plane.
+    #[must_use]
+    pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
+        match self.grip {
+            Grip::Rigid(in_link) => arm.pose(1, q) * in_link,
+            Grip::Level { angle, point } => {
+                Translation2::from(arm.tip_at(q).coords)
+                    * Isometry2::rotation(angle)
+                    * Translation2::from(-point.coords)
+            }
+        }
+    }
+
+    /// The grip that holds an object lying at `pose` with the arm at `q`, so that link 2 turns it.
+    #[must_use]
+    pub fn rigid_grip(arm: &Arm, q: Configuration, pose: &Pose) -> Grip {
+        Grip::Rigid(arm.pose(1, q).inv_mul(pose))
+    }
+}

@@ -1,0 +1,173 @@
+//! A sequence of things to do.
+
+use super::{Arm, Goal, Heights, Obstacle, Shape, Workspace};
+use crate::geometry::{Convex, Point, Pose};
+use crate::space::Configuration;
+
+/// What becomes of an object's orientation while the arm carries it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holding {
+    /// It turns with link 2.
+    Rigid,
+    /// A wrist joint keeps it; where a step asks for another orientation, the wrist turns it while the arm stands still.
+    Level,
+}
+
+/// Something that can be moved: an obstacle while it lies somewhere, a payload while it is carried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Object {
+    /// The user's name for it; no other object or obstacle has it.
+    pub name: String,
+    /// As given, in its own frame.
+    pub shape: Shape,
+    /// The same as a union of convex pieces.
+    pub pieces: Vec<Convex>,
+    /// Its extent along the plane's normal while it lies somewhere.
+    pub heights: Heights,
+    /// By how much it is raised while it is carried, metres.
+    pub lift: f64,
+    /// How it is held.
+    pub holding: Holding,
+    /// Where it lies at first.
+    pub at: Pose,
+}
+
+/// What a step does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    /// The tip goes to an object and takes it.
+    Pick {
+        /// Which object.
+        object: usize,
+        /// The point of the object, in its own frame, that the tip goes to.
+        grasp: Point,
+        /// What the object rests on, so that it may touch it: obstacles by their number in [`Task::obstacles`].
+        supports: Vec<usize>,
+    },
+    /// The carried object's origin goes to a point, where the object is let go.
+    Place {
+        /// Where its origin goes.
+        at: Point,
+        /// The orientation that it must have there, radians; none if any will do.
+        angle: Option<f64>,
+        /// What it comes to rest on, so that it may touch it.
+        supports: Vec<usize>,
+    },
+    /// The arm goes somewhere, with what it carries.
+    Move(Goal),
+}
+
+/// One step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// What it does.
+    pub action: Action,
+    /// Its number in the world file, from 1; the same in each repetition.
+    pub number: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// Where it stands in the world file, for messages: `cell.toml:12:1`.
+    pub place: String,
+    /// Share of the joints' top speeds to take on the way, more than 0 and at most 1.
+    pub speed: f64,
+    /// Seconds that the arm stands still at the end.
+    pub dwell: f64,
+}
+
+/// Part of a task.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Item {
+    /// A step.
+    Step(Step),
+    /// Pairs of a pick and the place that follows it, in whichever order is fastest.
+    AnyOrder(Vec<[Step; 2]>),
+    /// These objects lie where they lay at first again: new ones have been supplied.
+    Renew(Vec<usize>),
+}
+
+/// A wrist's limits; positive, radians and seconds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wrist {
+    /// Top speed.
+    pub velocity: f64,
+    /// Greatest acceleration.
+    pub acceleration: f64,
+}
+
+/// What a user asks of an arm over time. Objects that are picked lie somewhere, places follow picks, and numbers of
+/// objects and obstacles are valid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Task {
+    /// The arm, empty-handed.
+    pub arm: Arm,
+    /// What stays where it is.
+    pub workspace: Workspace,
+    /// What can be moved.
+    pub objects: Vec<Object>,
+    /// Where the arm is: within the joint limits and free.
+    pub start: Configuration,
+    /// What to do, repetitions written out.
+    pub items: Vec<Item>,
+    /// The wrist, if it has to turn objects.
+    pub wrist: Option<Wrist>,
+}
+
+impl Task {
+    /// The number under which object `object` counts as an obstacle: objects follow the workspace's own obstacles.
+    #[must_use]
+    pub fn obstacle_number(&self, object: usize) -> usize {
+        self.workspace.obstacles.len() + object
+    }
+
+    /// The workspace with objects where they lie. One that lies nowhere, because it is carried, is an obstacle without
+    /// pieces, so that numbers stay.
+    #[must_use]
+    pub fn obstacles(&self, poses: &[Option<Pose>]) -> Workspace {
+        let mut workspace = self.workspace.clone();
+        workspace.obstacles.extend(self.objects.iter().zip(poses).map(|(object, pose)| object.lying(pose.as_ref())));
+        workspace
+    }
+
+    /// All steps, those of a group in any order in the order of the file.
+    pub fn steps(&self) -> impl Iterator<Item = &Step> {
+        self.items.iter().flat_map(|item| match item {
+            Item::Step(step) => vec![step],
+            Item::AnyOrder(pairs) => pairs.iter().flatten().collect(),
+            Item::Renew(_) => Vec::new(),
+        })
+    }
+}
+
+impl Object {
+    /// The object as an obstacle that lies at `pose`; without one, an obstacle without pieces.
+    #[must_use]
+    pub fn lying(&self, pose: Option<&Pose>) -> Obstacle {
+        let (shape, pieces) = match pose {
+            Some(pose) => (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect()),
+            None => (Shape::Pieces, Vec::new()),
+        };
+        Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+    }
+
+    /// Its extent along the plane's normal while it is carried.
+    #[must_use]
+    pub fn carried_heights(&self) -> Heights {
+        Heights { lower: self.heights.lower + self.lift, upper: self.heights.upper + self.lift }
+    }
+}
+
+impl Action {
+    /// In a few words: `pick "part"`.
+    #[must_use]
+    pub fn describe(&self, objects: &[Object]) -> String {
+        match self {
+            Action::Pick { object, .. } => format!("pick \"{}\"", objects[*object].name),
+            Action::Place { at, angle: None, .. } => format!("place at ({}, {}) m", at.x, at.y),
+            Action::Place { at, angle: Some(angle), .. } => {
+                format!("place at ({}, {}) m, turned to {angle} rad", at.x, at.y)
+            }
+            Action::Move(Goal::Joints(q)) => format!("move to joints ({}, {})", q[0], q[1]),
+            Action::Move(Goal::Tip(tip)) => format!("move the tip to ({}, {}) m", tip.x, tip.y),
+        }
+    }
+}

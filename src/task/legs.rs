@@ -1,0 +1,157 @@
+//! The motions of a task, each planned once.
+
+use super::Manner;
+use super::least_time::rest_to_rest;
+use super::state::{Candidate, Held, State, payload};
+use crate::certify::{WristTurn, certify, wrist_turn};
+use crate::model::{Goal, Grip, Problem, Scene, Task};
+use crate::solve::{Effort, Method, Verdict, solve};
+use crate::space::{Configuration, Path};
+use crate::trajectory::Timed;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// Why a motion is not possible.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Refusal {
+    /// In words.
+    pub reason: String,
+    /// Whether that is proven, or just what came of trying.
+    pub proven: bool,
+}
+
+/// A motion with the turn that follows it.
+#[derive(Debug, Clone)]
+pub(super) struct Motion {
+    pub scene: Rc<Scene>,
+    pub timed: Rc<Timed>,
+    pub turn: Option<(WristTurn, f64)>,
+}
+
+/// What a scene depends on, bit by bit.
+type SceneKey = Vec<u64>;
+
+/// Plans motions, and remembers them: the same motion in the same scene is planned once.
+pub(super) struct Legs<'a> {
+    task: &'a Task,
+    manner: Manner,
+    scenes: BTreeMap<SceneKey, (usize, Rc<Scene>)>,
+    motions: BTreeMap<(usize, [u64; 5]), Result<Rc<Timed>, Refusal>>,
+}
+
+impl<'a> Legs<'a> {
+    pub fn new(task: &'a Task, manner: Manner) -> Self {
+        // Tasks bound times, not the lengths of paths.
+        let effort = Effort { bounded: false, ..manner.effort };
+        Self { task, manner: Manner { effort, ..manner }, scenes: BTreeMap::new(), motions: BTreeMap::new() }
+    }
+
+    /// Motions planned so far.
+    pub fn planned(&self) -> usize {
+        self.motions.len()
+    }
+
+    /// The motion to a candidate's target and the turn there.
+    pub fn motion(&mut self, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
+        let key = scene_key(from, candidate);
+        let next = self.scenes.len();
+        let (number, scene) =
+            self.scenes.entry(key).or_insert_with(|| (next, Rc::new(from.scene(self.task, candidate)))).clone();
+        let (q, to, speed) = (from.q, candidate.to, candidate.step.speed);
+        let key = (number, [q[0], q[1], to[0], to[1], speed].map(f64::to_bits));
+        let manner = self.manner;
+        let planned = self.motions.entry(key).or_insert_with(|| planned(&scene, q, to, speed, &manner).map(Rc::new));
+        let timed = planned.clone()?;
+        let turn = candidate.turn.map(|turn| self.turn(from, candidate, turn)).transpose()?;
+        Ok(Motion { scene, timed, turn })
+    }
+
+    /// The turn of the wrist at a candidate's target, and the seconds that it takes.
+    fn turn(&self, from: &State, candidate: &Candidate, turn: [f64; 2]) -> Result<(WristTurn, f64), Refusal> {
+        let unproven = |reason: &str| Refusal { reason: reason.to_owned(), proven: false };
+        let held = candidate.after.held.as_ref().or(from.held.as_ref());
+        let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = held else {
+            return Err(unproven("nothing is held that could be turned"));
+        };
+        let Some(wrist) = self.task.wrist else {
+            return Err(unproven("the arm has no wrist that could turn the object"));
+        };
+        // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
+        let poses = if candidate.after.held.is_some() { &candidate.after.poses } else { &from.poses };
+        let (arm, workspace) = (&self.task.arm, self.task.obstacles(poses));
+        let found = wrist_turn(arm, &workspace, &payload(self.task, held), *point, candidate.to, turn);
+        let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
+        let seconds = rest_to_rest((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
+        Ok((way, seconds))
+    }
+
+    /// A lower bound on the seconds that a turn takes.
+    pub fn least_turn(&self, [from, to]: [f64; 2]) -> f64 {
+        let ahead = (to - from).rem_euclid(std::f64::consts::TAU);
+        let least = ahead.min(std::f64::consts::TAU - ahead);
+        self.task.wrist.map_or(0.0, |wrist| rest_to_rest(least, wrist.velocity, wrist.acceleration))
+    }
+}
+
+/// A motion from one configuration to another.
+fn planned(
+    scene: &Scene,
+    from: Configuration,
+    to: Configuration,
+    speed: f64,
+    manner: &Manner,
+) -> Result<Timed, Refusal> {
+    for (end, q) in [("at its beginning", from), ("at its end", to)] {
+        let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
+        if !hits.is_empty() {
+            return Err(Refusal { reason: format!("{end} {}", hits.join("; ")), proven: true });
+        }
+    }
+    let clearance = scene.workspace.clearance;
+    let straight = || {
+        let path = Path::new(vec![from, scene.arm.topology().lift(to, from)]);
+        certify(scene, path, clearance).ok()
+    };
+    // Nothing is shorter than straight, whatever the metric.
+    let found = (manner.method == Method::Visibility).then(straight).flatten();
+    let path = match found {
+        Some(path) => path,
+        None => {
+            let problem = Problem { scene: scene.clone(), start: from, goal: Goal::Joints(to), goals: vec![to] };
+            match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
+                Verdict::Found(path) => path,
+                Verdict::Infeasible(proof) => {
+                    let boxes = proof.stuck().len();
+                    let reason = format!("there is no way: {boxes} boxes of colliding configurations bar it (proven)");
+                    return Err(Refusal { reason, proven: true });
+                }
+                Verdict::Unknown(reason) => return Err(Refusal { reason, proven: false }),
+            }
+        }
+    };
+    manner.drive.along(scene, &path, speed).map_err(|error| Refusal { reason: error.to_string(), proven: false })
+}
+
+fn scene_key(from: &State, candidate: &Candidate) -> SceneKey {
+    let mut key = Vec::new();
+    for pose in &from.poses {
+        match pose {
+            None => key.push(u64::MAX),
+            Some(pose) => key.extend([pose.translation.x, pose.translation.y, pose.rotation.angle()].map(f64::to_bits)),
+        }
+    }
+    if let Some(held) = &from.held {
+        key.push(held.object as u64);
+        match held.grip {
+            Grip::Rigid(p) => key.extend([p.translation.x, p.translation.y, p.rotation.angle()].map(f64::to_bits)),
+            Grip::Level { angle, point } => key.extend([angle, point.x, point.y].map(f64::to_bits)),
+        }
+        key.extend(held.supports.iter().map(|&support| support as u64));
+    }
+    let picked = match candidate.event {
+        Some(super::Event::Grasp { object }) => object as u64,
+        _ => u64::MAX,
+    };
+    key.extend([from.released.map_or(u64::MAX, |object| object as u64), picked]);
+    key
+}

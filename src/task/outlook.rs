@@ -1,0 +1,240 @@
+//! What remains of a task, if nothing were in the way.
+
+use super::least_time::least_time;
+use super::postures::{goal_postures, postures};
+use super::state::Progress;
+use crate::geometry::{Point, Pose};
+use crate::model::{Action, Arm, Holding, Item, Object, Step, Task};
+use crate::space::Configuration;
+use nalgebra::{Isometry2, Rotation2};
+
+/// Where a step can end.
+#[derive(Debug, Clone)]
+pub(super) struct Stop {
+    /// All postures at the target; none if they are not known before the steps before are, or are infinitely many.
+    postures: Option<Vec<Configuration>>,
+    speed: f64,
+    dwell: f64,
+}
+
+impl Stop {
+    /// How many places there are to stand at: one if they are not known.
+    fn count(&self) -> usize {
+        self.postures.as_ref().map_or(1, Vec::len)
+    }
+
+    /// The configuration of a place to stand at, where it is known.
+    fn at(&self, place: usize) -> Option<Configuration> {
+        self.postures.as_ref().map(|postures| postures[place])
+    }
+
+    /// All postures, if they are known.
+    pub fn postures(&self) -> Option<&[Configuration]> {
+        self.postures.as_deref()
+    }
+
+    /// The share of top speeds on the way to it.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Least seconds to a place to stand at and through its dwell.
+    fn seconds(&self, arm: &Arm, from: Option<Configuration>, place: usize) -> f64 {
+        let way = from.zip(self.at(place)).map_or(0.0, |(from, to)| least_time(arm, from, to, self.speed));
+        way + self.dwell
+    }
+}
+
+/// The stops of an item.
+#[derive(Debug, Clone)]
+pub(super) enum Stops {
+    /// Of a step.
+    One(Stop),
+    /// Of each pair: pick and place.
+    Pairs(Vec<[Stop; 2]>),
+    /// Nothing moves.
+    Nothing,
+}
+
+/// Least seconds to the end of a task after each item.
+#[derive(Debug, Clone)]
+enum After {
+    /// By the place to stand at.
+    One(Vec<f64>),
+    /// Of a group in any order.
+    Pairs(Table),
+    Nothing,
+}
+
+/// Least seconds from within a group to the end of the task, by the pairs done (a bit each), one of these, and the place
+/// to stand at.
+#[derive(Debug, Clone)]
+struct Table {
+    /// From the pick of a pair, which counts as done here.
+    picked: Vec<Vec<Vec<f64>>>,
+    /// From the place of the last pair done.
+    placed: Vec<Vec<Vec<f64>>>,
+}
+
+/// Least times to the end of a task from everywhere in it, over all postures and orders.
+pub(super) struct Outlook<'a> {
+    arm: &'a Arm,
+    stops: Vec<Stops>,
+    after: Vec<After>,
+}
+
+impl<'a> Outlook<'a> {
+    /// `O(n b^2)` for `n` steps with `b` postures each, and `O(2^k k^2 b^2)` for a group of `k` pairs.
+    pub fn new(task: &'a Task) -> Self {
+        let stops = stops(task);
+        let mut outlook = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
+        for item in (0..outlook.stops.len()).rev() {
+            outlook.after[item] = match &outlook.stops[item] {
+                Stops::One(stop) => {
+                    After::One((0..stop.count()).map(|place| outlook.from(stop.at(place), item + 1)).collect())
+                }
+                Stops::Pairs(pairs) => After::Pairs(outlook.table(pairs, item)),
+                Stops::Nothing => After::Nothing,
+            };
+        }
+        outlook
+    }
+
+    /// Least seconds from a configuration to the end of the task; infinite where a target is out of reach.
+    pub fn remaining(&self, q: Configuration, progress: Progress) -> f64 {
+        let Progress { item, done, half } = progress;
+        match (self.stops.get(item), self.after.get(item), half) {
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), Some(pair)) => {
+                let done = done as usize | 1 << pair;
+                self.over(&pairs[pair][1], Some(q), &table.placed[done][pair])
+            }
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table)), None) => {
+                self.next_pair(pairs, table, Some(q), done as usize)
+            }
+            _ => self.from(Some(q), item),
+        }
+    }
+
+    /// Least seconds from the beginning of an item to the end of the task.
+    fn from(&self, q: Option<Configuration>, item: usize) -> f64 {
+        match (self.stops.get(item), self.after.get(item)) {
+            (Some(Stops::One(stop)), Some(After::One(after))) => self.over(stop, q, after),
+            (Some(Stops::Pairs(pairs)), Some(After::Pairs(table))) => self.next_pair(pairs, table, q, 0),
+            (Some(_), _) => self.from(q, item + 1),
+            (None, _) => 0.0,
+        }
+    }
+
+    /// The least over all places to stand at of a stop.
+    fn over(&self, stop: &Stop, q: Option<Configuration>, after: &[f64]) -> f64 {
+        let by = |(place, after): (usize, &f64)| stop.seconds(self.arm, q, place) + after;
+        after.iter().enumerate().map(by).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The least over all pairs that are not done.
+    fn next_pair(&self, pairs: &[[Stop; 2]], table: &Table, q: Option<Configuration>, done: usize) -> f64 {
+        let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
+        let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
+        open.map(by).fold(f64::INFINITY, f64::min)
+    }
+
+    fn table(&self, pairs: &[[Stop; 2]], item: usize) -> Table {
+        let all = (1_usize << pairs.len()) - 1;
+        let empty = || vec![vec![Vec::new(); pairs.len()]; all + 1];
+        let mut table = Table { picked: empty(), placed: empty() };
+        for done in (1..=all).rev() {
+            for pair in (0..pairs.len()).filter(|pair| done & (1 << pair) != 0) {
+                let [pick, place] = &pairs[pair];
+                let onward = |at: usize| match done == all {
+                    true => self.from(place.at(at), item + 1),
+                    false => self.next_pair(pairs, &table, place.at(at), done),
+                };
+                let placed: Vec<f64> = (0..place.count()).map(onward).collect();
+                let picked = (0..pick.count()).map(|at| self.over(place, pick.at(at), &placed)).collect();
+                (table.placed[done][pair], table.picked[done][pair]) = (placed, picked);
+            }
+        }
+        table
+    }
+}
+
+/// Where an object lies, as far as that does not depend on postures: its origin, and its orientation if known.
+#[derive(Clone, Copy)]
+struct Lies {
+    at: Point,
+    angle: Option<f64>,
+}
+
+impl Lies {
+    /// Where a point of the object is.
+    fn place_of(&self, point: Point) -> Option<Point> {
+        if point == Point::origin() {
+            return Some(self.at);
+        }
+        self.angle.map(|angle| self.at + Rotation2::new(angle) * point.coords)
+    }
+}
+
+impl From<&Object> for Lies {
+    fn from(object: &Object) -> Self {
+        let pose: &Pose = &object.at;
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()) }
+    }
+}
+
+/// The stops of all items.
+pub(super) fn stops(task: &Task) -> Vec<Stops> {
+    let mut lies: Vec<Lies> = task.objects.iter().map(Lies::from).collect();
+    let mut held = None;
+    let mut stop = |step: &Step, lies: &mut [Lies]| Stop {
+        postures: targets(task, step, lies, &mut held),
+        speed: step.speed,
+        dwell: step.dwell,
+    };
+    let of = |item: &Item| match item {
+        Item::Step(step) => Stops::One(stop(step, &mut lies)),
+        Item::AnyOrder(pairs) => {
+            Stops::Pairs(pairs.iter().map(|pair| pair.each_ref().map(|step| stop(step, &mut lies))).collect())
+        }
+        Item::Renew(objects) => {
+            objects.iter().for_each(|&object| lies[object] = Lies::from(&task.objects[object]));
+            Stops::Nothing
+        }
+    };
+    task.items.iter().map(of).collect()
+}
+
+/// All postures of a step, and what becomes of its object.
+fn targets(
+    task: &Task,
+    step: &Step,
+    lies: &mut [Lies],
+    held: &mut Option<(usize, Point)>,
+) -> Option<Vec<Configuration>> {
+    let arm = &task.arm;
+    let tip_to = |target: Option<Point>| {
+        let reach = postures(arm, arm.tip, target?, task.start);
+        reach.all.then_some(reach.configurations)
+    };
+    match &step.action {
+        Action::Move(goal) => {
+            let reach = goal_postures(arm, goal, task.start);
+            reach.all.then_some(reach.configurations)
+        }
+        Action::Pick { object, grasp, .. } => {
+            *held = Some((*object, *grasp));
+            tip_to(lies[*object].place_of(*grasp))
+        }
+        Action::Place { at, angle, .. } => {
+            let (object, grasp) = held.take()?;
+            let turned = match task.objects[object].holding {
+                Holding::Level => angle.or(lies[object].angle),
+                Holding::Rigid => None,
+            };
+            // The same expression as that of the state, so that values are the same.
+            let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
+            lies[object] = Lies { at: *at, angle: turned };
+            tip_to(exact.or_else(|| lies[object].place_of(grasp)))
+        }
+    }
+}

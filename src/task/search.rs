@@ -1,0 +1,235 @@
+//! The search for the fastest sequence of motions.
+
+use super::Manner;
+use super::answer::{Impossible, Leg, TaskAnswer, TaskVerdict};
+use super::legs::{Legs, Motion, Refusal};
+use super::order;
+use super::outlook::Outlook;
+use super::state::{Candidate, State};
+use crate::geometry::Ordered;
+use crate::model::{Step, Task};
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap};
+
+/// Motions that are planned, and nodes that are expanded, while the search insists on the fastest choice: some seconds'
+/// worth. Beyond, what is left counts more than what is done, so that it goes straight for the end.
+const MOST_MOTIONS: usize = 2_000;
+const MOST_EXPANDED: usize = 100_000;
+
+/// By how much more what is left counts then.
+const HASTE: f64 = 4.0;
+
+/// Motions between two words on progress.
+const NEWS: usize = 50;
+
+/// The search ends without an answer after so many times the first two numbers.
+const PATIENCE: usize = 10;
+
+/// Plans a task: the fastest sequence of motions over all postures at the targets, turns of the wrist and orders that
+/// are free, up to what [`TaskAnswer`] says of it. `progress` hears of long work.
+#[must_use]
+pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+    let (settled, ordered) = order::settled(task);
+    let outlook = Outlook::new(&settled);
+    let mut search = Search {
+        task: &settled,
+        outlook: &outlook,
+        legs: Legs::new(&settled, *manner),
+        nodes: Vec::new(),
+        open: BinaryHeap::new(),
+        closed: BTreeSet::new(),
+        haste: 1.0,
+        refused: Vec::new(),
+        exact: !ordered,
+        complete: !ordered,
+        expanded: 0,
+    };
+    search.run(progress)
+}
+
+/// A state and how it is reached.
+struct Node {
+    state: State,
+    parent: Option<usize>,
+    /// Steps done.
+    depth: usize,
+    /// Seconds to here; a lower bound while the motion is not planned.
+    seconds: f64,
+    way: Option<(Candidate, Option<Motion>)>,
+}
+
+/// By least total time; of equals the one that is farther, then the earlier found.
+type Entry = Reverse<(Ordered, Reverse<usize>, usize)>;
+
+struct Search<'a> {
+    task: &'a Task,
+    outlook: &'a Outlook<'a>,
+    legs: Legs<'a>,
+    nodes: Vec<Node>,
+    open: BinaryHeap<Entry>,
+    closed: BTreeSet<Vec<i64>>,
+    /// Weight of what is left.
+    haste: f64,
+    /// Steps that could not be done: after how many steps, which, and why.
+    refused: Vec<(usize, usize, Step, Refusal)>,
+    /// Whether what is found is the fastest of all that is looked at.
+    exact: bool,
+    /// Whether all there is is looked at.
+    complete: bool,
+    expanded: usize,
+}
+
+impl Search<'_> {
+    fn run(&mut self, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+        let start = State::at_start(self.task);
+        let lower_bound = self.outlook.remaining(start.q, start.progress);
+        self.push(Node { state: start, parent: None, depth: 0, seconds: 0.0, way: None });
+        let mut told = 0;
+        while let Some(Reverse((_, _, index))) = self.open.pop() {
+            if self.legs.planned() >= told + NEWS {
+                told = self.legs.planned();
+                progress(&format!("{told} motions planned, {} states seen", self.expanded));
+            }
+            let (most, expanded) = match self.haste > 1.0 {
+                true => (PATIENCE * MOST_MOTIONS, PATIENCE * MOST_EXPANDED),
+                false => (MOST_MOTIONS, MOST_EXPANDED),
+            };
+            if self.legs.planned() > most || self.expanded > expanded {
+                (self.exact, self.complete) = (false, false);
+                if self.haste > 1.0 {
+                    break;
+                }
+                self.hurry();
+            }
+            if matches!(self.nodes[index].way, Some((_, None))) {
+                self.settle(index);
+                continue;
+            }
+            if !self.closed.insert(self.nodes[index].state.key(self.task)) {
+                continue;
+            }
+            self.expanded += 1;
+            if self.nodes[index].state.is_done(self.task) {
+                return self.answer(TaskVerdict::Done, index, lower_bound);
+            }
+            self.expand(index);
+        }
+        self.failure(lower_bound)
+    }
+
+    fn push(&mut self, node: Node) {
+        self.open.push(self.entry(&node, self.nodes.len()));
+        self.nodes.push(node);
+    }
+
+    fn entry(&self, node: &Node, index: usize) -> Entry {
+        let left = self.outlook.remaining(node.state.q, node.state.progress);
+        Reverse((Ordered(node.seconds + self.haste * left), Reverse(node.depth), index))
+    }
+
+    /// Gives up on the fastest choice.
+    fn hurry(&mut self) {
+        self.haste = HASTE;
+        let open = std::mem::take(&mut self.open);
+        self.open = open.into_iter().map(|Reverse((_, _, index))| self.entry(&self.nodes[index], index)).collect();
+    }
+
+    /// Plans the motion to a node.
+    fn settle(&mut self, index: usize) {
+        let node = &self.nodes[index];
+        let (Some(parent), Some((candidate, None))) = (node.parent, &node.way) else { return };
+        let candidate = candidate.clone();
+        match self.legs.motion(&self.nodes[parent].state, &candidate) {
+            Ok(motion) => {
+                let turn = motion.turn.map_or(0.0, |(_, seconds)| seconds);
+                let before = self.nodes[parent].seconds;
+                let node = &mut self.nodes[index];
+                node.seconds = before + motion.timed.trajectory.duration() + turn + candidate.step.dwell;
+                node.state.q = motion.timed.curve.curve().path().goal();
+                node.way = Some((candidate, Some(motion)));
+                let entry = self.entry(&self.nodes[index], index);
+                self.open.push(entry);
+            }
+            Err(refusal) => self.refused.push((self.nodes[parent].depth, parent, candidate.step, refusal)),
+        }
+    }
+
+    fn expand(&mut self, index: usize) {
+        let Node { state, depth, seconds, .. } = &self.nodes[index];
+        let (depth, seconds, from) = (*depth, *seconds, state.q);
+        for candidates in state.candidates(self.task) {
+            self.complete &= candidates.all;
+            if candidates.ways.is_empty() {
+                let reason = "no posture within the joint limits reaches its target".to_owned();
+                let refusal = Refusal { reason, proven: candidates.all };
+                self.refused.push((depth, index, candidates.step, refusal));
+            }
+            for way in candidates.ways {
+                let step = &way.step;
+                let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
+                let least = super::least_time::least_time(&self.task.arm, from, way.to, step.speed) + turn + step.dwell;
+                let state = way.after.clone();
+                let node = Node {
+                    state,
+                    parent: Some(index),
+                    depth: depth + 1,
+                    seconds: seconds + least,
+                    way: Some((way, None)),
+                };
+                self.push(node);
+            }
+        }
+    }
+
+    /// The steps up to a node.
+    fn answer(&self, verdict: TaskVerdict, index: usize, lower_bound: f64) -> TaskAnswer {
+        let mut legs = Vec::new();
+        let mut at = Some(index);
+        while let Some(node) = at.map(|index| &self.nodes[index]) {
+            if let (Some(parent), Some((candidate, Some(motion)))) = (node.parent, &node.way) {
+                let before = &self.nodes[parent];
+                legs.push(Leg {
+                    step: candidate.step.clone(),
+                    scene: motion.scene.clone(),
+                    carried: before.state.held.as_ref().map(|held| held.object),
+                    timed: motion.timed.clone(),
+                    turn: motion.turn,
+                    event: candidate.event,
+                    begin: before.seconds,
+                });
+            }
+            at = node.parent;
+        }
+        legs.reverse();
+        TaskAnswer {
+            verdict,
+            legs,
+            lower_bound,
+            exact: self.exact,
+            motions: self.legs.planned(),
+            expanded: self.expanded,
+        }
+    }
+
+    /// What can be done, and why no more.
+    fn failure(&self, lower_bound: f64) -> TaskAnswer {
+        // Of the places where it ends, the farthest; of these the one reached first.
+        let reached = |node: &Node| matches!(node.way, None | Some((_, Some(_))));
+        let farthest = self.refused.iter().filter(|(_, node, ..)| reached(&self.nodes[*node]));
+        let depth = farthest.clone().map(|(depth, ..)| *depth).max().unwrap_or(0);
+        let mut at_depth = farthest.filter(|(d, ..)| *d == depth);
+        let Some((_, index, step, _)) = at_depth.clone().next() else {
+            unreachable!("a search ends at the goal or where steps are refused");
+        };
+        let mut reasons: Vec<String> = Vec::new();
+        for (_, _, refused, refusal) in at_depth.by_ref() {
+            if refused.number == step.number && !reasons.contains(&refusal.reason) {
+                reasons.push(refusal.reason.clone());
+            }
+        }
+        let impossible = Impossible { step: step.clone(), reasons };
+        let proven = self.complete && self.refused.iter().all(|(.., refusal)| refusal.proven);
+        let verdict = if proven { TaskVerdict::Infeasible(impossible) } else { TaskVerdict::Unknown(impossible) };
+        self.answer(verdict, *index, lower_bound)
+    }
+}

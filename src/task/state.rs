@@ -1,0 +1,276 @@
+//! How far a task is, and what can be done next.
+
+use super::answer::Event;
+use super::postures::{goal_postures, postures};
+use crate::geometry::{Point, Pose};
+use crate::model::{Action, Grip, Holding, Item, Payload, Scene, Step, Task};
+use crate::space::Configuration;
+use nalgebra::Isometry2;
+use std::f64::consts::{PI, TAU};
+
+/// How much of the items is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Progress {
+    /// The item that is next, or under way.
+    pub item: usize,
+    /// In a group in any order: the pairs that are done, one bit each.
+    pub done: u64,
+    /// In a group: the pair whose object is carried.
+    pub half: Option<usize>,
+}
+
+/// What is carried, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Held {
+    pub object: usize,
+    pub grip: Grip,
+    /// What it rested on, and what it will rest on: obstacles by number, ascending.
+    pub supports: Vec<usize>,
+}
+
+/// Where everything is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct State {
+    pub progress: Progress,
+    pub q: Configuration,
+    /// Of each object, where it lies; none while it is carried.
+    pub poses: Vec<Option<Pose>>,
+    pub held: Option<Held>,
+    /// The object just let go of.
+    pub released: Option<usize>,
+}
+
+/// One way to do the next step.
+#[derive(Debug, Clone)]
+pub(super) struct Candidate {
+    pub step: Step,
+    /// Where the motion is to end.
+    pub to: Configuration,
+    /// Orientations between which the wrist has to turn the object then.
+    pub turn: Option<[f64; 2]>,
+    pub event: Option<Event>,
+    /// How everything is then, but for turns of the joints.
+    pub after: State,
+}
+
+/// The ways to do a step.
+pub(super) struct Candidates {
+    pub step: Step,
+    pub ways: Vec<Candidate>,
+    /// Whether there are no other ways.
+    pub all: bool,
+}
+
+/// Orientations that differ by less, radians, are the same: rounding.
+const SAME_ANGLE: f64 = 1e-9;
+
+/// Poses and configurations are told apart to this, metres and radians: rounding of those that are the same.
+const GRAIN: f64 = 1e-9;
+
+impl State {
+    pub fn at_start(task: &Task) -> Self {
+        let state = Self {
+            progress: Progress { item: 0, done: 0, half: None },
+            q: task.start,
+            poses: task.objects.iter().map(|object| Some(object.at)).collect(),
+            held: None,
+            released: None,
+        };
+        state.settled(task)
+    }
+
+    pub fn is_done(&self, task: &Task) -> bool {
+        self.progress.item == task.items.len()
+    }
+
+    /// What tells states apart, as far as what follows depends on it.
+    pub fn key(&self, task: &Task) -> Vec<i64> {
+        let grains = |value: f64| (value / GRAIN).round() as i64;
+        let Progress { item, done, half } = self.progress;
+        let q = task.arm.topology().wrap(self.q);
+        let mut key = vec![item as i64, done as i64, half.map_or(-1, |pair| pair as i64), grains(q[0]), grains(q[1])];
+        let mut pose = |pose: &Pose| {
+            let turn = normalized(pose.rotation.angle());
+            key.extend([pose.translation.x, pose.translation.y, turn].map(grains));
+        };
+        self.poses.iter().flatten().for_each(&mut pose);
+        match &self.held {
+            Some(Held { grip: Grip::Rigid(in_link), .. }) => pose(in_link),
+            Some(Held { grip: Grip::Level { angle, .. }, .. }) => key.push(grains(normalized(*angle))),
+            None => {}
+        }
+        key.extend(self.held.iter().map(|held| held.object as i64));
+        key.extend(self.released.iter().map(|&object| object as i64));
+        key
+    }
+
+    /// The scene of the motion to a candidate's target.
+    pub fn scene(&self, task: &Task, candidate: &Candidate) -> Scene {
+        let picked = match candidate.event {
+            Some(Event::Grasp { object }) => Some(object),
+            _ => None,
+        };
+        let spared: Vec<usize> =
+            self.released.into_iter().chain(picked).map(|object| task.obstacle_number(object)).collect();
+        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
+    }
+
+    /// What the arm carries.
+    pub fn payload(&self, task: &Task) -> Option<Payload> {
+        self.held.as_ref().map(|held| payload(task, held))
+    }
+
+    /// The ways to do each of the steps that can be next.
+    pub fn candidates(&self, task: &Task) -> Vec<Candidates> {
+        let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
+        match (item, self.progress.half) {
+            (Item::Step(step), _) => vec![self.ways(task, step, following_place(task, self.progress.item), None)],
+            (Item::AnyOrder(pairs), Some(half)) => vec![self.ways(task, &pairs[half][1], None, Some(half))],
+            (Item::AnyOrder(pairs), None) => {
+                let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
+                open.map(|pair| self.ways(task, &pairs[pair][0], Some(&pairs[pair][1]), Some(pair))).collect()
+            }
+            // States are settled.
+            (Item::Renew(_), _) => Vec::new(),
+        }
+    }
+
+    fn ways(&self, task: &Task, step: &Step, place: Option<&Step>, pair: Option<usize>) -> Candidates {
+        let mut candidates = Candidates { step: step.clone(), ways: Vec::new(), all: true };
+        let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, held: Option<Held>| {
+            let mut after = Self { q: to, held, released: None, ..self.clone() };
+            match event {
+                Some(Event::Grasp { object }) => after.poses[object] = None,
+                Some(Event::Release { object, pose }) => {
+                    after.poses[object] = Some(pose);
+                    after.released = Some(object);
+                }
+                None => {}
+            }
+            after.progress = self.progress.after(&step.action, pair, task);
+            candidates.ways.push(Candidate { step: step.clone(), to, turn, event, after: after.settled(task) });
+        };
+        let arm = &task.arm;
+        let reach = match (&step.action, &self.held) {
+            (Action::Move(goal), held) => {
+                let reach = goal_postures(arm, goal, self.q);
+                reach.configurations.iter().for_each(|&to| add(to, None, None, held.clone()));
+                reach
+            }
+            (Action::Pick { object, grasp, supports }, None) => {
+                let Some(lies) = self.poses[*object] else { return Candidates { all: false, ..candidates } };
+                let reach = postures(arm, arm.tip, lies * grasp, self.q);
+                let mut supports = supports.clone();
+                let wanted = place.and_then(|place| match &place.action {
+                    Action::Place { angle, supports: then, .. } => {
+                        supports.extend(then);
+                        *angle
+                    }
+                    _ => None,
+                });
+                supports.sort_unstable();
+                supports.dedup();
+                let event = Some(Event::Grasp { object: *object });
+                let hold = |grip| Some(Held { object: *object, grip, supports: supports.clone() });
+                for &to in &reach.configurations {
+                    match task.objects[*object].holding {
+                        Holding::Rigid => add(to, None, event, hold(Payload::rigid_grip(arm, to, &lies))),
+                        Holding::Level => {
+                            let angle = lies.rotation.angle();
+                            add(to, None, event, hold(Grip::Level { angle, point: *grasp }));
+                            if let Some(wanted) = wanted.filter(|wanted| !same_angle(*wanted, angle)) {
+                                let grip = Grip::Level { angle: wanted, point: *grasp };
+                                add(to, Some([angle, wanted]), event, hold(grip));
+                            }
+                        }
+                    }
+                }
+                reach
+            }
+            (Action::Place { at, angle, .. }, Some(held)) => {
+                let object = held.object;
+                match held.grip {
+                    Grip::Rigid(in_link) => {
+                        let origin = Point::from(in_link.translation.vector);
+                        let reach = postures(arm, origin, *at, self.q);
+                        for &to in &reach.configurations {
+                            let turned = (arm.pose(1, to) * in_link).rotation.angle();
+                            let pose = Isometry2::new(at.coords, turned);
+                            add(to, None, Some(Event::Release { object, pose }), None);
+                        }
+                        reach
+                    }
+                    Grip::Level { angle: carried, point } => {
+                        let wanted = angle.unwrap_or(carried);
+                        let pose = Isometry2::new(at.coords, wanted);
+                        let reach = postures(arm, arm.tip, pose * point, self.q);
+                        let turn = (!same_angle(carried, wanted)).then_some([carried, wanted]);
+                        let event = Some(Event::Release { object, pose });
+                        reach.configurations.iter().for_each(|&to| add(to, turn, event, None));
+                        reach
+                    }
+                }
+            }
+            // The loader lets picks and places alternate.
+            (Action::Pick { .. }, Some(_)) | (Action::Place { .. }, None) => {
+                return Candidates { all: false, ..candidates };
+            }
+        };
+        // A turn could also be made on the way.
+        let turns = candidates.ways.iter().any(|way| way.turn.is_some());
+        Candidates { all: reach.all && !turns, ..candidates }
+    }
+
+    /// Supplies what is to be renewed before the next step.
+    fn settled(mut self, task: &Task) -> Self {
+        while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
+            objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+            self.progress.item += 1;
+        }
+        self
+    }
+}
+
+impl Progress {
+    fn after(self, action: &Action, pair: Option<usize>, task: &Task) -> Self {
+        let next = Self { item: self.item + 1, done: 0, half: None };
+        let Some(pair) = pair else { return next };
+        if matches!(action, Action::Pick { .. }) {
+            return Self { half: Some(pair), ..self };
+        }
+        let done = self.done | 1 << pair;
+        let all = matches!(&task.items[self.item], Item::AnyOrder(pairs) if done.count_ones() as usize == pairs.len());
+        if all { next } else { Self { done, half: None, ..self } }
+    }
+}
+
+/// What the arm carries, from how it is held.
+pub(super) fn payload(task: &Task, held: &Held) -> Payload {
+    let object = &task.objects[held.object];
+    Payload {
+        object: object.name.clone(),
+        pieces: object.pieces.clone(),
+        heights: object.carried_heights(),
+        grip: held.grip,
+        supports: held.supports.clone(),
+    }
+}
+
+/// The place that ends the carrying that begins with an item.
+fn following_place(task: &Task, item: usize) -> Option<&Step> {
+    task.items[item..].iter().find_map(|item| match item {
+        Item::Step(step) if matches!(step.action, Action::Place { .. }) => Some(step),
+        _ => None,
+    })
+}
+
+/// Whether two orientations are the same up to whole turns.
+pub(super) fn same_angle(a: f64, b: f64) -> bool {
+    normalized(a - b).abs() < SAME_ANGLE
+}
+
+/// The same orientation in `[-pi, pi)`, and those within rounding of `pi` as `-pi`.
+fn normalized(angle: f64) -> f64 {
+    let turn = (angle + PI).rem_euclid(TAU) - PI;
+    if turn > PI - SAME_ANGLE { -PI } else { turn }
+}
