@@ -27,7 +27,8 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
-    let loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
+    let mut loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
+    args.motion.override_limits(&mut loaded.problem.scene.arm.joints);
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {

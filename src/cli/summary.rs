@@ -84,8 +84,9 @@ pub fn text(
     let mut lines: Vec<(&str, String)> = Vec::new();
     lines.push(("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name)));
     for joint in &arm.joints {
-        let speeds =
-            format!("at most {} {unit}/s, {} {unit}/s2", joint.velocity, joint.acceleration, unit = joint.unit());
+        let unit = joint.unit();
+        let jerk = joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
+        let speeds = format!("at most {} {unit}/s, {} {unit}/s2{jerk}", joint.velocity, joint.acceleration);
         lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
     }
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));

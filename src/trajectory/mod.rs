@@ -8,6 +8,7 @@ mod csv;
 mod drive;
 mod field;
 mod format;
+mod jerk;
 mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
@@ -29,7 +30,7 @@ pub use drive::Drive;
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub use limits::Limits;
-pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
+pub use result::{Blends, INTERPOLATION, Optimum, Report, SMOOTH_INTERPOLATION, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use tip::TipSpeed;
