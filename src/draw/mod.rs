@@ -10,9 +10,11 @@
 
 mod axes;
 mod boxes;
+mod chart;
 mod color;
 mod copies;
 mod cspace;
+mod extent;
 mod figure;
 mod frames;
 mod isolines;
@@ -20,7 +22,9 @@ mod legend;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
+mod posture;
 mod preferences;
+mod shapes;
 mod svg_writer;
 mod trace;
 mod workspace;
