@@ -70,6 +70,14 @@ fn extent(obstacle: &Obstacle) -> [Range; 2] {
     bounds
 }
 
+/// The box around an obstacle that lies somewhere, on the page.
+#[must_use]
+pub fn on_page(frame: &Frame, obstacle: &Obstacle) -> Rect {
+    let [x, y] = extent(obstacle);
+    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
+    Rect { x: left, y: top, width: right - left, height: bottom - top }
+}
+
 /// Says so if obstacles lie outside the panel. Those without pieces lie nowhere.
 #[must_use]
 pub fn hidden_note(frame: &Frame, obstacles: &[Obstacle]) -> Option<Item> {

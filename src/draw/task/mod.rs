@@ -21,7 +21,7 @@ use crate::task::{Leg, TaskAnswer};
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// How it ended, in a word or two. Where a step fails, its number is added, and the reason to the title.
+    /// How it ended, in a word or two. Where a step fails, its number comes before, and the reason below the title.
     pub status: String,
     /// What was asked.
     pub task: &'a Task,

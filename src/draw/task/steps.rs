@@ -37,7 +37,7 @@ pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let Some(impossible) = failing(picture) else { return (lines, picture.status.clone()) };
     let step = &impossible.step;
     let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
-    let status = format!("{}: step {}{round} fails", picture.status, step.number);
+    let status = format!("step {}{round} fails: {}", step.number, picture.status);
     let what = step.action.describe(&picture.task.objects);
     lines.push(format!("step {}, {what}: {}", step.number, impossible.reasons.join("; or ")));
     (lines, status)

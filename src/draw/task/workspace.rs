@@ -49,7 +49,8 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     }
     let dot = Style::line(WHITE, 1.2).filled(INK);
     inside.extend(numbers.iter().map(|tag| Item::Disc(tag.at, 3.6, dot)));
-    inside.extend(tags::items(&numbers, frame.rect));
+    let shapes: Vec<Rect> = overview.workspace.obstacles.iter().map(|o| extent::on_page(&frame, o)).collect();
+    inside.extend(tags::items(&numbers, frame.rect, &shapes));
     inside.extend(extent::hidden_note(&frame, &overview.workspace.obstacles));
     framed(&frame, &arm.plane, inside)
 }
