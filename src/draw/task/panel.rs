@@ -71,7 +71,7 @@ impl<'a> Panel<'a> {
             tags::add(&mut numbers, chart.place(path.goal()), leg.step.number);
         }
         if numbers.len() > 1 {
-            items.extend(tags::items(&numbers, frame.rect, &[]));
+            items.extend(tags::items(&numbers, frame.rect, &[], &[]));
         }
         items.push(title(&self.title, frame.rect));
         items

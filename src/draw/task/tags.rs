@@ -18,11 +18,15 @@ const GAP: f64 = 9.0;
 const SIDES: [[f64; 2]; 8] =
     [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
 
-/// Gaps to choose from, in units of the least, and what the wider costs, square pixels: less than hiding a shape, more
-/// than nothing.
-const RINGS: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 8.0)];
-/// What it costs to cover a number or a place, by area, as against covering a shape.
+/// Gaps to choose from, in units of the least, and what the wider costs, as the others in square pixels of a covered
+/// shape: less than hiding one.
+const RINGS: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
+/// What each side costs more than the one before: enough for numbers in a row to stand alike.
+const ORDER: f64 = 1.0;
+/// What it costs to cover a number or a place.
 const HIDING: f64 = 8.0;
+/// What it costs to cover a spot of a line; these are some pixels apart.
+const LINE_SPOT: f64 = 4.0;
 
 /// Steps that end at one place.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,25 +47,27 @@ pub fn add(tags: &mut Vec<Tag>, at: Spot, number: usize) {
 }
 
 /// The numbers in boxes, each on the side of its place where it covers least of the others, of the places, of what lies
-/// outside, and then of the `shapes`.
+/// outside, and then of the `shapes` and of lines through the `spots`.
 #[must_use]
-pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect]) -> Vec<Item> {
+pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec<Item> {
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
     let mut items = Vec::new();
     for tag in tags {
         let text = shortened(&super::states::ranges(&tag.numbers), SIZE, WIDEST);
         let size = [text_width(&text, SIZE) + 6.0, LINE];
         let boxes = RINGS.iter().flat_map(|&(ring, extra)| {
-            SIDES.map(|side| {
+            SIDES.iter().zip(0..).map(move |(side, index)| {
                 // Diagonal boxes come nearer: their corner is what faces the place.
                 let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * GAP } else { GAP };
-                (around([0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap)), size), extra)
+                let middle = [0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap));
+                (around(middle, size), extra + ORDER * f64::from(index))
             })
         });
         let covered = |b: &Rect, others: &[Rect]| others.iter().map(|other| overlap(b, other)).sum::<f64>();
         let cost = |(b, extra): &(Rect, f64)| {
             let outside = b.width * b.height - overlap(b, &within);
-            HIDING * (covered(b, &taken) + outside) + covered(b, shapes) + extra
+            let lines = spots.iter().filter(|s| (b.x..b.right()).contains(&s[0]) && (b.y..b.bottom()).contains(&s[1]));
+            HIDING * (covered(b, &taken) + outside) + covered(b, shapes) + LINE_SPOT * lines.count() as f64 + extra
         };
         let best = boxes.min_by(|a, b| cost(a).total_cmp(&cost(b)));
         let Some((place, _)) = best else { continue };
@@ -112,7 +118,7 @@ mod tests {
         for number in 0..12 {
             add(&mut tags, [2.0 + 34.0 * (number % 4) as f64, 4.0 + 30.0 * (number / 4) as f64], number);
         }
-        let boxes = boxes(&items(&tags, page, &[]));
+        let boxes = boxes(&items(&tags, page, &[], &[]));
         assert_eq!(boxes.len(), 12);
         for (i, a) in boxes.iter().enumerate() {
             assert!((overlap(a, &page) - a.width * a.height).abs() < 1e-9, "{a:?} sticks out");
@@ -125,7 +131,7 @@ mod tests {
         let page = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
         let shape = around([100.0, 100.0], [26.0, 26.0]);
         let tags = [Tag { at: [100.0, 100.0], numbers: vec![3] }];
-        let beside = |shapes: &[Rect]| boxes(&items(&tags, page, shapes))[0];
+        let beside = |shapes: &[Rect]| boxes(&items(&tags, page, shapes, &[]))[0];
         assert!(overlap(&beside(&[]), &shape) > 0.0);
         assert_eq!(overlap(&beside(&[shape]), &shape), 0.0);
     }

@@ -3,7 +3,7 @@
 use super::states::PayloadState;
 use super::{TaskPicture, motion_pen, object_color, tags};
 use crate::draw::color::{self, INK, WHITE};
-use crate::draw::figure::{Item, Rect, Style};
+use crate::draw::figure::{Item, Rect, Spot, Step, Style};
 use crate::draw::posture::{self, GOAL, START};
 use crate::draw::workspace::{framed, ground, tip_trace};
 use crate::draw::{extent, page, preferences, shapes};
@@ -41,7 +41,9 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     }
     let motions = || states.iter().flat_map(|state| &state.motions);
     let trace = |leg: &Leg| tip_trace(&frame, arm, &leg.timed.curve.curve().outline());
-    inside.extend(page::lines(motions().map(|leg| (trace(leg), motion_pen(task, leg)))));
+    let traces: Vec<_> = motions().map(|leg| (trace(leg), motion_pen(task, leg))).collect();
+    let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
+    inside.extend(page::lines(traces));
     let mut numbers = Vec::new();
     for leg in motions() {
         let tip = arm.tip_at(leg.timed.curve.curve().path().goal());
@@ -50,9 +52,17 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     let dot = Style::line(WHITE, 1.2).filled(INK);
     inside.extend(numbers.iter().map(|tag| Item::Disc(tag.at, 3.6, dot)));
     let shapes: Vec<Rect> = overview.workspace.obstacles.iter().map(|o| extent::on_page(&frame, o)).collect();
-    inside.extend(tags::items(&numbers, frame.rect, &shapes));
+    inside.extend(tags::items(&numbers, frame.rect, &shapes, &spots));
     inside.extend(extent::hidden_note(&frame, &overview.workspace.obstacles));
     framed(&frame, &arm.plane, inside)
+}
+
+/// Where a step of an outline leads.
+fn end(step: &Step) -> Option<Spot> {
+    match *step {
+        Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
+        Step::Close => None,
+    }
 }
 
 /// Where objects are put, by the object's number; each place once, and none where the object lay at first.
