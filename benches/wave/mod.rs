@@ -152,13 +152,14 @@ pub fn wave(c: &mut Criterion) {
     for n in [1024, 4096] {
         let mut group = c.benchmark_group(format!("wave {n}^2"));
         group.sample_size(10);
-        let scenes: [(&str, Scene); 8] = [
+        let scenes: [(&str, Scene); 9] = [
             ("free", |n| square(n, vec![false; n * n])),
             ("boxes on a torus", boxes),
             ("clutter", clutter),
             ("rooms of 128", |n| rooms(n, 128, 16)),
             ("rooms of 64", |n| rooms(n, 64, 4)),
             ("noise of 5 percent", |n| noise(n, 5)),
+            ("noise of 30 percent", |n| noise(n, 30)),
             ("maze of 16", |n| maze(n, 16)),
             ("maze of 1", |n| maze(n, 1)),
         ];

@@ -5,6 +5,7 @@ mod queue_wave;
 mod run_wave;
 pub mod search;
 mod step_labels;
+mod tile_wave;
 
 pub use free_cells::{FreeCells, Move, Neighborhood};
 pub use step_labels::StepLabels;

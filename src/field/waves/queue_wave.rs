@@ -1,81 +1,15 @@
-//! The wave cell by cell, level by level.
+//! The wave over eight neighbours, cell by cell.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
 
-/// Stands in the labels for a cell that is not free, so that one comparison tells which cells wait for the wave.
-const BLOCKED: u32 = UNREACHED - 1;
-
-/// Labels every cell that a wave from `sources` (free cells) reaches over the cells that share a side. `labels` must be
-/// [`UNREACHED`] everywhere.
-pub(super) fn queue_wave(free: &FreeCells, sources: &[usize], labels: &mut [u32]) {
-    let ([_, columns], [rows_wrap, columns_wrap]) = (free.cells(), free.circles());
-    let size = labels.len();
-    mark(free, labels, BLOCKED);
-    // Index and column of each cell of a level.
-    let mut front: Vec<[u32; 2]> = Vec::new();
-    for &source in sources {
-        if labels[source] == UNREACHED {
-            labels[source] = 0;
-            front.push([source as u32, (source % columns) as u32]);
-        }
-    }
-    let mut next = Vec::new();
-    let mut level = 0;
-    while !front.is_empty() {
-        level += 1;
-        for &[at, column] in &front {
-            let (at, j) = (at as usize, column as usize);
-            let mut reach = |to: usize, j: usize| {
-                if labels[to] == UNREACHED {
-                    labels[to] = level;
-                    next.push([to as u32, j as u32]);
-                }
-            };
-            if at >= columns {
-                reach(at - columns, j);
-            } else if rows_wrap {
-                reach(at + size - columns, j);
-            }
-            if at + columns < size {
-                reach(at + columns, j);
-            } else if rows_wrap {
-                reach(at + columns - size, j);
-            }
-            if j > 0 {
-                reach(at - 1, j - 1);
-            } else if columns_wrap {
-                reach(at + columns - 1, columns - 1);
-            }
-            if j + 1 < columns {
-                reach(at + 1, j + 1);
-            } else if columns_wrap {
-                reach(at + 1 - columns, 0);
-            }
-        }
-        front.clear();
-        std::mem::swap(&mut front, &mut next);
-    }
-    mark(free, labels, UNREACHED);
-}
-
-/// Labels all cells that are not free.
-fn mark(free: &FreeCells, labels: &mut [u32], label: u32) {
-    let lines = labels.chunks_exact_mut(free.cells()[1].max(1)).flat_map(|line| line.chunks_mut(64));
-    for (cells, word) in lines.zip(free.bits()) {
-        let mut blocked = !word & (u64::MAX >> (64 - cells.len()));
-        while blocked != 0 {
-            cells[blocked.trailing_zeros() as usize] = label;
-            blocked &= blocked - 1;
-        }
-    }
-}
-
-/// The same over the cells that share a side or a corner.
+/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side or a corner, and
+/// [`UNREACHED`] for all others.
 ///
 /// Which cells still wait is kept in bits beside the labels, which are written once each. Looking at a neighbour
 /// takes no branch: it is entered into the next front, and that is one longer afterwards only if it waited.
-pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize], labels: &mut [u32]) {
-    let columns = free.cells()[1];
+pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
+    let [rows, columns] = free.cells();
+    let mut labels = vec![UNREACHED; rows * columns];
     let mut waiting = free.bits().to_vec();
     let mut front = Vec::new();
     for &source in sources {
@@ -91,11 +25,12 @@ pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize], labels: &
     let mut level = 0;
     while !front.is_empty() {
         next.resize(8 * front.len(), [0; 2]);
-        let reached = advance(free, &front, level, &mut waiting, labels, &mut next);
+        let reached = advance(free, &front, level, &mut waiting, &mut labels, &mut next);
         next.truncate(reached);
         std::mem::swap(&mut front, &mut next);
         level += 1;
     }
+    labels
 }
 
 /// Labels the cells of `front` (rows and columns) and enters those that they reach into `next`, which has room for all

@@ -14,8 +14,8 @@ const STRETCH: usize = 64;
 /// The wave is given up when the work exceeds this many times the number of cells: by then a queue had done it.
 const MOST_WORK: usize = 5;
 
-/// Labels every cell that a wave from `sources` (free cells) reaches over the cells that share a side. `labels` must be
-/// [`UNREACHED`] everywhere. Whether it was worth it; if not, the labels are not the final ones.
+/// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side, and
+/// [`UNREACHED`] for all others; nothing if it turned out not to be worth it.
 ///
 /// In each row the labels of free cells beside one another differ by one at most. So if a stretch of a row is copied to
 /// the row beside it, plus one and where that is less, that row keeps this property but at the ends of what was copied; and
@@ -24,10 +24,11 @@ const MOST_WORK: usize = 5;
 /// first; a stretch reaches ahead of its least label, so that some labels are corrected later by another one that
 /// comes the shorter way. When no stretch waits, no label is greater than a neighbour's plus one: these are the
 /// distances, whatever the order was.
-pub(super) fn run_wave(free: &FreeCells, sources: &[usize], labels: &mut [u32]) -> bool {
-    let columns = free.cells()[1];
+pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
+    let [rows, columns] = free.cells();
+    let mut labels = vec![UNREACHED; rows * columns];
     let most = MOST_WORK.saturating_mul(labels.len().max(STRETCH));
-    let mut wave = RunWave { free, labels, queue: Queue::new(columns), work: 0 };
+    let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
     // One after the other: rows keep the property.
     for &source in sources {
         wave.labels[source] = 0;
@@ -45,10 +46,10 @@ pub(super) fn run_wave(free: &FreeCells, sources: &[usize], labels: &mut [u32]) 
             wave.pass_on(&stretch, to, Ways { before: false, after: true });
         }
         if wave.work > most {
-            return false;
+            return None;
         }
     }
-    true
+    Some(labels)
 }
 
 /// To which of the neighbouring rows.

@@ -1,11 +1,12 @@
 //! Steps to the nearest source, for every free cell.
 
-use super::queue_wave::{queue_wave, queue_wave_of_eight};
+use super::queue_wave::queue_wave_of_eight;
 use super::run_wave::run_wave;
+use super::tile_wave::tile_wave;
 use super::{FreeCells, Neighborhood, UNREACHED};
 
 /// Where free cells come in runs of this many on the average, the wave goes run by run; in narrower mazes and in noise
-/// cell by cell is faster (measured: at 32 the runs are faster in a maze, and slower in noise).
+/// tile by tile is faster.
 const RUN: usize = 40;
 
 /// The least number of moves from each cell to a source: the navigation function whose level sets a wave passes through
@@ -24,19 +25,12 @@ impl StepLabels {
     /// of it for getting the memory; else about that of a plain queue.
     #[must_use]
     pub fn new(free: &FreeCells, sources: &[usize], neighborhood: Neighborhood) -> Self {
-        let [rows, columns] = free.cells();
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();
-        let mut labels = vec![UNREACHED; rows * columns];
-        match neighborhood {
-            Neighborhood::Eight => queue_wave_of_eight(free, &sources, &mut labels),
-            Neighborhood::Four if free.count() < RUN * free.runs() => queue_wave(free, &sources, &mut labels),
-            Neighborhood::Four => {
-                if !run_wave(free, &sources, &mut labels) {
-                    labels.fill(UNREACHED);
-                    queue_wave(free, &sources, &mut labels);
-                }
-            }
-        }
+        let labels = match neighborhood {
+            Neighborhood::Eight => queue_wave_of_eight(free, &sources),
+            Neighborhood::Four if free.count() < RUN * free.runs() => tile_wave(free, &sources),
+            Neighborhood::Four => run_wave(free, &sources).unwrap_or_else(|| tile_wave(free, &sources)),
+        };
         Self { neighborhood, labels }
     }
 
