@@ -8,6 +8,7 @@ mod csv;
 mod drive;
 mod field;
 mod format;
+mod json;
 mod limits;
 mod profile;
 mod result;
@@ -20,13 +21,14 @@ mod whole_file;
 #[cfg(test)]
 mod tests;
 
-pub use csv::csv;
+pub use csv::{csv, csv_with_steps};
 pub use drive::Drive;
 pub use field::FieldReport;
 pub use format::{Format, UnknownFormat};
+pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
 pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use tip::TipSpeed;
-pub use whole_file::{WriteError, check_writable, write_whole};
+pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};
