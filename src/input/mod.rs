@@ -15,17 +15,23 @@ mod error;
 mod inspection;
 mod line_map;
 mod map_text;
+mod object;
 mod obstacle;
 mod occupancy;
+mod posture;
 mod preference;
 mod preference_map;
 mod problem;
+mod sequence;
 mod source;
+mod step;
+mod task;
 mod trajectory;
 mod urdf;
 mod values;
 mod world;
 mod world_map;
+mod wrist;
 
 pub use error::{Defect, InputError};
 pub use inspection::{
@@ -36,6 +42,7 @@ pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use source::Position;
+pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};
 pub use world::World;
@@ -54,10 +61,11 @@ pub struct RobotReport {
     pub held: Vec<(String, f64)>,
 }
 
-/// Arm and obstacles as the files have them, without start and goal.
+/// Arm, obstacles and objects as the files have them, without start, goal and steps.
 #[derive(Debug, Clone)]
 pub struct LoadedScene {
-    /// The arm among its obstacles, with the world's clearance.
+    /// The arm among its obstacles, with the world's clearance. Objects lie where they lie at first, and follow the
+    /// obstacles that stay where they are.
     pub scene: Scene,
     /// The world file.
     pub world: World,
@@ -76,14 +84,15 @@ pub struct Loaded {
     pub notes: Vec<String>,
 }
 
-/// Reads a robot and a world. Start and goal may be missing or wrong: see [`LoadedScene::problem`].
+/// Reads a robot and a world. Start and goal may be missing or wrong, and steps out of the arm's reach: see
+/// [`LoadedScene::problem`] and [`LoadedScene::task`].
 ///
 /// # Errors
 /// [`InputError`] for everything that is wrong with the files themselves.
 pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let (arm, robot) = urdf::load(urdf, &world)?;
-    let scene = Scene::new(arm, world.workspace.clone());
+    let scene = Scene::new(arm, world.at_first());
     Ok(LoadedScene { scene, world, robot })
 }
 
@@ -107,9 +116,14 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
     if world.is_some() && inspection.is_plannable() {
         let loaded =
             inspection.scene.clone().map(|scene| LoadedScene { scene, world: file, robot: RobotReport::default() });
-        let query = loaded.and_then(|l| l.problem(&Overrides::default()).err());
-        let defects = query.iter().flat_map(|e| e.defects());
-        inspection.warnings.extend(defects.map(|d| format!("start and goal: {}", d.message)));
+        let overrides = Overrides::default();
+        let query = loaded.and_then(|l| match l.has_steps() {
+            true => l.task(&overrides).err().map(|e| ("task", e)),
+            false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
+        });
+        if let Some((what, error)) = query {
+            inspection.warnings.extend(error.defects().iter().map(|d| format!("{what}: {}", d.message)));
+        }
     }
     inspection
 }

@@ -23,13 +23,15 @@ pub(super) struct ObstacleTable {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct CircleTable {
+pub(super) struct CircleTable {
     center: Numbers,
     radius: Number,
 }
 
 /// Convex pieces of the largest map: beyond it each planner takes minutes.
 pub(super) const MOST_PIECES: usize = 1 << 20;
+
+const SIMPLE: &str = "list the corners in order round the shape, each once; a wall without area is a polyline";
 
 impl ObstacleTable {
     /// The obstacle, the `index`-th of its file.
@@ -41,7 +43,7 @@ impl ObstacleTable {
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
-            (Some(corners), None, None, None) => polygon(reader, corners, &what)?,
+            (Some(corners), None, None, None) => polygon(reader, corners, &what, SIMPLE)?,
             (None, Some(disc), None, None) => circle(reader, disc, &what)?,
             (None, None, Some(points), None) => polyline(reader, points, &what)?,
             (None, None, None, Some(file)) => image(reader, file, obstacle.unknown.as_ref(), &what)?,
@@ -91,18 +93,22 @@ fn image(
     Ok((Shape::Pieces, pieces))
 }
 
-fn polygon(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+/// A polygon without crossings; `cure` is for one that has some.
+pub(super) fn polygon(
+    reader: &Reader,
+    corners: &Spanned<Vec<Numbers>>,
+    what: &str,
+    cure: &str,
+) -> Result<(Shape, Vec<Convex>), Defect> {
     let points = reader.points(corners, what)?;
     let polygon = SimplePolygon::new(points).map_err(|defect| {
-        reader
-            .source
-            .defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}"))
-            .cure("list the corners in order round the shape, each once; a wall without area is a polyline")
+        reader.source.defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}")).cure(cure)
     })?;
     Ok((Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces()))
 }
 
-fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+/// A disc.
+pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
     let center = reader.point(&circle.center, &format!("{what}, center"))?;
     let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
     if radius <= 0.0 {

@@ -1,15 +1,18 @@
 //! Start and goal: within the limits, free, and for a goal of the tip every posture that reaches it.
 
 use super::error::{Defect, InputError};
-use super::world::WorldGoal;
+use super::posture::{
+    CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, obstructions, out_of_reach,
+    within_limits,
+};
 use super::{Loaded, LoadedScene, Overrides, clearance as checked_clearance};
 use crate::geometry::Point;
-use crate::model::{Goal, Problem, Scene, inverse, within};
-use crate::space::{Axis, Configuration};
+use crate::model::{Goal, Problem, inverse};
+use crate::space::Configuration;
 use std::ops::Range;
 
 /// Where a value was given: on the command line, or in the world file.
-enum Place<'a> {
+pub(super) enum Place<'a> {
     Option(&'static str),
     World(&'a LoadedScene, Range<usize>),
 }
@@ -27,10 +30,13 @@ impl LoadedScene {
     /// Puts start and goal into the scene: the command line's, else the world file's.
     ///
     /// # Errors
-    /// When either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
+    /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
     /// clearance, or when no posture puts the tip at the goal. The message says which link hits which obstacle and how
     /// deep.
     pub fn problem(mut self, overrides: &Overrides) -> Result<Loaded, InputError> {
+        if self.has_steps() {
+            return Err(self.has_no_goal(overrides).into());
+        }
         if let Some(clearance) = overrides.clearance {
             self.scene.workspace.clearance = checked_clearance(clearance)?;
         }
@@ -48,7 +54,8 @@ impl LoadedScene {
         Ok(Loaded { problem: Problem { scene: self.scene, start, goal, goals }, robot: self.robot, notes })
     }
 
-    fn start(&self, overrides: &Overrides) -> Result<(Configuration, Place<'_>), InputError> {
+    /// The start, and where it was given.
+    pub(super) fn start(&self, overrides: &Overrides) -> Result<(Configuration, Place<'_>), InputError> {
         if let Some(values) = &overrides.start {
             return Ok((values.resolve(&self.scene.arm.joints, "--start")?, Place::Option("--start")));
         }
@@ -72,10 +79,7 @@ impl LoadedScene {
             (None, None) => {}
         }
         match &self.world.goal {
-            Some((WorldGoal::Joints(values), at)) => {
-                Ok((Goal::Joints(Configuration::from(*values)), Place::World(self, at.clone())))
-            }
-            Some((WorldGoal::Tip(tip), at)) => Ok((Goal::Tip(*tip), Place::World(self, at.clone()))),
+            Some((goal, at)) => Ok((*goal, Place::World(self, at.clone()))),
             None => {
                 let cure =
                     "[goal] joints = [q1, q2] or tip = [x, y] in the world file, or --goal q1,q2, or --goal-tip x,y";
@@ -84,17 +88,31 @@ impl LoadedScene {
         }
     }
 
+    /// The defect of asking for the goal of a world that has steps.
+    pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Defect {
+        let message = "this world has steps, not a goal";
+        let option = match (&overrides.goal, &overrides.goal_tip) {
+            (Some(_), _) => "--goal",
+            (None, Some(_)) => "--goal-tip",
+            (None, None) => {
+                let at = self.world.steps.as_ref().map_or(0..0, |steps| steps.at.clone());
+                let cure = "only `cplan ROBOT WORLD` plans steps; for other commands put a [goal] in their place";
+                return self.world.source.defect_at(at, message).cure(cure);
+            }
+        };
+        Defect::new(option, message).cure("leave the option out, or remove the steps from the world")
+    }
+
     fn missing(&self, what: &str, cure: &str) -> Defect {
         self.world.source.defect(format!("there is no {what}")).cure(cure)
     }
 
-    fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Defect> {
+    /// Refuses a configuration outside the limits or not free.
+    pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Defect> {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
             let message = format!("{what} is outside the joint limits: {}", outside.join("; "));
-            return Err(place
-                .defect(message)
-                .cure("choose values within, or override [robot] limits in the world file"));
+            return Err(place.defect(message).cure(CURE_FOR_LIMITS));
         }
         let hits = obstructions(&self.scene, q);
         if !hits.is_empty() {
@@ -117,16 +135,7 @@ impl LoadedScene {
         let solved = inverse(arm, tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            let message = format!(
-                "the goal {at} m is out of reach of the tip \"{}\", whatever the joint limits: it is {:.4} m from joint \"{}\"{}",
-                arm.tip_name,
-                (tip - arm.base).norm(),
-                arm.joints[0].name,
-                reach(scene)
-            );
-            return Err(place
-                .defect(message)
-                .cure("choose a point nearer by; coordinates are metres in the arm's plane"));
+            return Err(place.defect(out_of_reach(scene, "the goal", tip)).cure(CURE_FOR_REACH));
         }
         if let Some(joint) = solved.free {
             let name = &arm.joints[joint].name;
@@ -135,25 +144,14 @@ impl LoadedScene {
                 start[joint]
             ));
         }
+        let (allowed, mut blocked) = within_limits(scene, &solved);
         let mut goals = Vec::new();
-        let mut blocked = Vec::new();
-        for branch in &solved.branches {
-            let copies = [0, 1].map(|i| within(arm.joints[i].axis, arm.joints[i].motion.is_revolute(), branch[i]));
-            if copies.iter().any(Vec::is_empty) {
-                let nearest = Configuration::from_fn(|i, _| copies[i].first().copied().unwrap_or(branch[i]));
-                blocked.push(format!("({}): {}", describe(scene, nearest), beyond_limits(scene, nearest).join("; ")));
-                continue;
-            }
-            for first in &copies[0] {
-                for second in &copies[1] {
-                    let q = Configuration::new(*first, *second);
-                    let hits = obstructions(scene, q);
-                    if hits.is_empty() {
-                        goals.push(q);
-                    } else {
-                        blocked.push(format!("({}): {}", describe(scene, q), hits.join("; ")));
-                    }
-                }
+        for q in allowed {
+            let hits = obstructions(scene, q);
+            if hits.is_empty() {
+                goals.push(q);
+            } else {
+                blocked.push(format!("({}): {}", describe(scene, q), hits.join("; ")));
             }
         }
         if goals.is_empty() {
@@ -163,56 +161,4 @@ impl LoadedScene {
         notes.extend(blocked.into_iter().map(|b| format!("a posture with the tip at {at} is ruled out: {b}")));
         Ok(goals)
     }
-}
-
-/// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
-fn describe(scene: &Scene, q: Configuration) -> String {
-    let value = |i: usize| format!("{} {} {}", scene.arm.joints[i].name, rounded(q[i]), scene.arm.joints[i].unit());
-    format!("{}, {}", value(0), value(1))
-}
-
-/// Six decimals are plenty for people.
-fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6 + 0.0
-}
-
-fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
-    let mut outside = Vec::new();
-    for (joint, value) in scene.arm.joints.iter().zip(q.iter()) {
-        if let Axis::Interval { lower, upper } = joint.axis
-            && !joint.axis.contains(*value)
-        {
-            let unit = joint.unit();
-            // Unrounded when rounding would hide the excess.
-            let shown = if joint.axis.contains(rounded(*value)) { *value } else { rounded(*value) };
-            outside.push(format!(
-                "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
-                joint.name
-            ));
-        }
-    }
-    outside
-}
-
-/// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
-fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
-    scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
-}
-
-fn cure_for_contact(scene: &Scene) -> &'static str {
-    if scene.workspace.clearance > 0.0 {
-        "move it away from the obstacle, or ask for less clearance"
-    } else {
-        "move it away from the obstacle (touching counts as contact)"
-    }
-}
-
-/// What an arm with two revolute joints reaches, for messages.
-fn reach(scene: &Scene) -> String {
-    let arm = &scene.arm;
-    if arm.kind() != "RR" {
-        return String::new();
-    }
-    let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
-    format!(", the tip reaches from {:.4} to {:.4} m", (upper - lower).abs(), upper + lower)
 }

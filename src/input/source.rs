@@ -22,6 +22,33 @@ pub(super) struct Source {
     pub text: String,
 }
 
+/// Finds positions of ascending byte offsets in one pass over the text.
+pub(super) struct Cursor<'a> {
+    bytes: &'a [u8],
+    read: usize,
+    at: Position,
+}
+
+impl Cursor<'_> {
+    /// Line and column of a byte offset, the text's end beyond it. Starts anew for an offset before the last one.
+    pub fn position(&mut self, offset: usize) -> Position {
+        let offset = offset.min(self.bytes.len());
+        if offset < self.read {
+            (self.read, self.at) = (0, Position { line: 1, column: 1 });
+        }
+        for byte in &self.bytes[self.read..offset] {
+            match byte {
+                b'\n' => self.at = Position { line: self.at.line + 1, column: 1 },
+                // Bytes that continue a character are no columns of their own.
+                byte if byte & 0xc0 != 0x80 => self.at.column += 1,
+                _ => {}
+            }
+        }
+        self.read = offset;
+        self.at
+    }
+}
+
 /// Bytes of the largest file that is read. Real ones, meshes included, stay far below; a device that never ends does not.
 const LARGEST_FILE: u64 = 256 << 20;
 
@@ -66,12 +93,12 @@ impl Source {
 
     /// Line and column of a byte offset.
     pub fn position(&self, offset: usize) -> Position {
-        let before = &self.text.as_bytes()[..offset.min(self.text.len())];
-        let line_start = before.iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
-        Position {
-            line: before.iter().filter(|b| **b == b'\n').count() + 1,
-            column: String::from_utf8_lossy(&before[line_start..]).chars().count() + 1,
-        }
+        self.cursor().position(offset)
+    }
+
+    /// For the positions of many offsets.
+    pub fn cursor(&self) -> Cursor<'_> {
+        Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }
 
     /// A defect of the file as a whole.
@@ -128,6 +155,10 @@ mod tests {
         assert_eq!(s.position(0), Position { line: 1, column: 1 });
         assert_eq!(s.position(5), Position { line: 2, column: 2 });
         assert_eq!(s.position(999), Position { line: 3, column: 1 });
+        let mut cursor = s.cursor();
+        for offset in [0, 2, 5, 5, 999, 3] {
+            assert_eq!(cursor.position(offset), s.position(offset));
+        }
     }
 
     #[test]

@@ -1,12 +1,17 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
+use super::object::{self, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
+use super::sequence::{Sequence, write_out};
 use super::source::Source;
+use super::step::{StepReader, StepTable, TaskTable};
 use super::world_map::{self, MapTable};
+use super::wrist::WristTable;
 use crate::geometry::Point;
-use crate::model::{Heights, Workspace};
+use crate::model::{Goal, Heights, Holding, Object, Workspace, Wrist};
+use crate::space::Configuration;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -21,12 +26,17 @@ pub(super) type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 /// A world file that has been read: the workspace is valid; names of joints and links are not yet checked.
 #[derive(Debug, Clone)]
 pub struct World {
-    /// Obstacles, clearance and title.
+    /// Obstacles that stay where they are, clearance and title.
     pub workspace: Workspace,
+    /// What can be moved.
+    pub objects: Vec<Object>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
     pub(super) start: Option<([f64; 2], Range<usize>)>,
-    pub(super) goal: Option<(WorldGoal, Range<usize>)>,
+    pub(super) goal: Option<(Goal, Range<usize>)>,
+    pub(super) steps: Option<Sequence>,
+    /// With what is to be said of it.
+    pub(super) wrist: Option<(Wrist, Option<String>)>,
 }
 
 impl World {
@@ -39,19 +49,22 @@ impl World {
                 clearance: 0.0,
                 preferences: Vec::new(),
             },
+            objects: Vec::new(),
             source: Source { path: "".into(), text: String::new() },
             robot: RobotTable::default(),
             start: None,
             goal: None,
+            steps: None,
+            wrist: None,
         }
     }
-}
 
-/// The goal as the file has it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum WorldGoal {
-    Joints([f64; 2]),
-    Tip(Point),
+    /// The workspace with every object where it lies at first, after the obstacles that stay where they are.
+    pub(super) fn at_first(&self) -> Workspace {
+        let mut workspace = self.workspace.clone();
+        workspace.obstacles.extend(self.objects.iter().map(|object| object.lying(Some(&object.at))));
+        workspace
+    }
 }
 
 /// `[robot]`.
@@ -70,6 +83,9 @@ pub(super) struct RobotTable {
     pub acceleration: PerJoint<Number>,
     /// Radius of the capsule that stands in for a link without geometry, metres.
     pub bar: Option<Number>,
+    wrist: Option<WristTable>,
+    /// How objects are held that do not say it.
+    payload: Option<Spanned<String>>,
 }
 
 #[derive(Deserialize)]
@@ -86,6 +102,11 @@ struct WorldFile {
     obstacle: Vec<Spanned<ObstacleTable>>,
     #[serde(default)]
     preference: Vec<Spanned<PreferenceTable>>,
+    #[serde(default)]
+    object: Vec<Spanned<ObjectTable>>,
+    #[serde(default)]
+    step: Vec<Spanned<StepTable>>,
+    task: Option<Spanned<TaskTable>>,
 }
 
 #[derive(Deserialize)]
@@ -96,7 +117,7 @@ struct StartTable {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct GoalTable {
+pub(super) struct GoalTable {
     joints: Option<Numbers>,
     tip: Option<Numbers>,
 }
@@ -122,7 +143,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let reader = Reader { source: &source };
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
-    let goal = file.goal.as_ref().map(|g| reader.goal(g)).transpose()?;
+    let goal = file.goal.as_ref().map(|g| reader.goal(g, "goal")).transpose()?;
     let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
     let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
@@ -130,11 +151,41 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
     let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
     preferences.extend(map.preferences);
+    let wrist = file.robot.wrist.as_ref().map(|table| {
+        let wrist = table.read(&reader)?;
+        Ok::<_, Defect>((wrist, table.note(&wrist)))
+    });
+    let wrist = wrist.transpose()?;
+    let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
+    let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
+    let steps = match (&file.step[..], &file.task) {
+        ([], None) => None,
+        ([], Some(task)) => {
+            let message = "[task] is about steps, and there are none";
+            return Err(source
+                .defect_at(task.span(), message)
+                .cure("give the world a [[step]], or remove [task]")
+                .into());
+        }
+        (tables, task) => {
+            let task = task.as_ref().map(Spanned::get_ref);
+            let steps = StepReader::new(&reader, &names, &movables).all(tables, task)?;
+            Some(write_out(&reader, &names, &movables, wrist.is_some(), &steps)?)
+        }
+    };
+    if let (Some(_), Some(goal)) = (&steps, &file.goal) {
+        let defect = source.defect_at(goal.span(), "a world has either a goal or steps, not both");
+        return Err(defect.cure("remove [goal]; move = { joints = [q1, q2] } in a [[step]] goes there").into());
+    }
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
-        goal: goal.or(map.goal.map(|(tip, at)| (WorldGoal::Tip(tip), at))),
+        // Steps count for more than a map's goal.
+        goal: goal.or(map.goal.filter(|_| steps.is_none()).map(|(tip, at)| (Goal::Tip(tip), at))),
+        objects: movables.into_iter().map(|movable| movable.object).collect(),
+        steps,
+        wrist,
         robot: file.robot,
         source,
     })
@@ -146,6 +197,7 @@ fn in_toml_words(message: &str) -> String {
         .replace("unknown field", "unknown key")
         .replace("missing field", "missing key")
         .replace("expected f64", "expected a number")
+        .replace("expected i64", "expected a whole number")
 }
 
 /// Checks values and knows the file they come from.
@@ -166,7 +218,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Defect> {
+    pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Defect> {
         let value = self.finite(number, what)?;
         if value < 0.0 {
             let message = format!("{what} must not be negative, is {value}");
@@ -189,13 +241,17 @@ impl Reader<'_> {
         self.two(numbers, what).map(Point::from)
     }
 
-    fn goal(&self, goal: &Spanned<GoalTable>) -> Result<(WorldGoal, Range<usize>), Defect> {
+    /// Joint values or a point for the tip, and where they stand.
+    pub fn goal(&self, goal: &Spanned<GoalTable>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
         match (&goal.get_ref().joints, &goal.get_ref().tip) {
-            (Some(joints), None) => Ok((WorldGoal::Joints(self.two(joints, "goal joints")?), joints.span())),
-            (None, Some(tip)) => Ok((WorldGoal::Tip(self.point(tip, "goal tip")?), tip.span())),
+            (Some(joints), None) => {
+                let values = self.two(joints, &format!("{what} joints"))?;
+                Ok((Goal::Joints(Configuration::from(values)), joints.span()))
+            }
+            (None, Some(tip)) => Ok((Goal::Tip(self.point(tip, &format!("{what} tip"))?), tip.span())),
             (joints, _) => {
                 let found = if joints.is_some() { "both" } else { "neither" };
-                let message = format!("the goal needs either `joints` or `tip`, it has {found}");
+                let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
                 Err(self.source.defect_at(goal.span(), message).cure("joints = [q1, q2], or tip = [x, y]"))
             }
         }

@@ -139,8 +139,9 @@ impl Task {
 }
 
 impl Object {
-    /// The object as an obstacle.
-    fn lying(&self, pose: Option<&Pose>) -> Obstacle {
+    /// The object as an obstacle that lies at `pose`; without one, an obstacle without pieces.
+    #[must_use]
+    pub fn lying(&self, pose: Option<&Pose>) -> Obstacle {
         let (shape, pieces) = match pose {
             Some(pose) => (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect()),
             None => (Shape::Pieces, Vec::new()),

@@ -12,7 +12,7 @@ use urdf_rs::JointType;
 const LONGEST_RANGE: f64 = 1e3;
 
 /// Seconds in which a joint of unknown acceleration limit reaches its top speed.
-const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
+pub(in crate::input) const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
 /// What is known of a joint's range.
 #[derive(Debug, Clone, PartialEq)]

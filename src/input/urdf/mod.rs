@@ -25,6 +25,7 @@ mod solid;
 mod survey;
 mod tree;
 
+pub(super) use limits::DEFAULT_TIME_TO_TOP_SPEED;
 pub(super) use survey::survey;
 
 use super::RobotReport;

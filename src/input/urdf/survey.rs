@@ -137,7 +137,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
-    report.scene = Some(Scene::new(arm, reduction.world.workspace.clone()));
+    report.scene = Some(Scene::new(arm, reduction.world.at_first()));
 }
 
 fn link(link: &urdf_rs::Link) -> LinkEntry {
@@ -197,11 +197,11 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
 
 /// The world without what it says of joints and tip, and without values for these two joints.
 fn neutral(document: &Document, world: &World, joints: [usize; 2]) -> World {
-    let mut world = world.clone();
-    world.robot.joints = None;
-    world.robot.tip = None;
-    world.robot.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));
-    world
+    let mut robot = world.robot.clone();
+    robot.joints = None;
+    robot.tip = None;
+    robot.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));
+    World { robot, ..World::silent() }
 }
 
 fn pair(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> PairEntry {

@@ -1,0 +1,97 @@
+//! Postures in words: why one is outside the limits or not free, why none reaches a point.
+
+use crate::geometry::Point;
+use crate::model::{Inverse, Scene, within};
+use crate::space::{Axis, Configuration};
+
+/// Which postures of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
+/// they rule out, why.
+pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Configuration>, Vec<String>) {
+    let joints = &scene.arm.joints;
+    let (mut allowed, mut outside) = (Vec::new(), Vec::new());
+    for branch in &solved.branches {
+        let copies = [0, 1].map(|i| within(joints[i].axis, joints[i].motion.is_revolute(), branch[i]));
+        if copies.iter().any(Vec::is_empty) {
+            let nearest = Configuration::from_fn(|i, _| copies[i].first().copied().unwrap_or(branch[i]));
+            outside.push(format!("({}): {}", describe(scene, nearest), beyond_limits(scene, nearest).join("; ")));
+        }
+        let pairs =
+            copies[0].iter().flat_map(|first| copies[1].iter().map(|second| Configuration::new(*first, *second)));
+        allowed.extend(pairs);
+    }
+    (allowed, outside)
+}
+
+/// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
+pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
+    let value = |i: usize| format!("{} {} {}", scene.arm.joints[i].name, rounded(q[i]), scene.arm.joints[i].unit());
+    format!("{}, {}", value(0), value(1))
+}
+
+/// Six decimals are plenty for people.
+fn rounded(value: f64) -> f64 {
+    (value * 1e6).round() / 1e6 + 0.0
+}
+
+/// Which joints are outside their limits, in words.
+pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
+    let mut outside = Vec::new();
+    for (joint, value) in scene.arm.joints.iter().zip(q.iter()) {
+        if let Axis::Interval { lower, upper } = joint.axis
+            && !joint.axis.contains(*value)
+        {
+            let unit = joint.unit();
+            // Unrounded when rounding would hide the excess.
+            let shown = if joint.axis.contains(rounded(*value)) { *value } else { rounded(*value) };
+            outside.push(format!(
+                "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
+                joint.name
+            ));
+        }
+    }
+    outside
+}
+
+/// What to do about a posture outside the limits.
+pub(super) const CURE_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
+
+/// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
+pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
+    scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
+}
+
+/// What to do about a posture that is not free.
+pub(super) fn cure_for_contact(scene: &Scene) -> &'static str {
+    if scene.workspace.clearance > 0.0 {
+        "move it away from the obstacle, or ask for less clearance"
+    } else {
+        "move it away from the obstacle (touching counts as contact)"
+    }
+}
+
+/// That no posture reaches `point`, in words; `what` it is begins the sentence.
+pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
+    let arm = &scene.arm;
+    format!(
+        "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {:.4} m from joint \"{}\"{}",
+        point.x,
+        point.y,
+        arm.tip_name,
+        (point - arm.base).norm(),
+        arm.joints[0].name,
+        reach(scene)
+    )
+}
+
+/// What to do about a point out of reach.
+pub(super) const CURE_FOR_REACH: &str = "choose a point nearer by; coordinates are metres in the arm's plane";
+
+/// What an arm with two revolute joints reaches, for messages.
+fn reach(scene: &Scene) -> String {
+    let arm = &scene.arm;
+    if arm.kind() != "RR" {
+        return String::new();
+    }
+    let (upper, lower) = (arm.offset.norm(), arm.tip.coords.norm());
+    format!(", the tip reaches from {:.4} to {:.4} m", (upper - lower).abs(), upper + lower)
+}

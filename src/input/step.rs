@@ -1,0 +1,319 @@
+//! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
+
+use super::error::Defect;
+use super::object::{Movable, NameList, Names, Supports};
+use super::source::Cursor;
+use super::world::{GoalTable, Number, Numbers, Reader};
+use crate::geometry::Point;
+use crate::model::Goal;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+use std::ops::Range;
+use toml::Spanned;
+
+/// `[[step]]`: one thing to do, or a group of steps.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct StepTable {
+    pick: Option<Spanned<String>>,
+    place: Option<PlaceTable>,
+    #[serde(rename = "move")]
+    goal: Option<Spanned<GoalTable>>,
+    steps: Option<Vec<Spanned<StepTable>>>,
+    grasp: Option<Numbers>,
+    supports: Option<NameList>,
+    repeat: Option<Spanned<i64>>,
+    order: Option<Spanned<String>>,
+    speed: Option<Number>,
+    dwell: Option<Number>,
+}
+
+/// `place`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PlaceTable {
+    at: Numbers,
+    angle: Option<Number>,
+    supports: Option<NameList>,
+}
+
+/// `[task]`: what holds for all steps together.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct TaskTable {
+    repeat: Option<Spanned<i64>>,
+    order: Option<Spanned<String>>,
+    speed: Option<Number>,
+    dwell: Option<Number>,
+}
+
+/// Steps that belong together.
+pub(super) struct Group {
+    pub body: Body,
+    /// How often they are done.
+    pub repeat: usize,
+    /// Where the number of repetitions, or else the group, stands.
+    pub at: Range<usize>,
+    /// The objects that its steps pick and that are renewed.
+    pub renewed: BTreeSet<usize>,
+    /// The number of its steps, repetitions written out.
+    pub length: usize,
+}
+
+/// What a group does.
+pub(super) enum Body {
+    /// One after the other.
+    InOrder(Vec<Node>),
+    /// Pairs of a pick and a place, in any order.
+    AnyOrder(Vec<[Leaf; 2]>),
+}
+
+/// A step or a group.
+pub(super) enum Node {
+    Step(Leaf),
+    Group(Group),
+}
+
+/// A step as it is written.
+pub(super) struct Leaf {
+    /// From 1, in the order of the file.
+    pub number: usize,
+    /// File, line and column.
+    pub place: String,
+    /// Where its target stands: the object's name, the point or the joint values.
+    pub at: Range<usize>,
+    pub action: LeafAction,
+    pub speed: f64,
+    pub dwell: f64,
+}
+
+/// What a step does, as it is written.
+pub(super) enum LeafAction {
+    Pick { object: usize, grasp: Point, supports: Supports },
+    Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
+    Move(Goal),
+}
+
+/// Most steps of a task, repetitions written out: some days of work.
+const MOST_STEPS: usize = 100_000;
+
+/// How fast steps are done where they do not say it.
+#[derive(Clone, Copy)]
+struct Pace {
+    speed: f64,
+    dwell: f64,
+}
+
+/// Keys that a group has beside its steps.
+struct Manner<'a> {
+    repeat: Option<&'a Spanned<i64>>,
+    order: Option<&'a Spanned<String>>,
+}
+
+/// Reads the tables of steps.
+pub(super) struct StepReader<'a> {
+    reader: &'a Reader<'a>,
+    names: &'a Names<'a>,
+    objects: &'a [Movable],
+    cursor: Cursor<'a>,
+    file: String,
+    /// Steps read so far.
+    count: usize,
+}
+
+impl<'a> StepReader<'a> {
+    pub fn new(reader: &'a Reader<'a>, names: &'a Names<'a>, objects: &'a [Movable]) -> Self {
+        Self { reader, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
+    }
+
+    /// All steps of the file, of which there is at least one.
+    ///
+    /// # Errors
+    /// On steps that do not do exactly one thing, keys in the wrong place, values that are none, unknown objects and
+    /// supports, groups in free order of anything but picks and places, and more than [`MOST_STEPS`] steps.
+    pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Defect> {
+        let pace = Pace { speed: 1.0, dwell: 0.0 };
+        let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
+        let manner =
+            Manner { repeat: task.and_then(|t| t.repeat.as_ref()), order: task.and_then(|t| t.order.as_ref()) };
+        let at = tables.first().map_or(0..0, Spanned::span);
+        self.group(tables, &manner, pace, at)
+    }
+
+    fn group(
+        &mut self,
+        tables: &[Spanned<StepTable>],
+        manner: &Manner,
+        pace: Pace,
+        at: Range<usize>,
+    ) -> Result<Group, Defect> {
+        let source = self.reader.source;
+        if tables.is_empty() {
+            let defect = source.defect_at(at, "this group has no steps");
+            return Err(defect.cure("give it [[step.steps]], or remove it"));
+        }
+        let repeat = manner.repeat.map_or(Ok(1), |repeat| {
+            usize::try_from(*repeat.get_ref()).ok().filter(|n| *n > 0).ok_or_else(|| {
+                let message = format!("steps can be repeated 1 time or more often, not {}", repeat.get_ref());
+                source.defect_at(repeat.span(), message).cure("remove the key for steps that are done once")
+            })
+        })?;
+        let nodes = tables.iter().map(|table| self.node(table, pace)).collect::<Result<Vec<_>, _>>()?;
+        let at = manner.repeat.map_or(at, Spanned::span);
+        let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
+        if length > MOST_STEPS {
+            let message = format!("written out these are {length} steps (at most {MOST_STEPS})");
+            return Err(source.defect_at(at, message).cure("repeat them less often"));
+        }
+        let renewed = nodes.iter().flat_map(|node| self.renewed(node)).collect();
+        let body = match manner.order.map(|order| (order.get_ref().as_str(), order.span())) {
+            None | Some(("fixed", _)) => Body::InOrder(nodes),
+            Some(("free", _)) => Body::AnyOrder(self.pairs(nodes)?),
+            Some((other, at)) => {
+                let message = format!("an order is \"fixed\" or \"free\", not \"{other}\"");
+                return Err(source.defect_at(at, message));
+            }
+        };
+        Ok(Group { body, repeat, at, renewed, length })
+    }
+
+    fn renewed(&self, node: &Node) -> Vec<usize> {
+        match node {
+            Node::Step(Leaf { action: LeafAction::Pick { object, .. }, .. }) if self.objects[*object].is_renewed => {
+                vec![*object]
+            }
+            Node::Step(_) => Vec::new(),
+            Node::Group(group) => group.renewed.iter().copied().collect(),
+        }
+    }
+
+    /// The steps of a group in free order.
+    fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Defect> {
+        let source = self.reader.source;
+        let cure = "steps in free order are pick, place, pick, place, and so on";
+        let mut picked = BTreeSet::new();
+        let mut pairs = Vec::new();
+        let mut nodes = nodes.into_iter();
+        while let Some(first) = nodes.next() {
+            let pick = match first {
+                Node::Step(pick @ Leaf { action: LeafAction::Pick { .. }, .. }) => pick,
+                other => return Err(source.defect_at(other.at(), "this step has to be a pick").cure(cure)),
+            };
+            let place = match nodes.next() {
+                Some(Node::Step(place @ Leaf { action: LeafAction::Place { .. }, .. })) => place,
+                Some(other) => return Err(source.defect_at(other.at(), "this step has to be a place").cure(cure)),
+                None => return Err(source.defect_at(pick.at, "this pick has no place after it").cure(cure)),
+            };
+            if let LeafAction::Pick { object, .. } = pick.action
+                && !picked.insert(object)
+            {
+                let name = &self.objects[object].object.name;
+                let message = format!("object \"{name}\" is picked twice in one group in free order");
+                return Err(source.defect_at(pick.at, message).cure("pick it once, or use a group in fixed order"));
+            }
+            pairs.push([pick, place]);
+        }
+        Ok(pairs)
+    }
+
+    fn node(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Node, Defect> {
+        let step = table.get_ref();
+        let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
+        self.require_fitting_keys(step)?;
+        let (at, action) = match (&step.pick, &step.place, &step.goal, &step.steps) {
+            (None, None, None, Some(steps)) => {
+                let manner = Manner { repeat: step.repeat.as_ref(), order: step.order.as_ref() };
+                return self.group(steps, &manner, pace, table.span()).map(Node::Group);
+            }
+            (Some(name), None, None, None) => (name.span(), self.pick(step, name)?),
+            (None, Some(place), None, None) => (place.at.span(), self.place(place)?),
+            (None, None, Some(goal), None) => {
+                let (goal, at) = self.reader.goal(goal, "move")?;
+                (at, LeafAction::Move(goal))
+            }
+            (pick, place, goal, steps) => {
+                let given = [pick.is_some(), place.is_some(), goal.is_some(), steps.is_some()];
+                let count = given.iter().filter(|x| **x).count();
+                let message =
+                    format!("a step needs exactly one of `pick`, `place`, `move` and `steps`, this has {count}");
+                let cure = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, or [[step.steps]]";
+                return Err(self.reader.source.defect_at(table.span(), message).cure(cure));
+            }
+        };
+        self.count += 1;
+        let position = self.cursor.position(table.span().start);
+        let place = format!("{}:{}:{}", self.file, position.line, position.column);
+        Ok(Node::Step(Leaf { number: self.count, place, at, action, speed: pace.speed, dwell: pace.dwell }))
+    }
+
+    /// Refuses keys that mean nothing where they stand.
+    fn require_fitting_keys(&self, step: &StepTable) -> Result<(), Defect> {
+        let refuse = |at: Option<Range<usize>>, message: &str, cure: &str| match at {
+            Some(at) => Err(self.reader.source.defect_at(at, message).cure(cure)),
+            None => Ok(()),
+        };
+        if step.pick.is_none() {
+            let at = step.grasp.as_ref().map(Spanned::span);
+            refuse(at, "only a pick has a `grasp`", "remove the key")?;
+            let at = step.supports.as_ref().map(Spanned::span);
+            let cure = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
+            refuse(at, "of all steps only a pick has `supports`", cure)?;
+        }
+        if step.steps.is_none() {
+            let cure = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
+            refuse(step.repeat.as_ref().map(Spanned::span), "only a group of steps can be repeated", cure)?;
+            refuse(step.order.as_ref().map(Spanned::span), "only a group of steps has an `order`", cure)?;
+        }
+        Ok(())
+    }
+
+    fn pick(&self, step: &StepTable, name: &Spanned<String>) -> Result<LeafAction, Defect> {
+        let object = self.names.object(self.reader, name)?;
+        let default = &self.objects[object];
+        let grasp = step.grasp.as_ref().map(|g| self.reader.point(g, "grasp")).transpose()?;
+        let supports = step.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        Ok(LeafAction::Pick {
+            object,
+            grasp: grasp.unwrap_or(default.grasp),
+            supports: supports.unwrap_or_else(|| default.supports.clone()),
+        })
+    }
+
+    fn place(&self, place: &PlaceTable) -> Result<LeafAction, Defect> {
+        let angle = place.angle.as_ref().map(|a| Ok((self.reader.finite(a, "place, angle")?, a.span()))).transpose()?;
+        let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        Ok(LeafAction::Place { at: self.reader.point(&place.at, "place, at")?, angle, supports })
+    }
+
+    fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Defect> {
+        let mut pace = default;
+        if let Some(number) = speed {
+            pace.speed = self.reader.finite(number, "speed")?;
+            if !(pace.speed > 0.0 && pace.speed <= 1.0) {
+                let message = format!("speed must be more than 0 and at most 1, is {}", pace.speed);
+                let cure = "it is a share of the joints' top speeds";
+                return Err(self.reader.source.defect_at(number.span(), message).cure(cure));
+            }
+        }
+        if let Some(number) = dwell {
+            pace.dwell = self.reader.not_negative(number, "dwell")?;
+        }
+        Ok(pace)
+    }
+}
+
+impl Node {
+    fn length(&self) -> usize {
+        match self {
+            Node::Step(_) => 1,
+            Node::Group(group) => group.length,
+        }
+    }
+
+    fn at(&self) -> Range<usize> {
+        match self {
+            Node::Step(leaf) => leaf.at.clone(),
+            Node::Group(group) => group.at.clone(),
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! The steps of a world as a task for its arm.
+
+use super::error::{Defect, InputError};
+use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
+use super::sequence::{Required, Requirement};
+use super::{LoadedScene, Overrides, RobotReport, clearance as checked_clearance};
+use crate::geometry::Point;
+use crate::model::{Payload, Scene, Task, Workspace, inverse};
+use crate::space::Configuration;
+
+/// A task and how it was read.
+#[derive(Debug, Clone)]
+pub struct LoadedTask {
+    /// The task; its start is within the limits and free.
+    pub task: Task,
+    /// The arm, empty-handed, among obstacles and objects where they lie at first.
+    pub scene: Scene,
+    /// How the robot was read.
+    pub robot: RobotReport,
+    /// What the user should know of the task: defaults taken.
+    pub notes: Vec<String>,
+}
+
+impl LoadedScene {
+    /// Whether the world has steps, and so no goal.
+    #[must_use]
+    pub fn has_steps(&self) -> bool {
+        self.world.steps.is_some()
+    }
+
+    /// The task that the world's steps make, from the command line's start or else the world's.
+    ///
+    /// # Errors
+    /// When the world has no steps, or a goal is given on the command line; when the start is missing, outside the limits
+    /// or not free; when a step asks for joint values outside the limits, for a point out of the tip's reach, or for an
+    /// object to rest that is too thin for it.
+    pub fn task(mut self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+        if !self.has_steps() {
+            let defect = self.world.source.defect("there are no steps");
+            return Err(defect.cure("[[step]] pick = \"NAME\", and so on").into());
+        }
+        if overrides.goal.is_some() || overrides.goal_tip.is_some() {
+            return Err(self.has_no_goal(overrides).into());
+        }
+        if let Some(clearance) = overrides.clearance {
+            self.scene.workspace.clearance = checked_clearance(clearance)?;
+        }
+        let (start, place) = self.start(overrides)?;
+        self.require("the start", start, &place)?;
+        let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
+        InputError::check(requirements.filter_map(|r| self.unfulfilled(r, start)).collect())?;
+        let Self { scene, world, robot } = self;
+        let workspace = Workspace { clearance: scene.workspace.clearance, ..world.workspace };
+        let items = world.steps.map(|steps| steps.items).unwrap_or_default();
+        let (wrist, note) = world.wrist.unzip();
+        let notes = note.flatten().into_iter().collect();
+        let task = Task { arm: scene.arm.clone(), workspace, objects: world.objects, start, items, wrist };
+        Ok(LoadedTask { task, scene, robot, notes })
+    }
+
+    /// Why the arm cannot do what a step requires.
+    fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Defect> {
+        let step = format!("step {}", requirement.step);
+        let (message, cure) = match requirement.required {
+            Required::Joints(q) => self.beyond_limits(&step, q)?,
+            Required::Tip(tip) => self.beyond_reach(&step, tip, start)?,
+            Required::Rest(object) => self.too_thin(&step, object)?,
+        };
+        Some(self.world.source.defect_at(requirement.at.clone(), message).cure(cure))
+    }
+
+    fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, &'static str)> {
+        let outside = beyond_limits(&self.scene, q);
+        (!outside.is_empty())
+            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), CURE_FOR_LIMITS))
+    }
+
+    fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, &'static str)> {
+        let solved = inverse(&self.scene.arm, tip, start);
+        if solved.branches.is_empty() {
+            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), CURE_FOR_REACH));
+        }
+        // Where a joint's value does not matter, others of its values may be within the limits.
+        let (allowed, outside) = within_limits(&self.scene, &solved);
+        (allowed.is_empty() && solved.free.is_none()).then(|| {
+            let message = format!(
+                "{step}: no posture that puts the tip at ({}, {}) m is within the joint limits: {}",
+                tip.x,
+                tip.y,
+                outside.join("; ")
+            );
+            (message, "choose another point, or override [robot] limits in the world file")
+        })
+    }
+
+    fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
+        let object = &self.world.objects[object];
+        let by = Payload::give(&self.scene.arm) + self.scene.workspace.clearance;
+        if object.pieces.iter().any(|piece| piece.eroded(by).is_some()) {
+            return None;
+        }
+        let message = format!(
+            "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, the clearance and what it may press into its supports",
+            object.name
+        );
+        Some((message, "make it thicker, ask for less clearance, or remove its supports"))
+    }
+}

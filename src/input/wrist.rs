@@ -1,0 +1,46 @@
+//! The wrist in the world file's `[robot]`.
+
+use super::error::Defect;
+use super::urdf::DEFAULT_TIME_TO_TOP_SPEED;
+use super::world::{Number, Reader};
+use crate::model::Wrist;
+use serde::Deserialize;
+
+/// `wrist`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WristTable {
+    velocity: Number,
+    acceleration: Option<Number>,
+}
+
+impl WristTable {
+    /// The wrist's limits.
+    ///
+    /// # Errors
+    /// When one is not positive or not finite.
+    pub fn read(&self, reader: &Reader) -> Result<Wrist, Defect> {
+        let velocity = positive(reader, &self.velocity, "velocity")?;
+        let acceleration = self.acceleration.as_ref().map(|a| positive(reader, a, "acceleration")).transpose()?;
+        Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(velocity / DEFAULT_TIME_TO_TOP_SPEED) })
+    }
+
+    /// What is to be said of a limit that was not given.
+    pub fn note(&self, wrist: &Wrist) -> Option<String> {
+        self.acceleration.is_none().then(|| {
+            format!(
+                "wrist: no acceleration limit given; taken as {:.3} rad/s^2 (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)",
+                wrist.acceleration
+            )
+        })
+    }
+}
+
+fn positive(reader: &Reader, number: &Number, what: &str) -> Result<f64, Defect> {
+    let value = reader.finite(number, &format!("[robot] wrist, {what}"))?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    let message = format!("[robot] wrist: {what} must be positive, is {value}");
+    Err(reader.source.defect_at(number.span(), message).cure("wrist = { velocity = 6.0 }, in rad/s"))
+}
