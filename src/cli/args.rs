@@ -216,6 +216,10 @@ pub struct PlanArgs {
     /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml
+    /// and so on for --output plan.yaml (worlds with steps).
+    #[arg(long)]
+    pub per_step: bool,
     /// Draw workspace and configuration space side by side: .svg or .png. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,

@@ -89,9 +89,14 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
 pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), Failure> {
     match format.text(report) {
         Some(text) => write_whole(path, text.as_bytes())?,
-        None => say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display())),
+        None => warn_unwritten(path),
     }
     Ok(())
+}
+
+/// Says on stderr that a format has no room for a result without a trajectory.
+pub fn warn_unwritten(path: &Path) {
+    say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display()));
 }
 
 /// Draws the answer to one problem.

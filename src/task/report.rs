@@ -166,6 +166,12 @@ impl TaskReport {
         self.status
     }
 
+    /// Name of the planner of single motions.
+    #[must_use]
+    pub fn planner(&self) -> &str {
+        &self.planner
+    }
+
     /// Why not all steps can be done, or are not known to be possible.
     #[must_use]
     pub fn reason(&self) -> Option<&str> {
