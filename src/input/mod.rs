@@ -1,17 +1,19 @@
-//! Files and options to a planning problem: URDF, world TOML, and errors that name the place and the cure.
+//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and the cure.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
 //!       |
-//! world.toml --+-> World ------------------+
-//!              |                           +--> Scene --+--> Problem
-//! arm.urdf ----+-> Arm (planar reduction) -+            |
+//! world.toml --+-> World ------------------+            +--> Task (of a world with steps)
+//!              |                           +--> Scene --+
+//! arm.urdf ----+-> Arm (planar reduction) -+            +--> Problem (of any other)
+//!                                                       |
 //! --start, --goal, --goal-tip, --clearance -------------+
 //!
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
 
 mod error;
+mod group;
 mod inspection;
 mod line_map;
 mod map_text;
@@ -22,6 +24,7 @@ mod posture;
 mod preference;
 mod preference_map;
 mod problem;
+mod requirement;
 mod sequence;
 mod source;
 mod step;

@@ -1,14 +1,14 @@
 //! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
 
 use super::error::Defect;
+use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, Names, Supports, rests_on_itself};
-use super::step::{Body, Group, Leaf, LeafAction, Node};
+
+use super::requirement::{Required, Requirement, Requirements};
 use super::world::Reader;
 use crate::geometry::Point;
 use crate::model::{Action, Goal, Holding, Item, Step};
-use crate::space::Configuration;
 use nalgebra::Rotation2;
-use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
@@ -20,27 +20,6 @@ pub(super) struct Sequence {
     pub requirements: Vec<Requirement>,
     /// Where the first step stands.
     pub at: Range<usize>,
-}
-
-/// Something that a step requires.
-#[derive(Debug, Clone)]
-pub(super) struct Requirement {
-    pub required: Required,
-    /// The step's number.
-    pub step: usize,
-    /// What in the file asks for it.
-    pub at: Range<usize>,
-}
-
-/// What can be required.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Required {
-    /// The arm can take these values.
-    Joints(Configuration),
-    /// The tip can be here.
-    Tip(Point),
-    /// This object can rest on something.
-    Rest(usize),
 }
 
 /// Orientations that differ by no more than this, radians, are the same: far above the rounding of angles, and below
@@ -69,11 +48,10 @@ pub(super) fn write_out(
         lying,
         cycles: Vec::new(),
         items: Vec::new(),
-        known: BTreeSet::new(),
-        requirements: Vec::new(),
+        requirements: Requirements::default(),
     };
     writer.group(steps)?;
-    Ok(Sequence { items: writer.items, requirements: writer.requirements, at: steps.at.clone() })
+    Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at: steps.at.clone() })
 }
 
 /// Where an object lies, or what is known of it while it is carried.
@@ -117,9 +95,7 @@ struct Writer<'a> {
     /// Of each step, how often it has been done.
     cycles: Vec<usize>,
     items: Vec<Item>,
-    /// Requirements by step, with bits of their values.
-    known: BTreeSet<(usize, u8, [u64; 2])>,
-    requirements: Vec<Requirement>,
+    requirements: Requirements,
 }
 
 impl Writer<'_> {
@@ -191,7 +167,7 @@ impl Writer<'_> {
                     Goal::Joints(q) => Required::Joints(q),
                     Goal::Tip(tip) => Required::Tip(tip),
                 };
-                self.require(leaf, required, leaf.at.clone());
+                self.requirements.add(leaf.number, required, leaf.at.clone());
                 Action::Move(*goal)
             }
         };
@@ -223,7 +199,7 @@ impl Writer<'_> {
         }
         self.rest(leaf, object, supports)?;
         if let Some(tip) = self.lying[object].point(grasp) {
-            self.require(leaf, Required::Tip(tip), leaf.at.clone());
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         self.carried = Some(Carried { object, grasp });
         Ok(Action::Pick { object, grasp, supports: supports.numbers.clone() })
@@ -249,7 +225,7 @@ impl Writer<'_> {
         };
         self.lying[object] = lying;
         if let Some(tip) = lying.point(grasp) {
-            self.require(leaf, Required::Tip(tip), leaf.at.clone());
+            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
@@ -283,19 +259,8 @@ impl Writer<'_> {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));
         }
         if !supports.numbers.is_empty() {
-            self.require(leaf, Required::Rest(object), supports.at.clone());
+            self.requirements.add(leaf.number, Required::Rest(object), supports.at.clone());
         }
         Ok(())
-    }
-
-    fn require(&mut self, leaf: &Leaf, required: Required, at: Range<usize>) {
-        let (kind, values) = match required {
-            Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),
-            Required::Tip(tip) => (1, [tip.x, tip.y].map(f64::to_bits)),
-            Required::Rest(object) => (2, [object as u64, at.start as u64]),
-        };
-        if self.known.insert((leaf.number, kind, values)) {
-            self.requirements.push(Requirement { required, step: leaf.number, at });
-        }
     }
 }

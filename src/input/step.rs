@@ -1,11 +1,10 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
 use super::error::Defect;
-use super::object::{Movable, NameList, Names, Supports};
+use super::group::{Body, Group, Leaf, LeafAction, Node};
+use super::object::{Movable, NameList, Names};
 use super::source::Cursor;
 use super::world::{GoalTable, Number, Numbers, Reader};
-use crate::geometry::Point;
-use crate::model::Goal;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -45,53 +44,6 @@ pub(super) struct TaskTable {
     order: Option<Spanned<String>>,
     speed: Option<Number>,
     dwell: Option<Number>,
-}
-
-/// Steps that belong together.
-pub(super) struct Group {
-    pub body: Body,
-    /// How often they are done.
-    pub repeat: usize,
-    /// Where the number of repetitions, or else the group, stands.
-    pub at: Range<usize>,
-    /// The objects that its steps pick and that are renewed.
-    pub renewed: BTreeSet<usize>,
-    /// The number of its steps, repetitions written out.
-    pub length: usize,
-}
-
-/// What a group does.
-pub(super) enum Body {
-    /// One after the other.
-    InOrder(Vec<Node>),
-    /// Pairs of a pick and a place, in any order.
-    AnyOrder(Vec<[Leaf; 2]>),
-}
-
-/// A step or a group.
-pub(super) enum Node {
-    Step(Leaf),
-    Group(Group),
-}
-
-/// A step as it is written.
-pub(super) struct Leaf {
-    /// From 1, in the order of the file.
-    pub number: usize,
-    /// File, line and column.
-    pub place: String,
-    /// Where its target stands: the object's name, the point or the joint values.
-    pub at: Range<usize>,
-    pub action: LeafAction,
-    pub speed: f64,
-    pub dwell: f64,
-}
-
-/// What a step does, as it is written.
-pub(super) enum LeafAction {
-    Pick { object: usize, grasp: Point, supports: Supports },
-    Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
-    Move(Goal),
 }
 
 /// Most steps of a task, repetitions written out: some days of work.
@@ -299,21 +251,5 @@ impl<'a> StepReader<'a> {
             pace.dwell = self.reader.not_negative(number, "dwell")?;
         }
         Ok(pace)
-    }
-}
-
-impl Node {
-    fn length(&self) -> usize {
-        match self {
-            Node::Step(_) => 1,
-            Node::Group(group) => group.length,
-        }
-    }
-
-    fn at(&self) -> Range<usize> {
-        match self {
-            Node::Step(leaf) => leaf.at.clone(),
-            Node::Group(group) => group.at.clone(),
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::{Defect, InputError};
 use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
-use super::sequence::{Required, Requirement};
+use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, RobotReport, clearance as checked_clearance};
 use crate::geometry::Point;
 use crate::model::{Payload, Scene, Task, Workspace, inverse};

@@ -1,7 +1,7 @@
 //! The world file: its schema, and the workspace it describes.
 
 use super::error::{Defect, InputError};
-use super::object::{self, ObjectTable};
+use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
 use super::sequence::{Sequence, write_out};
@@ -158,25 +158,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let wrist = wrist.transpose()?;
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
-    let steps = match (&file.step[..], &file.task) {
-        ([], None) => None,
-        ([], Some(task)) => {
-            let message = "[task] is about steps, and there are none";
-            return Err(source
-                .defect_at(task.span(), message)
-                .cure("give the world a [[step]], or remove [task]")
-                .into());
-        }
-        (tables, task) => {
-            let task = task.as_ref().map(Spanned::get_ref);
-            let steps = StepReader::new(&reader, &names, &movables).all(tables, task)?;
-            Some(write_out(&reader, &names, &movables, wrist.is_some(), &steps)?)
-        }
-    };
-    if let (Some(_), Some(goal)) = (&steps, &file.goal) {
-        let defect = source.defect_at(goal.span(), "a world has either a goal or steps, not both");
-        return Err(defect.cure("remove [goal]; move = { joints = [q1, q2] } in a [[step]] goes there").into());
-    }
+    let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
     let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
@@ -189,6 +171,29 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
         robot: file.robot,
         source,
     })
+}
+
+/// The steps, written out; none if there are none.
+fn steps(
+    reader: &Reader,
+    file: &WorldFile,
+    names: &Names,
+    movables: &[Movable],
+    has_wrist: bool,
+) -> Result<Option<Sequence>, Defect> {
+    if file.step.is_empty() {
+        return file.task.as_ref().map_or(Ok(None), |task| {
+            let defect = reader.source.defect_at(task.span(), "[task] is about steps, and there are none");
+            Err(defect.cure("give the world a [[step]], or remove [task]"))
+        });
+    }
+    if let Some(goal) = &file.goal {
+        let defect = reader.source.defect_at(goal.span(), "a world has either a goal or steps, not both");
+        return Err(defect.cure("remove [goal]; a [[step]] with move = { joints = [q1, q2] } goes there"));
+    }
+    let task = file.task.as_ref().map(Spanned::get_ref);
+    let group = StepReader::new(reader, names, movables).all(&file.step, task)?;
+    write_out(reader, names, movables, has_wrist, &group).map(Some)
 }
 
 /// The deserialiser's message without Rust's words for what TOML calls keys and numbers.

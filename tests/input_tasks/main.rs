@@ -5,31 +5,10 @@ use cplan::input::{InputError, LoadedTask, Overrides, load, load_scene};
 use cplan::model::{Action, Goal, Holding, Item, Shape, Step};
 use cplan::space::Configuration;
 use std::fs;
+use std::path::Path;
 
-/// An arm with two links of one metre, in the (x, y) plane.
-const ARM: &str = r#"<robot name="arm">
-  <link name="base"/>
-  <joint name="j1" type="revolute">
-    <parent link="base"/> <child link="upper"/>
-    <axis xyz="0 0 1"/>
-    <limit lower="-3" upper="3" effort="1" velocity="2"/>
-  </joint>
-  <link name="upper">
-    <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
-  </link>
-  <joint name="j2" type="revolute">
-    <parent link="upper"/> <child link="fore"/>
-    <origin xyz="1 0 0"/>
-    <axis xyz="0 0 1"/>
-    <limit lower="-2" upper="2" effort="1" velocity="2"/>
-  </joint>
-  <link name="fore">
-    <collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.1"/></geometry></collision>
-  </link>
-  <joint name="end" type="fixed"><parent link="fore"/><child link="tool"/><origin xyz="1 0 0"/></joint>
-  <link name="tool"/>
-</robot>
-"#;
+mod errors;
+mod written_out;
 
 /// Objects, and where the arm starts; steps follow.
 const CELL: &str = r#"name = "cell"
@@ -57,16 +36,16 @@ payload = "level"
 grasp = [0.01, 0.0]
 "#;
 
-fn with_files<T>(world: &str, read: impl Fn(&std::path::Path, &std::path::Path) -> T) -> T {
+/// Reads a world for an arm with two links, of 1 m and 0.8 m, and limits of 2.9 rad.
+fn with_world<T>(world: &str, read: impl Fn(&Path, &Path) -> T) -> T {
     let folder = tempfile::tempdir().unwrap();
-    let (u, w) = (folder.path().join("arm.urdf"), folder.path().join("world.toml"));
-    fs::write(&u, ARM).unwrap();
-    fs::write(&w, world).unwrap();
-    read(&u, &w)
+    let file = folder.path().join("world.toml");
+    fs::write(&file, world).unwrap();
+    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/planar_2r.urdf"), &file)
 }
 
 fn task_of(world: &str, overrides: &Overrides) -> Result<LoadedTask, InputError> {
-    with_files(world, |urdf, world| load_scene(urdf, world)?.task(overrides))
+    with_world(world, |urdf, world| load_scene(urdf, world)?.task(overrides))
 }
 
 fn task(steps: &str) -> LoadedTask {
@@ -148,7 +127,7 @@ fn objects_are_obstacles_where_they_lie_at_first() {
         Shape::Circle { center: Point::new(-0.5 + 0.01 * cos, 1.0 + 0.01 * sin), radius: 0.03 }
     });
     let goal = format!("{CELL}[goal]\njoints = [0.1, -0.5]\n");
-    let problem = with_files(&goal, |u, w| load(u, w, &Overrides::default())).unwrap().problem;
+    let problem = with_world(&goal, |u, w| load(u, w, &Overrides::default())).unwrap().problem;
     assert_eq!(names(&problem.scene.workspace), ["table", "part", "cup"]);
 }
 
@@ -203,4 +182,75 @@ place = { at = [0.5, 1.0] }
     assert_eq!(in_words(&all), [words]);
     let group = task(&format!("[[step]]\norder = \"free\"\n[[step.steps]]\n{}", pairs.replace("KEY", "step.steps")));
     assert_eq!(in_words(&group), [words]);
+}
+
+#[test]
+fn defaults_of_the_robot_hold_where_an_object_does_not_say_otherwise() {
+    let world = CELL.replace("[robot]", "[robot]\npayload = \"level\"").replace(", acceleration = 60.0", "");
+    let loaded = task_of(&format!("{world}[[step]]\npick = \"part\"\n"), &Overrides::default()).unwrap();
+    assert!(loaded.task.objects.iter().all(|o| o.holding == Holding::Level));
+    assert_eq!(loaded.task.wrist.map(|w| w.acceleration), Some(24.0));
+    assert!(loaded.notes.iter().any(|n| n.contains("wrist: no acceleration limit given; taken as 24.000 rad/s^2")));
+}
+
+#[test]
+fn options_replace_start_and_clearance() {
+    let overrides =
+        Overrides { start: Some("10deg,0".parse().unwrap()), clearance: Some(0.01), ..Overrides::default() };
+    let loaded = task_of(&format!("{CELL}[[step]]\npick = \"cup\"\n"), &overrides).unwrap();
+    assert!((loaded.task.start[0] - 10f64.to_radians()).abs() < 1e-15);
+    assert_eq!((loaded.task.workspace.clearance, loaded.scene.workspace.clearance), (0.01, 0.01));
+}
+
+#[test]
+fn an_orientation_that_the_object_has_needs_no_wrist() {
+    let turn = "wrist = { velocity = 6.0, acceleration = 60.0 }\n";
+    let steps = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [0.5, 1.0], angle = 6.783185307179586 }\n";
+    let loaded = task_of(&format!("{}{steps}", CELL.replace(turn, "")), &Overrides::default()).unwrap();
+    let Some(Action::Place { angle: Some(angle), .. }) = loaded.task.steps().nth(1).map(|s| s.action.clone()) else {
+        panic!("a place with an angle")
+    };
+    assert_eq!(angle, loaded.task.objects[1].at.rotation.angle());
+}
+
+#[test]
+fn obstacles_of_one_name_support_together() {
+    let second = "[[obstacle]]\nname = \"table\"\ncircle = { center = [-1.0, 1.2], radius = 0.3 }\n[[object]]";
+    let world = CELL.replacen("[[object]]", second, 1);
+    let loaded = task_of(&format!("{world}[[step]]\npick = \"part\"\n"), &Overrides::default()).unwrap();
+    let Some(Action::Pick { supports, .. }) = loaded.task.steps().next().map(|s| s.action.clone()) else {
+        panic!("a pick")
+    };
+    assert_eq!(supports, [0, 1]);
+}
+
+#[test]
+fn steps_count_for_more_than_the_goal_of_a_map() {
+    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces");
+    let map = format!(
+        "[map]\nfile = \"{}\"\npreferences = \"{}\"\noffset = [50, 50]\n[[step]]\npick = \"part\"\n",
+        maps.join("store_room.map").display(),
+        maps.join("store_room_wishes.map").display()
+    );
+    assert_eq!(task_of(&format!("{CELL}{map}"), &Overrides::default()).unwrap().task.steps().count(), 1);
+}
+
+#[test]
+fn the_readme_shows_what_can_be_written() {
+    let readme = include_str!("../../README.md");
+    let block = readme.split("```toml\n").map(|b| b.split("```").next().unwrap_or_default());
+    let block = block.filter(|b| b.contains("[[step]]")).collect::<Vec<_>>();
+    let [block] = block[..] else { panic!("one block with steps") };
+    let circle = |table: &str, name: &str, center: &str| {
+        format!("[[{table}]]\nname = \"{name}\"\ncircle = {{ center = {center}, radius = 0.02 }}\n")
+    };
+    let rest = [
+        "[start]\njoints = [2.5, 0.0]\n".to_owned(),
+        circle("obstacle", "table", "[0.3, 0.15]"),
+        circle("obstacle", "tray", "[-0.1, 0.4]"),
+        circle("object", "lid", "[0, 0]") + "at = [0.4, 0.5]\n",
+    ];
+    let loaded = task_of(&format!("{block}{}", rest.concat()), &Overrides::default()).unwrap();
+    assert_eq!(loaded.task.steps().count(), 10 * (3 + 2 * 100));
+    assert_eq!(loaded.task.items.iter().filter(|item| matches!(item, Item::AnyOrder(_))).count(), 1000);
 }

@@ -1,0 +1,289 @@
+//! Objects and steps that are refused, with the place, what is wrong, and the cure.
+
+use super::{CELL, task_of, with_world};
+use cplan::input::{Inspection, Overrides, inspect, load};
+
+/// Steps for the cell; the first is on line 24.
+const STEPS: &str = r#"[[step]]
+pick = "part"
+[[step]]
+place = { at = [0.5, 1.5] }
+[[step]]
+pick = "cup"
+[[step]]
+place = { at = [0.5, 1.0], angle = 1.5 }
+[[step]]
+move = { joints = [0.1, 0.2] }
+"#;
+
+fn healthy() -> String {
+    format!("{CELL}{STEPS}")
+}
+
+fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
+    let error = task_of(world, overrides).expect_err("should be refused").to_string();
+    for part in parts {
+        assert!(error.contains(part), "no \"{part}\" in:\n{error}");
+    }
+}
+
+/// The cell with one piece of text replaced must be refused with these parts in the message.
+fn bad(from: &str, to: &str, parts: &[&str]) {
+    let world = healthy();
+    assert!(world.contains(from), "{from}");
+    refused(&world.replacen(from, to, 1), &Overrides::default(), &[&["world.toml: line ", "^"], parts].concat());
+}
+
+#[test]
+fn the_healthy_cell_loads() {
+    assert_eq!(task_of(&healthy(), &Overrides::default()).unwrap().task.items.len(), 5);
+}
+
+#[test]
+fn objects_that_are_none() {
+    let polygon = "polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]";
+    for (from, to, parts) in [
+        ("name = \"part\"\n", "", &["line 9", "missing key `name`"][..]),
+        ("at = [1.0, 1.0]\n", "", &["line 9", "missing key `at`"]),
+        ("at = [1.0, 1.0]", "at = [1.0]", &["line 12, column 6", "object \"part\", at: expected two numbers"]),
+        ("at = [1.0, 1.0]", "at = [1.0, inf]", &["line 12, column 12", "not a finite number"]),
+        ("angle = 0.5", "angle = nan", &["line 19", "object \"cup\", angle", "not a finite number"]),
+        ("angle = 0.5", "angel = 0.5", &["line 19", "unknown key `angel`"]),
+        (polygon, "", &["line 9", "object \"part\" needs exactly one shape, it has 0", "cure: give it a polygon"]),
+        (
+            polygon,
+            "polygon = [[0, 0], [1, 0], [1, 1]]\ncircle = { center = [0, 0], radius = 1 }",
+            &["line 9", "it has 2"],
+        ),
+        (
+            polygon,
+            "polygon = [[0, 0], [1, 1], [1, 0], [0, 1]]",
+            &["line 11, column 11", "not a simple polygon", "cure: "],
+        ),
+        (polygon, "polyline = [[0, 0], [1, 1]]", &["line 11", "unknown key `polyline`"]),
+        ("radius = 0.03", "radius = 0", &["line 17", "object \"cup\": the radius must be positive"]),
+        ("height = [0.0, 0.1]", "height = [0.1, 0.0]", &["line 20", "empty", "cure: write the lower end first"]),
+        ("lift = 0.05", "lift = -0.05", &["line 21", "object \"cup\": lift must not be negative"]),
+        ("payload = \"level\"", "payload = \"stiff\"", &["line 22", "\"rigid\" or \"level\", not \"stiff\"", "cure: "]),
+        ("[robot]", "[robot]\npayload = \"up\"", &["line 3", "\"rigid\" or \"level\", not \"up\""]),
+        ("grasp = [0.01, 0.0]", "grasp = 0.01", &["line 23, column 9"]),
+        ("renew = true", "renew = \"yes\"", &["line 14", "boolean"]),
+        ("name = \"cup\"", "name = \"part\"", &["line 16, column 8", "a second object is named \"part\"", "cure: "]),
+        ("name = \"cup\"", "name = \"table\"", &["line 16, column 8", "an obstacle is named \"table\"", "cure: "]),
+        (
+            "supports = [\"table\"]",
+            "supports = [\"tabel\"]",
+            &[
+                "line 13, column 13",
+                "no obstacle and no object \"tabel\"",
+                "cure: there are \"table\", \"cup\", \"part\"",
+            ],
+        ),
+        (
+            "supports = [\"table\"]",
+            "supports = [\"part\"]",
+            &["line 13, column 12", "\"part\" cannot rest on itself", "cure: remove it"],
+        ),
+    ] {
+        bad(from, to, parts);
+    }
+}
+
+#[test]
+fn wrists_that_are_none() {
+    bad("velocity = 6.0", "velocity = 0", &["line 3", "[robot] wrist: velocity must be positive, is 0", "cure: "]);
+    bad("acceleration = 60.0", "acceleration = -1", &["line 3", "acceleration must be positive"]);
+    bad("acceleration = 60.0", "jerk = 60.0", &["line 3", "unknown key `jerk`"]);
+    bad("velocity = 6.0, ", "", &["line 3", "missing key `velocity`"]);
+}
+
+#[test]
+fn steps_that_do_not_do_exactly_one_thing() {
+    let (pick, place) = ("pick = \"part\"", "place = { at = [0.5, 1.5] }");
+    for (from, to, parts) in [
+        (pick, "", &["line 24", "exactly one of `pick`, `place`, `move` and `steps`", "this has 0", "cure: "][..]),
+        (pick, "pick = \"part\"\nmove = { tip = [1, 1] }", &["line 24", "this has 2"]),
+        (pick, "grab = \"part\"", &["line 25, column 1", "unknown key `grab`"]),
+        (pick, "pick = 1", &["line 25, column 8"]),
+        (
+            pick,
+            "pick = \"prat\"",
+            &["line 25, column 8", "no object \"prat\"", "cure: the objects are \"cup\", \"part\""],
+        ),
+        (pick, "pick = \"table\"", &["line 25", "no object \"table\"", "cure: that is an obstacle", "[[object]]"]),
+        (pick, "pick = \"part\"\ngrasp = [0, 0, 0]", &["line 26, column 9", "expected two numbers, found 3"]),
+        (place, "place = { at = [0.5, 1.5] }\ngrasp = [0, 0]", &["line 28, column 9", "only a pick has a `grasp`"]),
+        (
+            place,
+            "place = { at = [0.5, 1.5] }\nsupports = []",
+            &["line 28", "of all steps only a pick", "cure: those of a place"],
+        ),
+        (place, "place = { angle = 1 }", &["line 27", "missing key `at`"]),
+        (place, "place = { at = [0.5, 1.5], speed = 1 }", &["line 27", "unknown key `speed`"]),
+        ("move = { joints = [0.1, 0.2] }", "move = {}", &["line 33, column 8", "the move needs either", "neither"]),
+        (pick, "pick = \"part\"\nspeed = 0", &["line 26, column 9", "speed must be more than 0", "cure: "]),
+        (pick, "pick = \"part\"\nspeed = 1.5", &["line 26", "at most 1, is 1.5"]),
+        (pick, "pick = \"part\"\nspeed = nan", &["line 26", "not a finite number"]),
+        (pick, "pick = \"part\"\ndwell = -1", &["line 26, column 9", "dwell must not be negative"]),
+        (
+            pick,
+            "pick = \"part\"\nrepeat = 2",
+            &["line 26, column 10", "only a group of steps can be repeated", "cure: "],
+        ),
+        (pick, "pick = \"part\"\norder = \"free\"", &["line 26, column 9", "only a group of steps has an `order`"]),
+        (pick, "steps = []", &["line 24", "no steps", "cure: "]),
+    ] {
+        bad(from, to, parts);
+    }
+}
+
+#[test]
+fn tasks_and_groups_that_are_none() {
+    let with_task = |table: &str, parts: &[&str]| {
+        bad("[[obstacle]]", &format!("[task]\n{table}\n[[obstacle]]"), parts);
+    };
+    with_task("repeat = 0", &["line 7, column 10", "1 time or more often, not 0", "cure: "]);
+    with_task("repeat = -3", &["line 7", "not -3"]);
+    with_task("repeat = 1.5", &["line 7", "expected a whole number"]);
+    with_task("repeat = 20001", &["line 7, column 10", "these are 100005 steps (at most 100000)", "cure: "]);
+    with_task("repeat = 9223372036854775807", &["line 7", "at most 100000"]);
+    with_task("order = \"any\"", &["line 7, column 9", "\"fixed\" or \"free\", not \"any\""]);
+    with_task("order = \"free\"", &["line 35", "this step has to be a pick", "cure: "]);
+    with_task("speed = 2", &["line 7", "speed must be"]);
+    with_task("count = 2", &["line 7", "unknown key `count`"]);
+    refused(&format!("{CELL}[task]\nrepeat = 2\n"), &Overrides::default(), &["line 24", "there are none", "cure: "]);
+
+    let free = |steps: &str, parts: &[&str]| {
+        let world = format!("{CELL}[[step]]\norder = \"free\"\nsteps = [{steps}]\n");
+        refused(&world, &Overrides::default(), &[&["line 26, column", "cure: "], parts].concat());
+    };
+    let pair = "{ pick = \"part\" }, { place = { at = [0.5, 1.5] } }";
+    free("{ pick = \"part\" }", &["this pick has no place"]);
+    free("{ pick = \"part\" }, { pick = \"cup\" }", &["column 38", "has to be a place"]);
+    free(&format!("{{ steps = [{pair}] }}"), &["has to be a pick"]);
+    free(&format!("{pair}, {pair}"), &["object \"part\" is picked twice"]);
+
+    let deep = format!("{CELL}[[step]]\n{}pick = \"part\"{}\n", "steps = [{ ".repeat(2000), " }]".repeat(2000));
+    refused(&deep, &Overrides::default(), &["world.toml: line 25", "recurs"]);
+    let nested = "[[step.steps]]\nrepeat = 1000\n[[step.steps.steps]]\nrepeat = 1000\n[[step.steps.steps.steps]]\n";
+    let many = format!("{CELL}[[step]]\nrepeat = 1000\n{nested}move = {{ joints = [0, 0] }}\n");
+    refused(&many, &Overrides::default(), &["line 27, column 10", "1000000 steps"]);
+}
+
+#[test]
+fn sequences_that_cannot_be() {
+    let (pick, place) = ("[[step]]\npick = \"part\"\n", "[[step]]\nplace = { at = [0.5, 1.5] }\n");
+    bad(place, "", &["line 27, column 8", "step 2 picks \"cup\" while \"part\" is carried", "cure: place"]);
+    bad(pick, "", &["line 25, column 16", "step 1 places something, but nothing is carried", "cure: pick"]);
+    let repeated = |steps: &str, parts: &[&str]| {
+        let world = format!("{CELL}{steps}[task]\nrepeat = 2\n");
+        refused(&world, &Overrides::default(), &[&["world.toml: line ", "cure: "], parts].concat());
+    };
+    repeated(pick, &["line 27, column 10", "they begin carrying nothing and end carrying \"part\""]);
+    let inner = "[[step]]\nrepeat = 3\nsteps = [{ place = { at = [0.5, 1.5] } }, { pick = \"part\" }]\n";
+    let carrying = format!("{CELL}{pick}{inner}");
+    refused(&carrying, &Overrides::default(), &["line 27, column 10", "\"part\" is carried when it would be renewed"]);
+    assert!(task_of(&carrying.replace("renew = true\n", ""), &Overrides::default()).is_ok());
+
+    let (at, rigid) = ("place = { at = [0.5, 1.5] }", "place = { at = [0.5, 1.5], angle = 1.0 }");
+    bad(at, rigid, &["line 27, column 36", "\"part\" is held rigidly", "cure: payload = \"level\""]);
+    let wrist = "wrist = { velocity = 6.0, acceleration = 60.0 }";
+    bad(wrist, "", &["line 31", "\"cup\" has to be turned from 0.5 to 1.5 rad", "no wrist", "cure: [robot] wrist"]);
+    let own = "place = { at = [0.5, 1.5], supports = [\"table\", \"part\"] }";
+    bad(at, own, &["line 27, column 39", "\"part\" cannot rest on itself"]);
+    bad(at, "place = { at = [0.5, 1.5], supports = [\"desk\"] }", &["line 27, column 40", "no object \"desk\""]);
+}
+
+#[test]
+fn an_orientation_is_that_of_the_last_place() {
+    let again = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [0.6, 1.0], angle = 0.5 }\n";
+    let once = "angle = 1.5 }\n";
+    let world = healthy().replace(once, &format!("{once}{again}"));
+    assert!(task_of(&world, &Overrides::default()).is_ok());
+    // Without a wrist the first turn fails; were it not there, the second would be none.
+    let still = world.replace("wrist = { velocity = 6.0, acceleration = 60.0 }", "").replace(", angle = 1.5", "");
+    assert!(task_of(&still, &Overrides::default()).is_ok());
+}
+
+#[test]
+fn what_the_arm_cannot_do() {
+    let goal = "move = { joints = [0.1, 0.2] }";
+    for (from, to, parts) in [
+        (
+            goal,
+            "move = { joints = [0.1, 3.2] }",
+            &["line 33, column 19", "step 5 is outside the joint limits", "\"elbow\" at 3.2 rad", "cure: "][..],
+        ),
+        (
+            goal,
+            "move = { tip = [1.0, 1.6] }",
+            &["line 33, column 16", "step 5: (1, 1.6) m is out of reach", "from 0.2000 to 1.8000 m", "cure: "],
+        ),
+        (goal, "move = { tip = [0.0, 0.1] }", &["out of reach"]),
+        (goal, "move = { tip = [0.21, 0.0] }", &["no posture", "within the joint limits", "\"elbow\"", "cure: "]),
+        ("at = [1.0, 1.0]", "at = [5.0, 1.0]", &["line 25, column 8", "step 1: (5, 1) m is out of reach"]),
+        ("at = [0.5, 1.5]", "at = [2.5, 1.5]", &["line 27, column 16", "step 2: (2.5, 1.5) m is out of reach"]),
+        // The cup's grasp is (0.01, 0), turned by 1.5 rad.
+        ("at = [0.5, 1.0]", "at = [0.0, 1.795]", &["line 31", "step 4: (0.000707", "out of reach"]),
+        (
+            "[[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]",
+            "[[-0.02, 0], [0.02, 0], [0.02, 0.0003]]",
+            &["line 13, column 12", "step 1: object \"part\" is too thin to rest on anything", "1.8", "cure: "],
+        ),
+    ] {
+        bad(from, to, parts);
+    }
+    // A grasp off the origin of a rigid payload whose orientation is unknown may or may not be in reach.
+    let far = healthy()
+        .replace("at = [0.5, 1.5]", "at = [0.0, 1.81]")
+        .replace("pick = \"part\"", "pick = \"part\"\ngrasp = [0.02, 0]");
+    assert!(task_of(&far, &Overrides::default()).is_ok());
+    // What a clearance leaves of it counts.
+    let clearance = Overrides { clearance: Some(0.02), ..Overrides::default() };
+    refused(&healthy(), &clearance, &["\"part\" is too thin", "2.02e-2 m", "clearance"]);
+    // Each step is named once, whatever its repetitions.
+    let many =
+        healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
+    let error = task_of(&many, &Overrides::default()).unwrap_err();
+    assert_eq!(error.defects().len(), 1, "{error}");
+}
+
+#[test]
+fn starts_that_are_not_free() {
+    bad("joints = [0.0, 0.5]\n", "joints = [0.0, 3.5]\n", &["line 5", "the start is outside the joint limits"]);
+    let touching = "at = [1.0, 0.0]";
+    bad("at = [1.0, 1.0]", touching, &["line 5", "the start", "hits obstacle \"part\"", "cure: move it away"]);
+    refused(&healthy().replace("[start]\njoints = [0.0, 0.5]\n", ""), &Overrides::default(), &["there is no start"]);
+}
+
+#[test]
+fn a_world_has_either_steps_or_a_goal() {
+    let none = Overrides::default();
+    let both = format!("{}[goal]\njoints = [1, 1]\n", healthy());
+    refused(&both, &none, &["line 34, column 1", "either a goal or steps", "cure: remove [goal]"]);
+    let as_problem = |overrides: &Overrides, parts: &[&str]| {
+        let error = with_world(&healthy(), |u, w| load(u, w, overrides)).unwrap_err().to_string();
+        for part in parts {
+            assert!(error.contains(part), "no \"{part}\" in:\n{error}");
+        }
+    };
+    as_problem(&none, &["line 24", "this world has steps, not a goal", "cure: "]);
+    let goal = Overrides { goal: Some("0,0".parse().unwrap()), ..Overrides::default() };
+    as_problem(&goal, &["--goal: this world has steps, not a goal", "cure: leave the option out"]);
+    refused(&healthy(), &goal, &["--goal: this world has steps"]);
+    let tip = Overrides { goal_tip: Some("1,1".parse().unwrap()), ..Overrides::default() };
+    refused(&healthy(), &tip, &["--goal-tip: this world has steps"]);
+    refused(CELL, &none, &["world.toml: there are no steps", "cure: "]);
+}
+
+#[test]
+fn an_inspection_warns_of_steps_that_cannot_be() {
+    let warnings = |world: &str| {
+        let inspection: Inspection = with_world(world, |u, w| inspect(u, Some(w)));
+        assert!(inspection.is_plannable(), "{:?}", inspection.errors);
+        inspection.warnings
+    };
+    assert!(warnings(&healthy()).is_empty());
+    let far = warnings(&healthy().replace("at = [0.5, 1.5]", "at = [2.5, 1.5]"));
+    assert!(far.iter().any(|w| w.starts_with("task: step 2: (2.5, 1.5) m is out of reach")), "{far:?}");
+}
