@@ -5,7 +5,6 @@ use crate::input::LoadedTask;
 use crate::plan::FieldPlanner;
 use crate::solve::percent;
 use crate::task::{Leg, TaskAnswer, TaskReport};
-use crate::trajectory::Status;
 
 /// Repetitions of a step that are shown; of the others only how many there are.
 const SHOWN_CYCLES: usize = 3;
@@ -80,8 +79,7 @@ fn outcome(answer: &TaskAnswer, report: &TaskReport) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let (duration, lower) = report.seconds();
     let Some(duration) = duration else {
-        let verdict = if report.status() == Status::Infeasible { "cannot be done" } else { "unknown" };
-        let mut lines = vec![("result", format!("{verdict}; {}", report.reason().unwrap_or_default()))];
+        let mut lines = vec![("result", report.reason().unwrap_or_default().to_owned())];
         let reasons = report.failed().into_iter().flat_map(|failed| failed.reasons.iter().cloned());
         lines.extend(reasons.map(|reason| ("why", reason)));
         lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));

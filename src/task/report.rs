@@ -269,7 +269,7 @@ fn reason(task: &Task, Impossible { step, .. }: &Impossible, status: Status) -> 
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
     match status {
         Status::Infeasible => format!("proven: {which} cannot be done, nor can the task in any other way"),
-        _ => format!("no way was found to do {which}, and none ruled out"),
+        _ => format!("unknown: no way to do {which} was found, and none ruled out"),
     }
 }
 

@@ -130,7 +130,10 @@ fn consistent(place: &Place, result: &Value) {
     let events = result["events"].as_array().unwrap();
     assert_eq!(events.len(), handling.len());
     for (event, step) in events.iter().zip(handling) {
-        assert_eq!((&event["step"], &event["cycle"], &event["object"]), (&step["step"], &step["cycle"], &step["object"]));
+        assert_eq!(
+            (&event["step"], &event["cycle"], &event["object"]),
+            (&step["step"], &step["cycle"], &step["object"])
+        );
         let own = rows(&step["path"]);
         let at: [f64; 2] = serde_json::from_value(event["tip"].clone()).unwrap();
         assert!(distance(at, tip(own[own.len() - 1])) < 1e-9);
@@ -189,7 +192,9 @@ fn repeated_tasks_are_counted_in_cycles() {
     let cycles: Vec<_> = result["steps"].as_array().unwrap().iter().map(|s| s["cycle"].as_u64().unwrap()).collect();
     assert_eq!(cycles, (0..30).map(|i| i / 6 + 1).collect::<Vec<_>>());
     let text = place.task(&world, "").stdout;
-    for part in ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "done and certified: 30 steps"] {
+    for part in
+        ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "done and certified: 30 steps"]
+    {
         assert!(text.contains(part), "{part:?} is not in: {text}");
     }
     for part in ["carrying \"cup\"", "proven: no sequence of motions takes less than", "closest: ", "motions planned"] {
@@ -201,9 +206,10 @@ fn repeated_tasks_are_counted_in_cycles() {
 #[test]
 fn the_first_step_that_fails_is_named() {
     let place = Place::new();
-    for (steps, code, status, verdict) in
-        [(BARRED, 3, "infeasible", "cannot be done; proven: step 2"), (DOUBTFUL, 4, "unknown", "unknown; no way")]
-    {
+    for (steps, code, status, verdict) in [
+        (BARRED, 3, "infeasible", "result     proven: step 2, place at (1.45, 0.25) m"),
+        (DOUBTFUL, 4, "unknown", "result     unknown: no way to do step 2"),
+    ] {
         place.write("a.csv", "old");
         let done = place.task(steps, "--output a.csv --json");
         let result = done.json();
