@@ -1,4 +1,5 @@
-//! Convex bodies and their distance, for the oracle: separating axes where they overlap, corners to sides where not.
+//! Convex bodies and their distance, for the oracles: separating axes where they overlap, corners to sides where not.
+#![allow(dead_code, reason = "each oracle uses some of it")]
 
 use cplan::geometry::Convex;
 

@@ -1,0 +1,141 @@
+//! Random tasks, the same for the same seed: all kinds of arms, rigid and level payloads, objects on supports.
+
+use crate::common::{all_kinds, clutter, obstacle};
+use cplan::geometry::{Convex, Point, Vector, hull};
+use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Scene, Shape, Step, Task, Workspace, Wrist};
+use cplan::space::Configuration;
+use nalgebra::Isometry2;
+use std::f64::consts::{PI, TAU};
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn range(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        from + (to - from) * (((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        self.range(0.0, n as f64) as usize
+    }
+
+    fn chance(&mut self, share: f64) -> bool {
+        self.range(0.0, 1.0) < share
+    }
+}
+
+pub fn task(seed: u64) -> Task {
+    let mut dice = Dice(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
+    let kinds = all_kinds();
+    let arm = kinds[dice.below(kinds.len())].clone();
+    let clearance = if dice.chance(0.2) { dice.range(0.0, 0.01) } else { 0.0 };
+    let mut obstacles: Vec<_> = Vec::new();
+    for (i, piece) in clutter().into_iter().enumerate() {
+        if dice.chance(0.4) {
+            obstacles.push(obstacle(&format!("o{i}"), piece));
+        }
+    }
+    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
+    // Where the tip can be: forward kinematics of random configurations, most of them free of what stays.
+    let topology = arm.topology();
+    let still = Scene::new(arm.clone(), workspace.clone());
+    let anywhere = |dice: &mut Dice| {
+        let mut draw = || {
+            Configuration::from_fn(|k, _| {
+                let (lower, upper) = topology.axes[k].domain();
+                dice.range(lower, upper)
+            })
+        };
+        let tries: Vec<Configuration> = (0..20).map(|_| draw()).collect();
+        let free = tries.iter().find(|q| still.obstructions(**q).is_empty());
+        *free.filter(|_| dice.chance(0.9)).unwrap_or(&tries[0])
+    };
+    let count = 1 + dice.below(3);
+    let mut objects = Vec::new();
+    for i in 0..count {
+        let (shape, pieces) = outline(&mut dice);
+        let at = arm.tip_at(anywhere(&mut dice));
+        let holding = if dice.chance(0.5) { Holding::Rigid } else { Holding::Level };
+        objects.push(Object {
+            name: format!("part {i}"),
+            shape,
+            pieces,
+            heights: if dice.chance(0.3) { Heights { lower: 0.0, upper: 0.05 } } else { Heights::ALL },
+            lift: if dice.chance(0.3) { 0.2 } else { 0.0 },
+            holding,
+            at: Isometry2::new(at.coords, dice.range(-PI, PI)),
+        });
+    }
+    // Somewhere free among all objects.
+    let all: Vec<_> = objects.iter().map(|object| Some(object.at)).collect();
+    let mut task = Task {
+        arm,
+        workspace,
+        objects,
+        start: Configuration::zeros(),
+        items: Vec::new(),
+        wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0 }),
+    };
+    let scene = Scene::new(task.arm.clone(), task.obstacles(&all));
+    task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
+    if !scene.obstructions(task.start).is_empty() {
+        // Nowhere: the task is without obstacles then.
+        task.workspace.obstacles.clear();
+    }
+    let fixed = task.workspace.obstacles.len();
+    let mut number = 0;
+    let mut step = |action: Action, dice: &mut Dice| {
+        number += 1;
+        Step {
+            action,
+            number,
+            cycle: 1,
+            place: String::new(),
+            speed: if dice.chance(0.2) { dice.range(0.2, 1.0) } else { 1.0 },
+            dwell: if dice.chance(0.5) { dice.range(0.0, 0.5) } else { 0.0 },
+        }
+    };
+    let mut pairs = Vec::new();
+    for object in 0..count {
+        let mut supports = || (0..fixed).filter(|_| dice.chance(0.2)).collect::<Vec<usize>>();
+        let (from, onto) = (supports(), supports());
+        let grasp = if dice.chance(0.3) { Point::new(dice.range(-0.05, 0.05), 0.02) } else { Point::origin() };
+        let pick = step(Action::Pick { object, grasp, supports: from }, &mut dice);
+        let at = task.arm.tip_at(anywhere(&mut dice));
+        let level = task.objects[object].holding == Holding::Level;
+        let angle = (level && dice.chance(0.5)).then(|| dice.range(-TAU, TAU));
+        let place = step(Action::Place { at, angle, supports: onto }, &mut dice);
+        pairs.push([pick, place]);
+    }
+    if dice.chance(0.4) {
+        task.items.push(Item::AnyOrder(pairs));
+    } else {
+        for [pick, place] in pairs {
+            task.items.push(Item::Step(pick));
+            if dice.chance(0.3) {
+                let tip = task.arm.tip_at(anywhere(&mut dice));
+                task.items.push(Item::Step(step(Action::Move(Goal::Tip(tip)), &mut dice)));
+            }
+            task.items.push(Item::Step(place));
+        }
+    }
+    if dice.chance(0.5) {
+        task.items.push(Item::Step(step(Action::Move(Goal::Joints(task.start)), &mut dice)));
+    }
+    task
+}
+
+fn outline(dice: &mut Dice) -> (Shape, Vec<Convex>) {
+    let size = dice.range(0.01, 0.05);
+    if dice.chance(0.3) {
+        let center = Point::new(dice.range(-0.02, 0.02), 0.0);
+        return (Shape::Circle { center, radius: size }, vec![Convex::disc(center, size)]);
+    }
+    let spot = |dice: &mut Dice| Point::from(Vector::new(dice.range(-2.0, 2.0), dice.range(-1.0, 1.0)) * size);
+    let corners = hull(&(0..5).map(|_| spot(dice)).collect::<Vec<_>>());
+    (Shape::Polygon(corners.clone()), vec![Convex::new(corners, 0.0)])
+}
