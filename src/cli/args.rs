@@ -21,6 +21,7 @@ Examples:
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
+  cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg

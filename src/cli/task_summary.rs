@@ -113,7 +113,7 @@ fn clearance(answer: &TaskAnswer, report: &TaskReport) -> Option<Line> {
     report.trajectory()?;
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
-    let cycle = if cycle > 1 { format!(" in cycle {cycle}") } else { String::new() };
+    let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
     let curve = &least.timed.curve;
     let closest = match (least.turn, curve.nearest()) {
         (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),

@@ -265,7 +265,7 @@ impl FailedStep {
 
 /// Which step fails, in a sentence.
 fn reason(task: &Task, Impossible { step, .. }: &Impossible, status: Status) -> String {
-    let cycle = if step.cycle > 1 { format!(" in cycle {}", step.cycle) } else { String::new() };
+    let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
     match status {
         Status::Infeasible => format!("proven: {which} cannot be done, nor can the task in any other way"),
