@@ -133,15 +133,20 @@ fn without_a_path_there_is_a_reason() {
         assert_eq!(json["certified"], false);
         assert!(["path", "length", "clearance", "trajectory"].iter().all(|k| json[k].is_null()), "{json}");
         assert_eq!(json["status"], word);
-        assert_eq!((Format::Csv.text(&report), Format::Yaml.text(&report)), (None, None));
-        assert_eq!(Format::Json.text(&report), Some(report.json()));
+        assert_eq!((Format::Csv.bytes(&report), Format::Yaml.bytes(&report)), (None, None));
+        assert_eq!(Format::Json.bytes(&report), Some(report.json().into_bytes()));
     }
+}
+
+/// A report with a trajectory in a format that is text.
+fn text(format: Format, report: &Report) -> String {
+    String::from_utf8(format.bytes(report).expect("there is a trajectory")).expect("UTF-8")
 }
 
 #[test]
 fn csv_reads_back() {
     let report = found(true, &WAYPOINTS);
-    let text = Format::Csv.text(&report).expect("there is a trajectory");
+    let text = text(Format::Csv, &report);
     let (header, body) = text.split_once('\n').expect("a header");
     let first = "\"shoulder, \"\"left\"\"";
     assert_eq!(
@@ -165,7 +170,7 @@ fn ros_message_reads_back() {
     // A piece of a nanometre makes for samples a few microseconds apart.
     for waypoints in [&WAYPOINTS[..], &[[0.0, 0.0], [1e-9, 0.0], [1e-9, 1e-9], [0.3, 0.1]], &[[0.2, 0.1]]] {
         let report = found(true, waypoints);
-        let text = Format::Yaml.text(&report).expect("there is a trajectory");
+        let text = text(Format::Yaml, &report);
         let message: Value = serde_saphyr::from_str(&text).expect("YAML");
         assert_eq!(message["header"], serde_json::json!({"stamp": {"sec": 0, "nanosec": 0}, "frame_id": ""}));
         assert_eq!(message["joint_names"], serde_json::json!(NAMES));

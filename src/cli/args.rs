@@ -214,7 +214,7 @@ pub struct PlanArgs {
     pub motion: MotionArgs,
     #[command(flatten)]
     pub search: SearchArgs,
-    /// Write the result: .json, .csv or .yaml (ROS 2 JointTrajectory). Can be repeated.
+    /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
     /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml

@@ -2,7 +2,7 @@
 
 use crate::draw::DrawError;
 use crate::input::InputError;
-use crate::trajectory::{TimingError, WriteError};
+use crate::trajectory::{FormatError, TimingError, WriteError};
 use thiserror::Error;
 
 /// Bad input or I/O, in the user's words.
@@ -32,5 +32,14 @@ impl Failure {
     /// The process's exit code.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Self::Usage(_)) { super::USAGE } else { super::BAD_INPUT }
+    }
+}
+
+impl From<FormatError> for Failure {
+    fn from(error: FormatError) -> Self {
+        match error {
+            FormatError::Unknown { .. } => Self::Usage(error.to_string()),
+            FormatError::WithoutMcap { .. } => Self::Option(error.to_string()),
+        }
     }
 }

@@ -55,12 +55,11 @@ const PICTURE_TOLERANCE: f64 = 1e-3;
 /// What the file names ask for, checked before any work is done.
 ///
 /// # Errors
-/// Extensions that are none of ours, and files that cannot be written.
+/// Extensions that are none of ours or not in this program, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
     let mut sinks = Vec::new();
     for path in results {
-        let format = Format::from_path(path).map_err(|e| Failure::Usage(e.to_string()))?;
-        sinks.push(Sink::Result(format, path.clone()));
+        sinks.push(Sink::Result(Format::from_path(path)?, path.clone()));
     }
     for path in pictures {
         sinks.push(Sink::Picture(picture_format(path)?, path.clone()));
@@ -87,8 +86,8 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
 /// # Errors
 /// I/O.
 pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), Failure> {
-    match format.text(report) {
-        Some(text) => write_whole(path, text.as_bytes())?,
+    match format.bytes(report) {
+        Some(bytes) => write_whole(path, &bytes)?,
         None => warn_unwritten(path),
     }
     Ok(())

@@ -58,7 +58,7 @@ impl TaskFiles {
                 files.extend(parts);
                 names.push(self.span(path));
                 self.warn_of_more(path);
-            } else if let Some(bytes) = report.bytes(*format) {
+            } else if let Some(bytes) = report.bytes(*format, answer) {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {
@@ -71,7 +71,7 @@ impl TaskFiles {
 
     /// Whether each step has a file of its own in that format.
     fn parts(&self, format: Format) -> bool {
-        self.per_step && format != Format::Json
+        self.per_step && matches!(format, Format::Csv | Format::Yaml)
     }
 
     /// The file of one step, from 1: `plan-001.yaml` for `plan.yaml`.

@@ -28,6 +28,7 @@ mod requirement;
 mod sequence;
 mod source;
 mod step;
+mod table;
 mod task;
 mod trajectory;
 mod urdf;

@@ -26,7 +26,7 @@ pub(super) struct Sequence {
 /// what any wrist repeats.
 const SAME_ANGLE: f64 = 1e-9;
 
-/// Writes a group of steps out.
+/// Writes the file's steps out, the first of which stands at `at`.
 ///
 /// # Errors
 /// On picks with something carried, places with nothing carried, repetitions that do not begin with what they end with,
@@ -37,6 +37,7 @@ pub(super) fn write_out(
     objects: &[Movable],
     has_wrist: bool,
     steps: &Group,
+    at: Range<usize>,
 ) -> Result<Sequence, Defect> {
     let lying = objects.iter().map(Lying::at_first).collect();
     let mut writer = Writer {
@@ -51,7 +52,7 @@ pub(super) fn write_out(
         requirements: Requirements::default(),
     };
     writer.group(steps)?;
-    Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at: steps.at.clone() })
+    Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
 /// Where an object lies, or what is known of it while it is carried.
@@ -60,12 +61,14 @@ struct Lying {
     at: Point,
     /// None when it depends on the posture in which a rigid payload was let go of.
     angle: Option<f64>,
+    /// The tip when it was let go of, which has been required already.
+    tip: Option<Point>,
 }
 
 impl Lying {
     fn at_first(movable: &Movable) -> Self {
         let pose = &movable.object.at;
-        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()) }
+        Self { at: Point::from(pose.translation.vector), angle: Some(pose.rotation.angle()), tip: None }
     }
 
     /// Where a point of the object is, if that is known.
@@ -198,7 +201,8 @@ impl Writer<'_> {
             return Err(defect.cure("place what is carried first"));
         }
         self.rest(leaf, object, supports)?;
-        if let Some(tip) = self.lying[object].point(grasp) {
+        let lying = self.lying[object];
+        if let Some(tip) = lying.point(grasp).filter(|tip| lying.tip != Some(*tip)) {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         self.carried = Some(Carried { object, grasp });
@@ -219,12 +223,13 @@ impl Writer<'_> {
         let supports = supports.unwrap_or(&self.objects[object].supports);
         self.rest(leaf, object, supports)?;
         let asked = angle.map(|(angle, place)| self.turned(leaf, object, *angle, place)).transpose()?;
-        let lying = match self.objects[object].object.holding {
-            Holding::Rigid => Lying { at, angle: None },
-            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle) },
+        let mut lying = match self.objects[object].object.holding {
+            Holding::Rigid => Lying { at, angle: None, tip: None },
+            Holding::Level => Lying { at, angle: asked.or(self.lying[object].angle), tip: None },
         };
+        lying.tip = lying.point(grasp);
         self.lying[object] = lying;
-        if let Some(tip) = lying.point(grasp) {
+        if let Some(tip) = lying.tip {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
         }
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })

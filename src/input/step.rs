@@ -4,6 +4,7 @@ use super::error::Defect;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, NameList, Names};
 use super::source::Cursor;
+use super::table::Table;
 use super::world::{GoalTable, Number, Numbers, Reader};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -15,9 +16,9 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub(super) struct StepTable {
     pick: Option<Spanned<String>>,
-    place: Option<PlaceTable>,
+    place: Option<Table<PlaceTable>>,
     #[serde(rename = "move")]
-    goal: Option<Spanned<GoalTable>>,
+    goal: Option<Spanned<Table<GoalTable>>>,
     steps: Option<Vec<Spanned<StepTable>>>,
     grasp: Option<Numbers>,
     supports: Option<NameList>,
@@ -178,9 +179,9 @@ impl<'a> StepReader<'a> {
                 return self.group(steps, &manner, pace, table.span()).map(Node::Group);
             }
             (Some(name), None, None, None) => (name.span(), self.pick(step, name)?),
-            (None, Some(place), None, None) => (place.at.span(), self.place(place)?),
+            (None, Some(Table(place)), None, None) => (place.at.span(), self.place(place)?),
             (None, None, Some(goal), None) => {
-                let (goal, at) = self.reader.goal(goal, "move")?;
+                let (goal, at) = self.reader.goal(&goal.get_ref().0, goal.span(), "move")?;
                 (at, LeafAction::Move(goal))
             }
             (pick, place, goal, steps) => {

@@ -143,7 +143,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let reader = Reader { source: &source };
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
     let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
-    let goal = file.goal.as_ref().map(|g| reader.goal(g, "goal")).transpose()?;
+    let goal = file.goal.as_ref().map(|g| reader.goal(g.get_ref(), g.span(), "goal")).transpose()?;
     let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
     let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
@@ -193,7 +193,8 @@ fn steps(
     }
     let task = file.task.as_ref().map(Spanned::get_ref);
     let group = StepReader::new(reader, names, movables).all(&file.step, task)?;
-    write_out(reader, names, movables, has_wrist, &group).map(Some)
+    let at = file.step[0].span();
+    write_out(reader, names, movables, has_wrist, &group, at).map(Some)
 }
 
 /// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
@@ -202,6 +203,7 @@ fn in_toml_words(message: &str) -> String {
         .replace("unknown field", "unknown key")
         .replace("missing field", "missing key")
         .replace("expected f64", "expected a number")
+        .replace("map, expected a sequence", "one table, expected a list of tables: [[...]]")
         .replace("expected i64", "expected a whole number")
 }
 
@@ -247,8 +249,8 @@ impl Reader<'_> {
     }
 
     /// Joint values or a point for the tip, and where they stand.
-    pub fn goal(&self, goal: &Spanned<GoalTable>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
-        match (&goal.get_ref().joints, &goal.get_ref().tip) {
+    pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
+        match (&goal.joints, &goal.tip) {
             (Some(joints), None) => {
                 let values = self.two(joints, &format!("{what} joints"))?;
                 Ok((Goal::Joints(Configuration::from(values)), joints.span()))
@@ -257,7 +259,7 @@ impl Reader<'_> {
             (joints, _) => {
                 let found = if joints.is_some() { "both" } else { "neither" };
                 let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
-                Err(self.source.defect_at(goal.span(), message).cure("joints = [q1, q2], or tip = [x, y]"))
+                Err(self.source.defect_at(at, message).cure("joints = [q1, q2], or tip = [x, y]"))
             }
         }
     }

@@ -11,6 +11,7 @@
 //! orders), are the heuristic; at the start they bound the whole task from below.
 
 mod answer;
+mod files;
 mod legs;
 mod least_time;
 mod order;

@@ -1,12 +1,10 @@
-//! What became of a task, as JSON and as tables.
+//! What became of a task, as JSON.
 
-use super::answer::{Impossible, Leg, TaskAnswer, TaskVerdict};
+use super::answer::{Impossible, TaskAnswer, TaskVerdict};
 use super::sequence::Sequence;
 use super::step_report::{ActionName, EventReport, StepReport, finite};
 use crate::model::{Joint, Task};
-use crate::trajectory::{
-    Format, INTERPOLATION, SearchUsed, Status, Trajectory, as_map, csv_with_steps, line_a_field, ros_yaml,
-};
+use crate::trajectory::{INTERPOLATION, SearchUsed, Status, Trajectory, as_map, line_a_field};
 use serde::Serialize;
 
 /// How good the choice of postures, turns and order is.
@@ -166,6 +164,12 @@ impl TaskReport {
         self.status
     }
 
+    /// Names of the joints in the URDF, base to tip.
+    #[must_use]
+    pub fn joints(&self) -> &[String; 2] {
+        &self.joints
+    }
+
     /// Name of the planner of single motions.
     #[must_use]
     pub fn planner(&self) -> &str {
@@ -214,39 +218,16 @@ impl TaskReport {
         self.trajectory.as_ref().map(|whole| &whole.trajectory)
     }
 
+    /// Of each sample of the whole motion, the step that it belongs to, as [`Sequence::steps`] has it.
+    #[must_use]
+    pub fn steps_of_samples(&self) -> &[usize] {
+        self.trajectory.as_ref().map_or(&[], |whole| &whole.step)
+    }
+
     /// The result as a JSON object, a line a field. Numbers have as many digits as it takes to read the same `f64` back.
     #[must_use]
     pub fn json(&self) -> String {
         line_a_field(self)
-    }
-
-    /// The result as a file in this format holds it: tables have a column with the number of each sample's step among those
-    /// that are done, from 1. None if the format holds nothing but a trajectory and there is none.
-    #[must_use]
-    pub fn bytes(&self, format: Format) -> Option<Vec<u8>> {
-        let text = match format {
-            Format::Json => self.json(),
-            Format::Csv => {
-                let SteppedTrajectory { trajectory, step } = self.trajectory.as_ref()?;
-                let numbers: Vec<usize> = step.iter().map(|step| step + 1).collect();
-                csv_with_steps(&self.joints, trajectory, &numbers)
-            }
-            Format::Yaml => ros_yaml(&self.joints, self.trajectory()?),
-        };
-        Some(text.into_bytes())
-    }
-
-    /// The same for the motion of one step alone, on a clock of its own and without standing still; `number` is the step's
-    /// among those that are done, from 1. None for formats that hold more than a trajectory.
-    #[must_use]
-    pub fn step_bytes(&self, format: Format, number: usize, leg: &Leg) -> Option<Vec<u8>> {
-        let trajectory = &leg.timed.trajectory;
-        let text = match format {
-            Format::Json => return None,
-            Format::Csv => csv_with_steps(&self.joints, trajectory, &vec![number; trajectory.time.len()]),
-            Format::Yaml => ros_yaml(&self.joints, trajectory),
-        };
-        Some(text.into_bytes())
     }
 }
 

@@ -1,11 +1,14 @@
 //! Which file extension means what.
 
+#[cfg(feature = "mcap")]
+use super::mcap::mcap;
 use super::{Report, csv, ros_yaml};
 use std::path::Path;
 use thiserror::Error;
 
-/// A format of result files.
+/// A format of result files. Features of the crate add some.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Format {
     /// The whole report.
     Json,
@@ -13,38 +16,59 @@ pub enum Format {
     Csv,
     /// The trajectory as a ROS 2 message.
     Yaml,
+    /// The trajectory as a recording of ROS 2 topics.
+    #[cfg(feature = "mcap")]
+    Mcap,
 }
 
-/// A file name whose extension is none of ours.
+/// Why a file's name does not tell a format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("cannot tell the format of {file:?}: its name must end in .json, .csv, .yaml or .yml")]
-pub struct UnknownFormat {
-    /// The name as given.
-    pub file: String,
+pub enum FormatError {
+    /// The extension is none of ours.
+    #[error("cannot tell the format of {file:?}: its name must end in .json, .csv, .yaml, .yml or .mcap")]
+    Unknown {
+        /// The name as given.
+        file: String,
+    },
+    /// The format is one that this build of the program does not have.
+    #[error("{file}: this program was built without MCAP; use .yaml, .csv or .json")]
+    WithoutMcap {
+        /// The name as given.
+        file: String,
+    },
 }
 
 impl Format {
     /// The format that a file's extension stands for; upper and lower case are the same.
     ///
     /// # Errors
-    /// [`UnknownFormat`] for any other extension, or none.
-    pub fn from_path(path: &Path) -> Result<Self, UnknownFormat> {
+    /// [`FormatError::Unknown`] for any other extension, or none; [`FormatError::WithoutMcap`] for `.mcap` without the
+    /// feature `mcap`.
+    pub fn from_path(path: &Path) -> Result<Self, FormatError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let file = || path.to_string_lossy().into_owned();
         match extension.as_deref() {
             Some("json") => Ok(Self::Json),
             Some("csv") => Ok(Self::Csv),
             Some("yaml" | "yml") => Ok(Self::Yaml),
-            _ => Err(UnknownFormat { file: path.to_string_lossy().into_owned() }),
+            #[cfg(feature = "mcap")]
+            Some("mcap") => Ok(Self::Mcap),
+            #[cfg(not(feature = "mcap"))]
+            Some("mcap") => Err(FormatError::WithoutMcap { file: file() }),
+            _ => Err(FormatError::Unknown { file: file() }),
         }
     }
 
-    /// The report's text in this format; none if the format holds nothing but a trajectory and there is none.
+    /// The report in this format, as a file holds it; none if the format holds nothing but a trajectory and there is none.
+    /// All but MCAP are text in UTF-8.
     #[must_use]
-    pub fn text(self, report: &Report) -> Option<String> {
+    pub fn bytes(self, report: &Report) -> Option<Vec<u8>> {
         match self {
-            Self::Json => Some(report.json()),
-            Self::Csv => Some(csv(&report.joints, report.trajectory.as_ref()?)),
-            Self::Yaml => Some(ros_yaml(&report.joints, report.trajectory.as_ref()?)),
+            Self::Json => Some(report.json().into_bytes()),
+            Self::Csv => Some(csv(&report.joints, report.trajectory.as_ref()?).into_bytes()),
+            Self::Yaml => Some(ros_yaml(&report.joints, report.trajectory.as_ref()?).into_bytes()),
+            #[cfg(feature = "mcap")]
+            Self::Mcap => Some(mcap(&report.joints, &[(report.trajectory.as_ref()?, 0.0)])),
         }
     }
 }
@@ -60,6 +84,13 @@ mod tests {
         assert_eq!(format("b.CSV"), Ok(Format::Csv));
         assert_eq!(format("b.yaml"), Ok(Format::Yaml));
         assert_eq!(format("b.tar.yml"), Ok(Format::Yaml));
+        #[cfg(feature = "mcap")]
+        assert_eq!(format("a/b.mcap"), Ok(Format::Mcap));
+        #[cfg(not(feature = "mcap"))]
+        {
+            let refused = format("a/b.mcap").expect_err("not in this program");
+            assert_eq!(refused.to_string(), "a/b.mcap: this program was built without MCAP; use .yaml, .csv or .json");
+        }
         for name in ["b.txt", "json", ".csv", "b.", ""] {
             let message = format(name).expect_err("no format of ours").to_string();
             assert!(message.contains(name) && message.contains(".json, .csv, .yaml"), "{message}");

@@ -1,7 +1,7 @@
 //! From a certified path to a motion in time, and to files.
 //!
 //! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found,
-//! [`Format`] writes either as JSON, CSV or ROS 2 YAML, and [`write_whole`] puts the text into a file, whole or not at all.
+//! [`Format`] writes either as JSON, CSV, ROS 2 YAML or MCAP, and [`write_whole`] puts that into a file, whole or not at all.
 
 mod corner;
 mod csv;
@@ -10,6 +10,8 @@ mod field;
 mod format;
 mod json;
 mod limits;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod profile;
 mod result;
 mod ros;
@@ -21,10 +23,12 @@ mod whole_file;
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "mcap")]
+pub use self::mcap::mcap;
 pub use csv::{csv, csv_with_steps};
 pub use drive::Drive;
 pub use field::FieldReport;
-pub use format::{Format, UnknownFormat};
+pub use format::{Format, FormatError};
 pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
 pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};

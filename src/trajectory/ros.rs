@@ -33,11 +33,18 @@ pub fn ros_yaml(joints: &[String; 2], trajectory: &Trajectory) -> String {
     text
 }
 
-/// Whole seconds and nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose
-/// nanoseconds a double counts exactly.
+/// Nanoseconds in a second.
+pub(super) const PER_SECOND: u64 = 1_000_000_000;
+
+/// Seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose nanoseconds
+/// a double counts exactly.
+pub(super) fn nanoseconds(time: f64) -> u64 {
+    (time * PER_SECOND as f64).round() as u64
+}
+
+/// Whole seconds, and nanoseconds.
 fn split(time: f64) -> (u64, u64) {
-    const PER_SECOND: u64 = 1_000_000_000;
-    let nanoseconds = (time * PER_SECOND as f64).round() as u64;
+    let nanoseconds = nanoseconds(time);
     (nanoseconds / PER_SECOND, nanoseconds % PER_SECOND)
 }
 

@@ -131,6 +131,36 @@ fn without_a_trajectory_tables_stay_as_they_were() {
     assert!(done.stderr.contains("a.csv is not written") && place.read("a.json").contains("infeasible"));
 }
 
+#[cfg(feature = "mcap")]
+#[test]
+fn recordings_hold_every_sample_and_are_the_same_each_time() {
+    let place = Place::new();
+    let result = place.run(&shelf(), "--json --output a.mcap").json();
+    place.run(&shelf(), "--timings --output b.MCAP");
+    let file = std::fs::read(place.path("a.mcap")).unwrap();
+    assert!(file == std::fs::read(place.path("b.MCAP")).unwrap());
+    let samples = result["trajectory"]["time"].as_array().unwrap().len() as u64;
+    let statistics = mcap::Summary::read(&file).unwrap().and_then(|summary| summary.stats).expect("statistics");
+    // And the message that holds them all.
+    assert_eq!(statistics.message_count, samples + 1);
+    let end = result["duration"].as_f64().unwrap();
+    assert!((statistics.message_end_time as f64 * 1e-9 - end).abs() <= 0.6e-9);
+
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/no_path.toml")];
+    let none = place.run(&files, "--output none.mcap");
+    assert_eq!(none.code, 3);
+    assert!(none.stderr.contains("none.mcap is not written") && !place.path("none.mcap").exists(), "{}", none.stderr);
+}
+
+#[cfg(not(feature = "mcap"))]
+#[test]
+fn a_program_without_mcap_says_so_before_any_work() {
+    let place = Place::new();
+    let done = place.run(&shelf(), "--output a.json --output a.mcap");
+    done.refused(1, &["a.mcap", "built without MCAP", ".yaml"]);
+    assert!(!place.path("a.json").exists());
+}
+
 #[test]
 fn readers_that_go_away_are_no_error() {
     let place = Place::new();

@@ -319,3 +319,21 @@ fn what_cannot_be_done_for_steps_is_refused() {
     refused("--per-step --output a.csv", 1, "a-002.csv");
     assert!(!place.path("a-001.csv").exists(), "nothing is written if not all can be");
 }
+
+#[cfg(feature = "mcap")]
+#[test]
+fn a_recording_has_a_message_for_each_motion() {
+    let place = Place::new();
+    let result = place.task(STEPS, "--per-step --output a.csv --output a.mcap --json").json();
+    let file = std::fs::read(place.path("a.mcap")).unwrap();
+    let topic = |topic: &str| {
+        let messages = mcap::MessageStream::new(&file).unwrap().map(Result::unwrap);
+        messages.filter(|message| message.channel.topic == topic).map(|message| message.log_time).collect::<Vec<u64>>()
+    };
+    let steps = result["steps"].as_array().unwrap();
+    let begins: Vec<u64> = steps.iter().map(|step| (step["begin"].as_f64().unwrap() * 1e9).round() as u64).collect();
+    assert_eq!(topic("/joint_trajectory"), begins);
+    let sample = |step: &Value, key: &str| step[key].as_u64().unwrap() as usize;
+    let samples: usize = steps.iter().map(|step| sample(step, "last_sample") - sample(step, "first_sample") + 1).sum();
+    assert_eq!(topic("/joint_states").len(), samples);
+}

@@ -118,6 +118,8 @@ fn steps_that_do_not_do_exactly_one_thing() {
             "place = { at = [0.5, 1.5] }\nsupports = []",
             &["line 28", "of all steps only a pick", "cure: those of a place"],
         ),
+        (place, "place = [0.5, 1.5]", &["line 27, column 9", "sequence, expected a table: { key = value }"]),
+        ("move = { joints = [0.1, 0.2] }", "move = [0.1, 0.2]", &["line 33, column 8", "expected a table"]),
         (place, "place = { angle = 1 }", &["line 27", "missing key `at`"]),
         (place, "place = { at = [0.5, 1.5], speed = 1 }", &["line 27", "unknown key `speed`"]),
         ("move = { joints = [0.1, 0.2] }", "move = {}", &["line 33, column 8", "the move needs either", "neither"]),
@@ -151,6 +153,8 @@ fn tasks_and_groups_that_are_none() {
     with_task("order = \"free\"", &["line 35", "this step has to be a pick", "cure: "]);
     with_task("speed = 2", &["line 7", "speed must be"]);
     with_task("count = 2", &["line 7", "unknown key `count`"]);
+    let single = format!("{CELL}[step]\npick = \"part\"\n");
+    refused(&single, &Overrides::default(), &["line 24", "one table, expected a list of tables: [[...]]", "^"]);
     refused(&format!("{CELL}[task]\nrepeat = 2\n"), &Overrides::default(), &["line 24", "there are none", "cure: "]);
 
     let free = |steps: &str, parts: &[&str]| {
@@ -246,6 +250,10 @@ fn what_the_arm_cannot_do() {
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();
     assert_eq!(error.defects().len(), 1, "{error}");
+    // A pick of what lies out of reach follows from the place.
+    let repeated = many.replace("3.2", "0.2").replace("renew = true\n", "").replace("[0.5, 1.5]", "[2.5, 1.5]");
+    let error = task_of(&repeated, &Overrides::default()).unwrap_err();
+    assert_eq!(error.defects().len(), 1, "{error}");
 }
 
 #[test]
@@ -267,7 +275,7 @@ fn a_world_has_either_steps_or_a_goal() {
             assert!(error.contains(part), "no \"{part}\" in:\n{error}");
         }
     };
-    as_problem(&none, &["line 24", "this world has steps, not a goal", "cure: "]);
+    as_problem(&none, &["line 24, column 1", "this world has steps, not a goal", "cure: "]);
     let goal = Overrides { goal: Some("0,0".parse().unwrap()), ..Overrides::default() };
     as_problem(&goal, &["--goal: this world has steps, not a goal", "cure: leave the option out"]);
     refused(&healthy(), &goal, &["--goal: this world has steps"]);

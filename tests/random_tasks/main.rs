@@ -5,6 +5,7 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod flood;
 mod replay;
 #[path = "../random_worlds/solid.rs"]
 mod solid;

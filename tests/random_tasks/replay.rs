@@ -40,7 +40,7 @@ struct Held {
     grasp: V,
 }
 
-struct World<'a> {
+pub struct World<'a> {
     task: &'a Task,
     lies: Vec<Option<Frame>>,
     held: Option<Held>,
@@ -50,11 +50,7 @@ struct World<'a> {
 /// # Errors
 /// What is wrong, in words.
 pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String> {
-    let lies = task.objects.iter().map(|o| {
-        let (sin, cos) = o.at.rotation.angle().sin_cos();
-        Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
-    });
-    let mut world = World { task, lies: lies.collect(), held: None, released: None };
+    let mut world = World::at_first(task);
     let renewed = order(task, answer, all)?;
     let mut q = [task.start[0], task.start[1]];
     let mut clock = 0.0;
@@ -187,7 +183,27 @@ fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(
     Ok(())
 }
 
-impl World<'_> {
+impl<'a> World<'a> {
+    /// All objects where they lie at first.
+    pub fn at_first(task: &'a Task) -> Self {
+        let lies = task.objects.iter().map(|o| {
+            let (sin, cos) = o.at.rotation.angle().sin_cos();
+            Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
+        });
+        World { task, lies: lies.collect(), held: None, released: None }
+    }
+
+    /// The same with an object in the hand, as the arm at `q` would take it.
+    pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
+        let (frames, tip) = self.frames(q);
+        if let Some(lies) = self.lies[object].take() {
+            let level = self.task.objects[object].holding == Holding::Level;
+            let frame = if level { (lies.0, sub(lies.1, tip)) } else { compose(inverse(frames[1]), lies) };
+            self.held = Some(Held { object, frame, level, supports, grasp: [0.0; 2] });
+        }
+        self
+    }
+
     /// Frames of both links, and the tip.
     fn frames(&self, q: V) -> ([Frame; 2], V) {
         let arm = &self.task.arm;
@@ -224,9 +240,8 @@ impl World<'_> {
         bodies
     }
 
-    /// Whether nothing is nearer than `keep` at `q`.
-    fn check(&self, q: V, target: Option<usize>, keep: f64) -> Result<(), String> {
-        const ROUNDING: f64 = 1e-8;
+    /// Calls `f` with what moves, what it can meet, their distance at `q`, and whether the one rests on the other.
+    fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, bool)) {
         let fixed = self.task.workspace.obstacles.len();
         let (frames, _) = self.frames(q);
         let spared = |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
@@ -236,34 +251,69 @@ impl World<'_> {
                 let body = Solid::new(&part.shape).placed(frame.0, frame.1);
                 for (number, solid, heights) in &obstacles {
                     let meets = part.heights.lower <= heights[1] && heights[0] <= part.heights.upper;
-                    if !meets || (link == 1 && spared(*number)) {
-                        continue;
-                    }
-                    let distance = body.distance(solid);
-                    if distance < keep - ROUNDING {
-                        return Err(format!("link {link} is {distance} from {number}, {keep} is promised"));
+                    if meets && (link == 0 || !spared(*number)) {
+                        f(["link 1", "link 2"][link], *number, body.distance(solid), false);
                     }
                 }
             }
         }
-        let Some(held) = &self.held else { return Ok(()) };
+        let Some(held) = &self.held else { return };
         let object = &self.task.objects[held.object];
         let frame = self.carried(held, q);
         for piece in &object.pieces {
             let body = Solid::new(piece).placed(frame.0, frame.1);
             for (number, solid, heights) in &obstacles {
-                if object.heights.lower + object.lift > heights[1] || heights[0] > object.heights.upper + object.lift {
-                    continue;
-                }
-                let distance = body.distance(solid);
-                let rests = held.supports.contains(number);
-                let least = if rests { -GIVE * self.task.arm.reach() } else { keep };
-                if distance < least - ROUNDING {
-                    return Err(format!("object {} is {distance} from {number}, {least} is promised", held.object));
+                if object.heights.lower + object.lift <= heights[1] && heights[0] <= object.heights.upper + object.lift
+                {
+                    f("the object", *number, body.distance(solid), held.supports.contains(number));
                 }
             }
         }
-        Ok(())
+    }
+
+    /// Whether nothing is nearer than `keep` at `q`, and supports are not pressed into.
+    fn check(&self, q: V, target: Option<usize>, keep: f64) -> Result<(), String> {
+        const ROUNDING: f64 = 1e-8;
+        let give = GIVE * self.task.arm.reach();
+        let mut wrong = Ok(());
+        self.distances(q, target, |what, number, distance, rests| {
+            let least = if rests { -give } else { keep };
+            if distance < least - ROUNDING {
+                wrong = Err(format!("{what} is {distance} from {number}, {least} is promised"));
+            }
+        });
+        wrong
+    }
+
+    /// By how much everything is farther from obstacles than it has to be at `q`.
+    pub fn room(&self, q: V) -> f64 {
+        let give = GIVE * self.task.arm.reach();
+        let mut least = f64::INFINITY;
+        self.distances(q, None, |_, _, distance, rests| {
+            least = least.min(if rests { distance + give } else { distance - self.task.workspace.clearance });
+        });
+        least
+    }
+
+    /// How fast any point can move for each unit of each joint's rate.
+    pub fn speeds(&self) -> V {
+        let arm = &self.task.arm;
+        let own = arm
+            .links
+            .iter()
+            .flat_map(|link| &link.parts)
+            .map(|part| Solid::new(&part.shape))
+            .map(|s| s.reach + s.radius);
+        let carried = self.held.iter().flat_map(|held| {
+            let bodies = self.task.objects[held.object].pieces.iter().map(Solid::new);
+            let tip = norm([arm.tip.x, arm.tip.y]);
+            bodies.map(move |body| norm(held.frame.1) + body.reach + body.radius + tip)
+        });
+        let second = own.chain(carried).fold(0.0, f64::max);
+        let (lower, upper) = arm.joints[1].axis.domain();
+        let slides = if arm.joints[1].motion.is_revolute() { 0.0 } else { lower.abs().max(upper.abs()) };
+        let first = second + slides + norm([arm.offset.x, arm.offset.y]);
+        [0, 1].map(|k| if arm.joints[k].motion.is_revolute() { [first, second][k] } else { 1.0 })
     }
 
     /// What happens at the end of a motion; `then` is what the next place may touch.

@@ -8,10 +8,14 @@ use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
-struct Dice(u64);
+pub struct Dice(u64);
 
 impl Dice {
-    fn range(&mut self, from: f64, to: f64) -> f64 {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x2545_F491_4F6C_DD1D))
+    }
+
+    pub fn range(&mut self, from: f64, to: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -19,17 +23,17 @@ impl Dice {
         from + (to - from) * (((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub fn below(&mut self, n: usize) -> usize {
         self.range(0.0, n as f64) as usize
     }
 
-    fn chance(&mut self, share: f64) -> bool {
+    pub fn chance(&mut self, share: f64) -> bool {
         self.range(0.0, 1.0) < share
     }
 }
 
 pub fn task(seed: u64) -> Task {
-    let mut dice = Dice(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
+    let mut dice = Dice::new(seed);
     let kinds = all_kinds();
     let arm = kinds[dice.below(kinds.len())].clone();
     let clearance = if dice.chance(0.2) { dice.range(0.0, 0.01) } else { 0.0 };

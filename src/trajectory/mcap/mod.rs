@@ -1,0 +1,67 @@
+//! Trajectories as recordings of ROS 2 topics, in MCAP files.
+
+mod cdr;
+mod messages;
+
+use super::Trajectory;
+use super::ros::nanoseconds;
+use ::mcap::records::MessageHeader;
+use ::mcap::{McapResult, WriteOptions, Writer};
+use messages::{JOINT_STATE, JOINT_TRAJECTORY, Type};
+use std::collections::BTreeMap;
+use std::io::Cursor;
+
+/// Motions as an MCAP file (version 0, profile `ros2`), as if somebody had recorded them: on `/joint_states` a
+/// `sensor_msgs/msg/JointState` a sample, on `/joint_trajectory` a `trajectory_msgs/msg/JointTrajectory` a motion, written
+/// when it begins. The definitions of both are in the file. Chunks are not compressed.
+///
+/// Each motion comes with the time at which it begins, seconds from the beginning of the recording; the caller puts them
+/// in order. Times are rounded to nanoseconds: those of the log, the stamps of states and `time_from_start` agree to the
+/// nanosecond. Positions, velocities and accelerations are the trajectory's own `f64`. The same motions give the same bytes.
+/// Linear in the number of samples, some 250 bytes each.
+#[must_use]
+pub fn mcap(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> Vec<u8> {
+    write(joints, motions).expect("two channels with a schema each, and a buffer that takes all")
+}
+
+fn write(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> McapResult<Vec<u8>> {
+    let options = WriteOptions::new()
+        .profile("ros2")
+        .library(concat!("cplan ", env!("CARGO_PKG_VERSION")))
+        // The default depends on the features that other users of the crate have chosen.
+        .compression(None);
+    let mut file = Recording { writer: options.create(Cursor::new(Vec::new()))? };
+    let states = file.channel("/joint_states", &JOINT_STATE)?;
+    let trajectories = file.channel("/joint_trajectory", &JOINT_TRAJECTORY)?;
+    for &(trajectory, begin) in motions {
+        let begin = nanoseconds(begin);
+        file.message(trajectories, begin, &messages::joint_trajectory(joints, trajectory))?;
+        for (k, &time) in trajectory.time.iter().enumerate() {
+            let time = begin.saturating_add(nanoseconds(time));
+            let (position, velocity) = (trajectory.position[k], trajectory.velocity[k]);
+            file.message(states, time, &messages::joint_state(joints, time, position, velocity))?;
+        }
+    }
+    file.writer.finish()?;
+    Ok(file.writer.into_inner().into_inner())
+}
+
+/// A file in memory.
+struct Recording {
+    writer: Writer<Cursor<Vec<u8>>>,
+}
+
+impl Recording {
+    fn channel(&mut self, topic: &str, kind: &Type) -> McapResult<u16> {
+        let schema = self.writer.add_schema(kind.name, "ros2msg", kind.definition().as_bytes())?;
+        // The profile asks for this key; empty means the defaults of whoever plays the recording.
+        let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), String::new())]);
+        self.writer.add_channel(schema, topic, "cdr", &metadata)
+    }
+
+    /// Adds a message that was sent and received at the same time.
+    fn message(&mut self, channel_id: u16, time: u64, data: &[u8]) -> McapResult<()> {
+        let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
+        self.writer.write_to_known_channel(&header, data)
+    }
+}
