@@ -47,7 +47,7 @@ pub fn run(
     if args.timings {
         report.timings = clock.milliseconds();
     }
-    let written = files.write(&report, &answer)?;
+    let written = files.write(&report)?;
     clock.stage("write");
     if args.json {
         output::print(&report.json())?;

@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::output::{self, Sink};
-use crate::task::{TaskAnswer, TaskReport};
+use crate::task::TaskReport;
 use crate::trajectory::{Format, check_writable, write_whole_set};
 use std::path::{Path, PathBuf};
 
@@ -46,19 +46,17 @@ impl TaskFiles {
     ///
     /// # Errors
     /// I/O.
-    pub fn write(&self, report: &TaskReport, answer: &TaskAnswer) -> Result<Vec<String>, Failure> {
+    pub fn write(&self, report: &TaskReport) -> Result<Vec<String>, Failure> {
         let mut files = Vec::new();
         let mut names = Vec::new();
         for (format, path) in &self.results {
-            if self.parts(*format) && report.trajectory().is_some() {
-                let parts = answer.legs.iter().enumerate().filter_map(|(index, leg)| {
-                    let bytes = report.step_bytes(*format, index + 1, leg)?;
-                    Some((self.part(path, index + 1), bytes))
-                });
-                files.extend(parts);
+            let is_parted = self.parts(*format) && report.trajectory().is_some();
+            let parts = is_parted.then(|| report.bytes_per_step(*format)).flatten();
+            if let Some(parts) = parts {
+                files.extend(parts.into_iter().zip(1..).map(|(bytes, number)| (self.part(path, number), bytes)));
                 names.push(self.span(path));
                 self.warn_of_more(path);
-            } else if let Some(bytes) = report.bytes(*format, answer) {
+            } else if let Some(bytes) = report.bytes(*format) {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {

@@ -1,19 +1,17 @@
 //! What became of a task, in the formats of files.
 
-use super::answer::{Leg, TaskAnswer};
 use super::report::TaskReport;
 #[cfg(feature = "mcap")]
 use crate::trajectory::mcap;
 use crate::trajectory::{Format, csv_with_steps, ros_yaml};
 
 impl TaskReport {
-    /// The result as a file in this format holds it; `answer` is what the report was made from. None if the format holds nothing but a
-    /// trajectory and there is none.
+    /// The result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none.
     ///
     /// Tables have a column with the number of each sample's step among those that are done, from 1. ROS 2 messages hold the
     /// motion as one, recordings a message for the motion of each step.
     #[must_use]
-    pub fn bytes(&self, format: Format, answer: &TaskAnswer) -> Option<Vec<u8>> {
+    pub fn bytes(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.json().into_bytes(),
             Format::Csv => {
@@ -25,24 +23,24 @@ impl TaskReport {
             Format::Mcap => {
                 self.trajectory()?;
                 let begins = self.steps().iter().map(|step| step.begin);
-                let motions: Vec<_> = answer.legs.iter().map(|leg| &leg.timed.trajectory).zip(begins).collect();
-                mcap(self.joints(), &motions)
+                mcap(self.joints(), &self.motions().zip(begins).collect::<Vec<_>>())
             }
         })
     }
 
-    /// The same for the motion of one step alone, on a clock of its own and without standing still; `number` is the step's
-    /// among those that are done, from 1. None for formats that hold more than one trajectory.
+    /// The same for the motion of each step alone, on a clock of its own and without standing still. None if that format is
+    /// not for single trajectories.
     #[must_use]
-    pub fn step_bytes(&self, format: Format, number: usize, leg: &Leg) -> Option<Vec<u8>> {
-        let trajectory = &leg.timed.trajectory;
-        match format {
-            Format::Csv => {
-                let numbers = vec![number; trajectory.time.len()];
-                Some(csv_with_steps(self.joints(), trajectory, &numbers).into_bytes())
-            }
-            Format::Yaml => Some(ros_yaml(self.joints(), trajectory).into_bytes()),
-            _ => None,
-        }
+    pub fn bytes_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
+        let text = match format {
+            Format::Csv => self
+                .motions()
+                .zip(1..)
+                .map(|(motion, number)| csv_with_steps(self.joints(), motion, &vec![number; motion.time.len()]))
+                .collect::<Vec<_>>(),
+            Format::Yaml => self.motions().map(|motion| ros_yaml(self.joints(), motion)).collect(),
+            _ => return None,
+        };
+        Some(text.into_iter().map(String::into_bytes).collect())
     }
 }

@@ -4,8 +4,9 @@ use super::answer::{Impossible, TaskAnswer, TaskVerdict};
 use super::sequence::Sequence;
 use super::step_report::{ActionName, EventReport, StepReport, finite};
 use crate::model::{Joint, Task};
-use crate::trajectory::{INTERPOLATION, SearchUsed, Status, Trajectory, as_map, line_a_field};
+use crate::trajectory::{INTERPOLATION, SearchUsed, Status, Timed, Trajectory, as_map, line_a_field};
 use serde::Serialize;
+use std::rc::Rc;
 
 /// How good the choice of postures, turns and order is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -106,6 +107,9 @@ pub struct TaskReport {
     interpolation: Option<&'static str>,
     /// The whole motion.
     trajectory: Option<SteppedTrajectory>,
+    /// The motions of the steps, for files of their own.
+    #[serde(skip)]
+    motions: Vec<Rc<Timed>>,
 }
 
 impl TaskReport {
@@ -216,6 +220,11 @@ impl TaskReport {
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
         self.trajectory.as_ref().map(|whole| &whole.trajectory)
+    }
+
+    /// The motion of each step, on a clock of its own.
+    pub fn motions(&self) -> impl Iterator<Item = &Trajectory> {
+        self.motions.iter().map(|timed| &timed.trajectory)
     }
 
     /// Of each sample of the whole motion, the step that it belongs to, as [`Sequence::steps`] has it.
