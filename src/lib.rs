@@ -19,7 +19,7 @@
 //!          |
 //!      [solve]            plan, certify, refine: Found, Infeasible or Unknown
 //!          |
-//!     [trajectory]        timing under velocity and acceleration limits; JSON, CSV, ROS 2, MCAP
+//!     [trajectory]        timing under limits on velocity, acceleration, jerk; JSON, CSV, ROS 2, MCAP
 //!          |
 //!       [task]            motions one after another: grips, postures and order chosen together
 //!          |

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
-    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
 }
 
 fn link(name: &str, shapes: Vec<Convex>) -> Link {

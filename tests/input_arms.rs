@@ -270,12 +270,16 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     );
     assert_eq!(load_arm(&hard, "").scene.arm.joints[0].axis, limit(-3.0, 3.0));
     assert_eq!(load_arm(&soft, "").scene.arm.joints[0].axis, limit(-1.0, 3.0));
-    let world = load_arm(&soft, "limits = { a = [-9, 9] }\nvelocity = { a = 3 }\nacceleration = { b = 7 }").scene.arm;
+    let world =
+        load_arm(&soft, "limits = { a = [-9, 9] }\nvelocity = { a = 3 }\nacceleration = { b = 7 }\njerk = { b = 90 }")
+            .scene
+            .arm;
     assert_eq!(world.joints[0].axis, limit(-9.0, 9.0));
     assert_eq!(
         (world.joints[0].velocity, world.joints[0].acceleration, world.joints[1].acceleration),
         (3.0, 12.0, 7.0)
     );
+    assert_eq!(world.joints.map(|joint| joint.jerk), [None, Some(90.0)]);
     let newer = hard.replacen("velocity=\"1\"", "velocity=\"1\" acceleration=\"5\"", 1);
     assert_eq!(load_arm(&newer, "").scene.arm.joints[0].acceleration, 5.0);
     let turning = urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>");

@@ -198,6 +198,10 @@ fn robot_tables_that_do_not_fit() {
     with_robot("limits = { j1 = [1, 0] }", &["line 3", "lower (1) must be below upper (0)"]);
     with_robot("velocity = { j1 = 0 }", &["line 3", "velocity of \"j1\" must be positive"]);
     with_robot("acceleration = { j1 = nan }", &["line 3", "acceleration of \"j1\""]);
+    for value in ["0", "-200", "nan", "inf"] {
+        with_robot(&format!("jerk = {{ j1 = {value} }}"), &["line 3, column", "jerk of \"j1\" must be positive", "^"]);
+    }
+    with_robot("jerk = { j9 = 200 }", &["line 3", "no joint \"j9\""]);
     with_robot("bar = -1", &["line 3", "bar"]);
     with_robot("fixd = {}", &["line 3, column 1", "unknown key `fixd`", "fixd = {}", "^^^^"]);
 }

@@ -83,12 +83,14 @@ fn a_sound_robot_is_described_in_full() {
 
 #[test]
 fn the_world_decides_and_is_named_as_the_source() {
-    let world = "[robot]\nlimits = { j2 = [-1.0, 1.0] }\nvelocity = { j1 = 0.5 }\nacceleration = { j1 = 0.7 }\n";
+    let world = "[robot]\nlimits = { j2 = [-1.0, 1.0] }\nvelocity = { j1 = 0.5 }\nacceleration = { j1 = 0.7 }\njerk = { j1 = 9.0 }\n";
     let found = report(ARM, Some(world));
     assert!(found.is_plannable());
     assert_eq!(found.joints[1].limits.map(|l| (l.source, l.range)), Some((LimitSource::World, Some([-1.0, 1.0]))));
     assert_eq!(found.joints[0].velocity.map(|v| (v.value, v.source)), Some((0.5, RateSource::World)));
     assert_eq!(found.joints[0].acceleration.map(|v| (v.value, v.source)), Some((0.7, RateSource::World)));
+    assert_eq!(found.joints[0].jerk.map(|v| (v.value, v.source)), Some((9.0, RateSource::World)));
+    assert_eq!(found.joints[1].jerk, None);
     assert!(found.warnings.iter().any(|w| w.contains("there is no start")), "{:?}", found.warnings);
 }
 

@@ -19,6 +19,7 @@ fn scene(obstacle: bool) -> Scene {
         axis: Axis::Interval { lower: -3.0, upper: 3.0 },
         velocity: 1.5,
         acceleration: 4.0,
+        jerk: None,
     };
     let disc = Part { shape: Convex::disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
     let arm = Arm {

@@ -27,6 +27,10 @@ pub enum Limit {
     Velocity,
     /// Its greatest acceleration.
     Acceleration,
+    /// Its greatest jerk.
+    Jerk,
+    /// Its acceleration does not jump if its jerk has a limit.
+    AccelerationJump,
     /// A motion starts at rest.
     RestAtStart,
     /// A motion ends at rest.
@@ -40,9 +44,9 @@ pub struct Excess {
     pub joint: usize,
     /// Which limit.
     pub limit: Limit,
-    /// What the limit allows, in the unit of `value`: the nearer end of the range, or a magnitude.
+    /// What the limit allows, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
     pub allowed: f64,
-    /// The joint's position, velocity or acceleration where it exceeds the limit most.
+    /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
     pub value: f64,
     /// When that is.
     pub moment: Moment,
@@ -56,6 +60,11 @@ pub struct Excess {
 /// meant. A limit counts as broken only if it is exceeded by more than 1e-6 of it and by more than the rounding of the
 /// recording's own numbers explains: six decimals at a millisecond's spacing leave the acceleration open to some
 /// radians per squared second.
+///
+/// The jerk of a joint that has such a limit is judged where there are velocities: the third derivative of each cubic, and
+/// that the acceleration does not jump from one to the next, nor where the motion begins and ends. That is exact for
+/// motions whose jerk is constant between samples. Others, however smooth, are not what their cubics are, and these jump
+/// at the samples by as much as the square of the spacing: they are to be sampled at the ends of their phases.
 #[must_use]
 pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
     let precision = Precision::of(recording);
@@ -73,6 +82,9 @@ pub fn limits_kept(joints: &[Joint; 2], recording: &Recording) -> Vec<Excess> {
             }
         }
         if let Some(velocities) = recording.velocities() {
+            if let Some(jerk) = joint.jerk {
+                judge.jerk(&pieces, jerk);
+            }
             let last = velocities.len() - 1;
             let end = (pieces.len() - 1, &pieces[pieces.len() - 1]);
             judge.rest(Limit::RestAtStart, velocities[0][k], (0, &pieces[0], 0.0));
@@ -137,21 +149,63 @@ impl Judge<'_> {
         if duration <= 0.0 {
             return;
         }
-        // In the middle it is the difference of the velocities over the time; at the ends, that and six times the
-        // difference between the mean velocity and the mean of the velocities.
-        let in_middle = 2.0 * self.precision.velocity / duration;
-        let at_ends = in_middle + 6.0 * (self.mean_velocity_error(piece) + self.precision.velocity) / duration;
         // The middle's is taken from the velocities: from the positions it would come with the errors of the ends.
-        let value = |u: f64| piece.derivative(Derivative::Acceleration, u)[self.k];
-        let places =
-            [(0.0, value(0.0), at_ends), (1.0, value(1.0), at_ends), (0.5, (after - before) / duration, in_middle)];
-        for (u, value, may) in places {
-            let late = value.abs() * 2.0 * self.precision.time / duration;
+        let middle = (after - before) / duration;
+        let in_middle = 2.0 * self.precision.velocity / duration + self.late(middle, duration);
+        let [first, last] = self.end_accelerations(piece);
+        for (u, (value, may)) in [(0.0, first), (1.0, last), (0.5, (middle, in_middle))] {
             let over = value.abs() - self.joint.acceleration;
-            if over > may + late + TOLERANCE * self.joint.acceleration {
+            if over > may + TOLERANCE * self.joint.acceleration {
                 self.note(over, Limit::Acceleration, self.joint.acceleration, value, (index, piece, u));
             }
         }
+    }
+
+    /// Of all pieces: each one's own, and the jumps of the acceleration at their ends.
+    fn jerk(&mut self, pieces: &[Piece], most: f64) {
+        // Where nothing moves.
+        let still = (0.0, 0.0);
+        let mut before = still;
+        for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
+            let duration = piece.to - piece.from;
+            let [first, last] = self.end_accelerations(piece);
+            self.jump(before, first, (index, piece, 0.0));
+            let value = (last.0 - first.0) / duration;
+            // Twelve times the difference between the mean velocity and the mean of the velocities, over the squared time.
+            let may = 12.0 * (self.mean_velocity_error(piece) + self.precision.velocity) / duration / duration;
+            let over = value.abs() - most;
+            if over > may + 2.0 * self.late(value, duration) + TOLERANCE * most {
+                self.note(over, Limit::Jerk, most, value, (index, piece, 0.5));
+            }
+            before = last;
+        }
+        let last = pieces.len() - 1;
+        self.jump(before, still, (last, &pieces[last], 1.0));
+    }
+
+    /// From one acceleration to another, each with its error.
+    fn jump(&mut self, before: (f64, f64), after: (f64, f64), place: (usize, &Piece, f64)) {
+        let value = after.0 - before.0;
+        if value.abs() > before.1 + after.1 + TOLERANCE * self.joint.acceleration {
+            self.note(value.abs(), Limit::AccelerationJump, 0.0, value, place);
+        }
+    }
+
+    /// The accelerations at both ends of a piece that takes time, each with its error: they are the difference of the
+    /// velocities over the time, and six times the difference between the mean velocity and the mean of the velocities.
+    fn end_accelerations(&self, piece: &Piece) -> [(f64, f64); 2] {
+        let duration = piece.to - piece.from;
+        let of_velocities = 2.0 * self.precision.velocity / duration;
+        let may = of_velocities + 6.0 * (self.mean_velocity_error(piece) + self.precision.velocity) / duration;
+        [0.0, 1.0].map(|u| {
+            let value = piece.derivative(Derivative::Acceleration, u)[self.k];
+            (value, may + self.late(value, duration))
+        })
+    }
+
+    /// Error of a quotient by the duration from the rounding of the times.
+    fn late(&self, value: f64, duration: f64) -> f64 {
+        value.abs() * 2.0 * self.precision.time / duration
     }
 
     fn rest(&mut self, limit: Limit, value: f64, place: (usize, &Piece, f64)) {

@@ -214,7 +214,7 @@ mod tests {
         } else {
             Motion::Prismatic { direction: Vector::new(0.6, 0.8) }
         };
-        Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+        Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
     }
 
     fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {

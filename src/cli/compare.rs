@@ -20,7 +20,8 @@ use std::time::Duration;
 pub fn run(args: &CompareArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
     let effort = args.effort.effort();
-    let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    let mut loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
+    args.motion.override_limits(&mut loaded.problem.scene.arm.joints);
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let problem = &loaded.problem;
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };

@@ -133,6 +133,9 @@ fn movable(report: &Inspection, joint: &JointEntry) -> String {
     if joint.velocity.is_some() {
         words.push(rate(joint, "acceleration", "/s2", joint.acceleration));
     }
+    if joint.jerk.is_some() {
+        words.push(rate(joint, "jerk", "/s3", joint.jerk));
+    }
     format!("{} ({}): {}", joint.name, joint.kind, words.join("; "))
 }
 

@@ -1,6 +1,7 @@
 //! How to drive along a path, on the command line.
 
 use super::args::{number_in, seconds};
+use crate::model::Joint;
 use crate::trajectory::Drive;
 use clap::Args;
 
@@ -11,13 +12,21 @@ pub struct MotionArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
     /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space (radians and
-    /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide.
+    /// metres as they come): "none" stops at every corner, "auto" lets the clearance and the path decide. With a limit on
+    /// a jerk the motion stops at every corner.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: f64,
     /// Greatest speed of the tip, metres a second; without it the joints alone have limits.
     #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
     pub tip_speed: Option<f64>,
+    /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, "none" for a joint without.
+    #[arg(long, value_name = "j1,j2", value_parser = jerk, allow_hyphen_values = true)]
+    pub jerk: Option<Jerk>,
 }
+
+/// Greatest jerk of each joint that has one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jerk(pub [Option<f64>; 2]);
 
 /// As [`Drive::blend`] has it.
 fn radius(text: &str) -> Result<f64, String> {
@@ -33,7 +42,28 @@ fn tip_speed(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0 (metres a second)")
 }
 
+fn jerk(text: &str) -> Result<Jerk, String> {
+    let one = |part: &str| match (part.trim(), part.trim().parse::<f64>()) {
+        ("none", _) => Some(None),
+        (_, Ok(jerk)) if jerk.is_finite() && jerk > 0.0 => Some(Some(jerk)),
+        _ => None,
+    };
+    match text.split(',').map(one).collect::<Vec<_>>()[..] {
+        [Some(first), Some(second)] => Ok(Jerk([first, second])),
+        _ => Err("must be two numbers of more than 0 (rad/s3 or m/s3), or none, such as 200,none".into()),
+    }
+}
+
 impl MotionArgs {
+    /// Puts the limits that the command line gives in place of the joints' own.
+    pub fn override_limits(&self, joints: &mut [Joint; 2]) {
+        if let Some(Jerk(jerk)) = self.jerk {
+            for (joint, jerk) in joints.iter_mut().zip(jerk) {
+                joint.jerk = jerk;
+            }
+        }
+    }
+
     /// The same for the trajectory.
     pub fn drive(&self) -> Drive {
         Drive { period: self.period, blend: self.blend, tip_speed: self.tip_speed }

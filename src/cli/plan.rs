@@ -34,7 +34,8 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if args.per_step {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
-    let loaded = loaded.problem(&args.query.overrides())?;
+    let mut loaded = loaded.problem(&args.query.overrides())?;
+    args.motion.override_limits(&mut loaded.problem.scene.arm.joints);
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {

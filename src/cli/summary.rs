@@ -129,8 +129,9 @@ pub type Line = (&'static str, String);
 pub fn arm_lines(arm: &Arm) -> Vec<Line> {
     let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
     for joint in &arm.joints {
-        let speeds =
-            format!("at most {} {unit}/s, {} {unit}/s2", joint.velocity, joint.acceleration, unit = joint.unit());
+        let unit = joint.unit();
+        let jerk = joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
+        let speeds = format!("at most {} {unit}/s, {} {unit}/s2{jerk}", joint.velocity, joint.acceleration);
         lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
     }
     lines

@@ -27,7 +27,8 @@ pub fn run(
     if let Some(conflict) = conflict(args) {
         return Err(Failure::Usage(conflict.into()));
     }
-    let loaded = loaded.task(&args.query.overrides())?;
+    let mut loaded = loaded.task(&args.query.overrides())?;
+    args.motion.override_limits(&mut loaded.task.arm.joints);
     let task = &loaded.task;
     let files = TaskFiles::new(sinks, args.per_step, task.steps().count())?;
     clock.stage("load");

@@ -282,6 +282,7 @@ mod tests {
                 axis: if motion.is_revolute() { Axis::Circle } else { Axis::Interval { lower: -3.0, upper: 3.0 } },
                 velocity: 1.0,
                 acceleration: 1.0,
+                jerk: None,
             };
             let core = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
             let piece = Convex::new(core, piece.radius());

@@ -122,6 +122,9 @@ pub struct JointEntry {
     pub velocity: Option<RateEntry>,
     /// Of a joint that can move and has a top speed: its acceleration, per second squared.
     pub acceleration: Option<RateEntry>,
+    /// Of a joint that can move and has a limit of it: its jerk, per second cubed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<RateEntry>,
 }
 
 /// Where a range comes from.
@@ -161,10 +164,10 @@ pub enum RateSource {
     Default,
 }
 
-/// A top speed or acceleration.
+/// A top speed, acceleration or jerk.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RateEntry {
-    /// Per second, or per second squared; radians or metres.
+    /// Per second, per second squared or cubed; radians or metres.
     pub value: f64,
     /// Where it comes from.
     pub source: RateSource,

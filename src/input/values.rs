@@ -115,6 +115,7 @@ mod tests {
             axis: Axis::Circle,
             velocity: 1.0,
             acceleration: 1.0,
+            jerk: None,
         };
         [joint("turn", Motion::Revolute { sign: 1.0 }), joint("slide", Motion::Prismatic { direction: Vector::x() })]
     }

@@ -81,6 +81,8 @@ pub(super) struct RobotTable {
     pub velocity: PerJoint<Number>,
     #[serde(default)]
     pub acceleration: PerJoint<Number>,
+    #[serde(default)]
+    pub jerk: PerJoint<Number>,
     /// Radius of the capsule that stands in for a link without geometry, metres.
     pub bar: Option<Number>,
     wrist: Option<WristTable>,

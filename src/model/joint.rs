@@ -39,6 +39,8 @@ pub struct Joint {
     pub velocity: f64,
     /// Greatest acceleration, per second squared; positive.
     pub acceleration: f64,
+    /// Greatest jerk, per second cubed; positive. None: the acceleration may jump.
+    pub jerk: Option<f64>,
 }
 
 impl Joint {

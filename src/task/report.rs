@@ -4,7 +4,7 @@ use super::answer::{Impossible, TaskAnswer, TaskVerdict};
 use super::sequence::Sequence;
 use super::step_report::{ActionName, EventReport, StepReport, finite};
 use crate::model::{Joint, Task};
-use crate::trajectory::{INTERPOLATION, SearchUsed, Status, Timed, Trajectory, as_map, line_a_field};
+use crate::trajectory::{SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
 use serde::Serialize;
 use std::rc::Rc;
 
@@ -109,7 +109,7 @@ pub struct TaskReport {
     trajectory: Option<SteppedTrajectory>,
     /// The motions of the steps, for files of their own.
     #[serde(skip)]
-    motions: Vec<Rc<Timed>>,
+    timed: Vec<Rc<Timed>>,
 }
 
 impl TaskReport {
@@ -155,10 +155,11 @@ impl TaskReport {
             steps,
             events,
             timings: Vec::new(),
-            interpolation: is_whole.then_some(INTERPOLATION),
+            interpolation: is_whole.then(|| interpolation(joints)),
             trajectory: sequence
                 .filter(|_| is_whole)
                 .map(|sequence| SteppedTrajectory { step: sequence.steps(), trajectory: sequence.trajectory }),
+            timed: answer.legs.iter().map(|leg| leg.timed.clone()).collect(),
         }
     }
 
@@ -224,7 +225,7 @@ impl TaskReport {
 
     /// The motion of each step, on a clock of its own.
     pub fn motions(&self) -> impl Iterator<Item = &Trajectory> {
-        self.motions.iter().map(|timed| &timed.trajectory)
+        self.timed.iter().map(|timed| &timed.trajectory)
     }
 
     /// Of each sample of the whole motion, the step that it belongs to, as [`Sequence::steps`] has it.

@@ -10,7 +10,8 @@ pub struct Drive {
     /// Time between two samples, seconds.
     pub period: f64,
     /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space; 0 to stop at
-    /// every corner, infinite to let the clearance and the path decide.
+    /// every corner, infinite to let the clearance and the path decide. Where a joint's jerk has a limit every corner is
+    /// stopped at.
     pub blend: f64,
     /// Greatest speed of the tip, metres a second; none if only the joints have limits.
     pub tip_speed: Option<f64>,
@@ -30,12 +31,13 @@ impl Drive {
     /// # Errors
     /// A motion that lasts too long, or has too many samples.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
-        let curve = if self.blend > 0.0 {
+        let tip = self.tip_speed.map(|speed| TipSpeed { arm: &scene.arm, speed });
+        let limits = Limits { tip, ..Limits::from(&scene.arm.joints) }.scaled(speed);
+        let curve = if self.blend > 0.0 && !limits.stops_at_corners() {
             blend(scene, path, self.blend, scene.workspace.clearance)
         } else {
             CertifiedCurve::from(path.clone())
         };
-        let tip = self.tip_speed.map(|speed| TipSpeed { arm: &scene.arm, speed });
-        time(curve, &Limits { tip, ..Limits::from(&scene.arm.joints) }.scaled(speed), self.period)
+        time(curve, &limits, self.period)
     }
 }

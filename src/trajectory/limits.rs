@@ -11,6 +11,8 @@ pub struct Limits<'a> {
     pub velocity: [f64; 2],
     /// Greatest acceleration of each joint.
     pub acceleration: [f64; 2],
+    /// Greatest jerk of each joint, if it has one.
+    pub jerk: [Option<f64>; 2],
     /// Greatest speed of the tip, if it has one.
     pub tip: Option<TipSpeed<'a>>,
 }
@@ -21,6 +23,7 @@ impl From<&[Joint; 2]> for Limits<'_> {
         Self {
             velocity: joints.each_ref().map(|joint| joint.velocity),
             acceleration: joints.each_ref().map(|joint| joint.acceleration),
+            jerk: joints.each_ref().map(|joint| joint.jerk),
             tip: None,
         }
     }
@@ -33,6 +36,7 @@ impl Limits<'_> {
         Self {
             velocity: self.velocity.map(|v| v * share),
             acceleration: self.acceleration.map(|a| a * share * share),
+            jerk: self.jerk.map(|jerk| jerk.map(|j| j * share * share * share)),
             tip: self.tip.map(|tip| TipSpeed { speed: tip.speed * share, ..tip }),
         }
     }
@@ -45,6 +49,19 @@ impl Limits<'_> {
     /// Greatest acceleration along a direction of unit length.
     pub(super) fn acceleration_along(&self, direction: Configuration) -> f64 {
         along(self.acceleration, direction)
+    }
+
+    /// Greatest jerk along a direction of unit length; infinite if no joint that moves has a limit.
+    pub(super) fn jerk_along(&self, direction: Configuration) -> f64 {
+        let limits = self.jerk.map(|jerk| jerk.unwrap_or(f64::INFINITY));
+        along(limits, direction)
+    }
+
+    /// Whether a motion stops at every corner: it does if any joint's jerk has a limit, because the acceleration would
+    /// jump where a blend begins.
+    #[must_use]
+    pub fn stops_at_corners(&self) -> bool {
+        self.jerk.iter().any(Option::is_some)
     }
 }
 

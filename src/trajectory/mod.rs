@@ -8,6 +8,7 @@ mod csv;
 mod drive;
 mod field;
 mod format;
+mod jerk;
 mod json;
 mod limits;
 #[cfg(feature = "mcap")]
@@ -31,7 +32,8 @@ pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
-pub use result::{Blends, INTERPOLATION, Optimum, Report, SearchUsed, Status};
+pub(crate) use result::interpolation;
+pub use result::{Blends, INTERPOLATION, Optimum, Report, SMOOTH_INTERPOLATION, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use tip::TipSpeed;

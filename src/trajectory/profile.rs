@@ -1,6 +1,6 @@
 //! Speed along one straight stretch.
 
-/// A time of constant acceleration along a stretch, distances counted from the stretch's beginning.
+/// A time of constant jerk along a stretch, mostly of none at all; distances counted from the stretch's beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
     /// Seconds.
@@ -13,8 +13,10 @@ pub(super) struct Phase {
     pub(super) enter: f64,
     /// Speed at which it ends.
     pub(super) leave: f64,
-    /// The acceleration.
+    /// The acceleration with which it begins.
     pub(super) acceleration: f64,
+    /// The jerk.
+    pub(super) jerk: f64,
 }
 
 /// Distance covered, speed and acceleration along a stretch.
@@ -29,7 +31,7 @@ impl Phase {
     /// From one distance to another and from one speed to another.
     pub(super) fn between([from, to]: [f64; 2], [enter, leave]: [f64; 2]) -> Self {
         let duration = 2.0 * (to - from) / (enter + leave);
-        Self { duration, from, to, enter, leave, acceleration: (leave - enter) / duration }
+        Self { duration, from, to, enter, leave, acceleration: (leave - enter) / duration, jerk: 0.0 }
     }
 
     /// The state `time` seconds after the phase began.
@@ -37,14 +39,19 @@ impl Phase {
     /// A deceleration is counted back from its end: a short one after a long way at top speed would drown in the rounding
     /// of the latter.
     pub(super) fn at(&self, time: f64) -> State {
-        let Self { duration, from, to, enter, leave, acceleration } = *self;
-        let (distance, speed) = if acceleration < 0.0 {
-            let left = duration - time;
-            (to - left * (leave - 0.5 * acceleration * left), leave - acceleration * left)
-        } else {
-            (from + time * (enter + 0.5 * acceleration * time), enter + acceleration * time)
+        let Self { duration, from, to, enter, leave, acceleration, jerk } = *self;
+        let last = acceleration + jerk * duration;
+        // The state a while after another one, or before it.
+        let after = |distance: f64, speed: f64, acceleration: f64, time: f64| State {
+            distance: distance + time * (speed + time * (0.5 * acceleration + time * jerk / 6.0)),
+            speed: speed + time * (acceleration + 0.5 * jerk * time),
+            acceleration: acceleration + jerk * time,
         };
-        State { distance, speed, acceleration }
+        if acceleration + last < 0.0 {
+            after(to, leave, last, time - duration)
+        } else {
+            after(from, enter, acceleration, time)
+        }
     }
 }
 
@@ -68,9 +75,17 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
     };
     let peak = acceleration * ramp;
     let covered = 0.5 * acceleration * ramp * ramp;
-    let up = Phase { duration: ramp, from: 0.0, to: covered, enter: 0.0, leave: peak, acceleration };
+    let up = Phase { duration: ramp, from: 0.0, to: covered, enter: 0.0, leave: peak, acceleration, jerk: 0.0 };
     let down = Phase { from: length - covered, to: length, enter: peak, leave: 0.0, acceleration: -acceleration, ..up };
-    let level = Phase { duration: cruise, from: covered, to: down.from, enter: peak, leave: peak, acceleration: 0.0 };
+    let level = Phase {
+        duration: cruise,
+        from: covered,
+        to: down.from,
+        enter: peak,
+        leave: peak,
+        acceleration: 0.0,
+        jerk: 0.0,
+    };
     if cruise > 0.0 { vec![up, level, down] } else { vec![up, down] }
 }
 
@@ -97,7 +112,7 @@ pub(super) fn passing(
         // By their speeds: short distances behind a long one are known but roughly.
         let phase = |[from, to]: [f64; 2], [enter, leave]: [f64; 2], acceleration: f64| {
             let duration = ((leave - enter) / acceleration).max(0.0);
-            Phase { duration, from, to, enter, leave, acceleration }
+            Phase { duration, from, to, enter, leave, acceleration, jerk: 0.0 }
         };
         let middle = Phase { duration: (rest - meet) / peak, acceleration: 0.0, ..phase([meet, rest], [peak; 2], 1.0) };
         let first = phase([0.0, meet], [enter, peak], acceleration * gentle);

@@ -7,11 +7,30 @@ use crate::model::Joint;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// The sentence, with what holds on straight pieces at its end.
+macro_rules! interpolation {
+    ($straight:literal) => {
+        concat!(
+            "from time[k] to time[k+1], with p = position, v = velocity, a = acceleration, \
+            h = time[k+1] - time[k] and t = time - time[k]: p[k] + v[k] t + a[k] t^2 / 2 + c t^3 + d t^4 where \
+            E = p[k+1] - p[k] - v[k] h - a[k] h^2 / 2, F = v[k+1] - v[k] - a[k] h, c = (4 E - F h) / h^3, \
+            d = (F h - 3 E) / h^4; ",
+            $straight
+        )
+    };
+}
+
 /// How to read a trajectory between its samples; see [`Trajectory`].
-pub const INTERPOLATION: &str = "from time[k] to time[k+1], with p = position, v = velocity, a = acceleration, \
-    h = time[k+1] - time[k] and t = time - time[k]: p[k] + v[k] t + a[k] t^2 / 2 + c t^3 + d t^4 where \
-    E = p[k+1] - p[k] - v[k] h - a[k] h^2 / 2, F = v[k+1] - v[k] - a[k] h, c = (4 E - F h) / h^3, d = (F h - 3 E) / h^4; \
-    c = d = 0 on straight pieces of the path, where the acceleration is constant";
+pub const INTERPOLATION: &str =
+    interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
+
+/// The same where the jerk has a limit.
+pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");
+
+/// How to read trajectories of these joints.
+pub(crate) fn interpolation(joints: &[Joint; 2]) -> &'static str {
+    if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
+}
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -146,7 +165,7 @@ impl Report {
             clearance: clearance.is_finite().then_some(clearance),
             blends: Some(Blends::of(curve)),
             duration: Some(trajectory.duration()),
-            interpolation: Some(INTERPOLATION),
+            interpolation: Some(interpolation(joints)),
             trajectory: Some(trajectory),
             ..Self::bare(Status::Found, planner, joints)
         }

@@ -22,10 +22,10 @@ pub const MOST_SAMPLES: usize = 5_000_000;
 /// A motion of both joints, sampled.
 ///
 /// Within each interval from `time[k]` to `time[k + 1]` the motion is a polynomial in time of the fourth degree, on straight
-/// pieces of the second, and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
+/// pieces of the second (of the third, if the jerk has a limit), and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
 /// beginning and position and velocity `k + 1` at its end, as [`super::INTERPOLATION`] writes it down. So the samples are
-/// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample: the one that is given is
-/// that of the interval that begins there. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`].
+/// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample, unless a joint's jerk has
+/// a limit: the one that is given is that of the interval that begins there. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`].
 /// Radians or metres, and seconds; joints in the order base to tip.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trajectory {
@@ -59,7 +59,7 @@ pub enum TimingError {
     /// The limits let the joints hardly move.
     #[error(
         "the motion would last {0:.3e} s, more than {LONGEST_MOTION:.0e} s; \
-         raise the velocity and acceleration limits of the joints"
+         raise the limits of the joints"
     )]
     TooLong(f64),
 }
@@ -141,6 +141,10 @@ pub struct Timed {
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
 /// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
 /// shorter than that. Linear in the number of samples.
+///
+/// If any joint's jerk has a limit, the motion stops at every corner, blended or not, and each straight piece on which such
+/// a joint moves takes the shortest time that speed, acceleration and jerk along it allow from rest to rest, with one bound
+/// on the tip's speed for all of it; up to `12` [`SHORTEST_INTERVAL`] longer where a phase would be shorter than that.
 ///
 /// # Errors
 /// [`TimingError`]: a useless period, a motion beyond [`LONGEST_MOTION`], or more than [`MOST_SAMPLES`] samples.

@@ -1,6 +1,7 @@
 //! When a motion is where: the fastest passage along a path with blends.
 
 use super::corner::{Bounds, Corner};
+use super::jerk;
 use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::SHORTEST_INTERVAL;
@@ -28,6 +29,8 @@ pub(super) struct Line {
     /// What the joints' limits allow along it.
     speed: f64,
     acceleration: f64,
+    /// Infinite without a limit.
+    jerk: f64,
 }
 
 impl Line {
@@ -37,10 +40,11 @@ impl Line {
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
         let (speed, acceleration) = (limits.speed_along(direction), limits.acceleration_along(direction));
+        let jerk = limits.jerk_along(direction);
         let part =
             Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
         let speed = limits.tip.map_or(speed, |tip| speed.min(tip.allowed(&part)));
-        Self { from, to, length, direction, speed, acceleration }
+        Self { from, to, length, direction, speed, acceleration, jerk }
     }
 
     /// A straight stretch in parts, each with a top speed of its own: several if the tip's limit asks for it.
@@ -96,9 +100,13 @@ impl Track {
 pub(super) type Passage = (Track, Vec<Phase>);
 
 /// The passages along a path, in order, and the blends in use: waypoints whose blend is of no use are left out of them,
-/// and their corners are stopped at.
+/// and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
+/// begins, the acceleration jumps.
 pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Passage>) {
-    let corner = |waypoint: usize| curve.blend(waypoint).and_then(|blend: Blend| Corner::new(blend, limits));
+    let corner = |waypoint: usize| {
+        let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
+        blend.and_then(|blend: Blend| Corner::new(blend, limits))
+    };
     let count = curve.radii().len();
     let mut used = curve.clone();
     for waypoint in (0..count).filter(|&w| curve.radii()[w] > 0.0) {
@@ -137,6 +145,13 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Ve
             vec![(Track::Line(line), phases)]
         };
         let parts = Line::parts(leg[0], leg[1], limits);
+        if parts[0].jerk.is_finite() {
+            // One top speed for all parts, and so no jumps between them.
+            let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
+            let line = Line { speed, ..Line::new(leg[0], leg[1], limits) };
+            let phases = jerk::rest_to_rest(line.length, speed, line.acceleration, line.jerk, SHORTEST_INTERVAL);
+            return vec![(Track::Line(line), phases)];
+        }
         let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
         driven.unwrap_or_else(whole)
     };

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 fn joint(revolute: bool, velocity: f64, acceleration: f64) -> Joint {
     let motion = if revolute { Motion::Revolute { sign: 1.0 } } else { Motion::Prismatic { direction: Vector::x() } };
-    Joint { name: "j".into(), motion, axis: Axis::Circle, velocity, acceleration }
+    Joint { name: "j".into(), motion, axis: Axis::Circle, velocity, acceleration, jerk: None }
 }
 
 fn path(waypoints: &[[f64; 2]]) -> Path {

@@ -23,6 +23,12 @@ fn wrong_command_lines_end_with_2() {
         ("--blend round", "none, auto"),
         ("--tip-speed 0", "more than 0"),
         ("--tip-speed nan", "more than 0"),
+        ("--jerk 200", "two numbers"),
+        ("--jerk 200,none,200", "two numbers"),
+        ("--jerk 200,0", "more than 0"),
+        ("--jerk=-1,200", "more than 0"),
+        ("--jerk nan,200", "more than 0"),
+        ("--jerk none,inf", "more than 0"),
         ("--period 0", "at least"),
         ("--period -1", "at least"),
         ("--cells 3", "8..=2048"),
@@ -106,6 +112,35 @@ fn corners_are_rounded_as_far_as_asked_for() {
     assert!(radius(&small) <= 0.002 && radius(&small) < radius(&blended));
     assert!(number(&small, "duration") > number(&blended, "duration"));
     assert!(number(&small, "duration") < number(&stops, "duration"));
+}
+
+#[test]
+fn limits_of_the_jerk_are_kept_in_every_format() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let text = std::fs::read_to_string(&world).unwrap();
+    place.write("smooth.toml", format!("{text}\n[robot]\njerk = {{ shoulder = 200.0, elbow = 300.0 }}\n"));
+    let smooth = [urdf.as_str(), "smooth.toml"];
+    let done = place.run(&smooth, "--output m.json --output m.yaml --output m.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    for part in ["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; stops at 11 corners"] {
+        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
+    }
+    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    assert_eq!(result["blends"]["count"], 0);
+    assert!(result["interpolation"].as_str().unwrap().ends_with("the jerk is constant"));
+    let verify = |file: &str| place.run(&["verify", &urdf, "smooth.toml", file], "");
+    for file in ["m.json", "m.yaml", "m.csv"] {
+        let verified = verify(file);
+        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+    }
+    // The command line over the world, either way round.
+    let option = place.run(&shelf(), "--jerk 200,300 --json --quiet");
+    assert_eq!(option.json(), result);
+    assert_eq!(place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").code, 0);
+    let jumps = verify("jumps.yaml");
+    assert_eq!(jumps.code, 3, "{}", jumps.stdout);
+    assert!(jumps.stdout.contains("shoulder: acceleration jumps by"), "{}", jumps.stdout);
 }
 
 #[test]

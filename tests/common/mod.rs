@@ -26,7 +26,7 @@ pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
 }
 
 pub fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
-    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 4.0 }
+    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 4.0, jerk: None }
 }
 
 pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {

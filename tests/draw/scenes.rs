@@ -25,6 +25,7 @@ pub fn arm(names: [&str; 2], motions: [Motion; 2], axes: [Axis; 2], lengths: [f6
         axis: axes[k],
         velocity: 1.0,
         acceleration: 1.0,
+        jerk: None,
     };
     let link = |k: usize| Link {
         name: format!("link{k}"),

@@ -4,6 +4,7 @@
 mod common;
 
 mod certificate;
+mod jerk;
 mod optimum;
 mod sampled;
 

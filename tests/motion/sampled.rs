@@ -8,12 +8,12 @@ use cplan::space::{Configuration, HAIR, Recording};
 use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
 use proptest::prelude::*;
 
-fn as_vector(row: [f64; 2]) -> Configuration {
+pub fn as_vector(row: [f64; 2]) -> Configuration {
     q(row[0], row[1])
 }
 
 /// The polynomial of an interval as `INTERPOLATION` writes it down: position, velocity and acceleration at `t`.
-fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
+pub fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
     let [p, v, a] =
         [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
     let h = trajectory.time[k + 1] - trajectory.time[k];
@@ -25,6 +25,13 @@ fn between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
         v + a * t + c * (3.0 * t * t) + d * (4.0 * t.powi(3)),
         a + c * (6.0 * t) + d * (12.0 * t * t),
     ]
+}
+
+/// The samples as anyone reads them.
+pub fn recording(trajectory: &Trajectory) -> Recording {
+    let rows = |rows: &[[f64; 2]]| rows.iter().copied().map(as_vector).collect::<Vec<_>>();
+    let velocity = rows(&trajectory.velocity);
+    Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(velocity)).unwrap()
 }
 
 /// Distance from a curve in one joint space unit, by Newton's method on every leg and blend.
@@ -104,10 +111,7 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
         }
     }
     // So does the cubic through positions and velocities, and it is never farther off than a hair.
-    let rows = |rows: &[[f64; 2]]| rows.iter().copied().map(as_vector).collect::<Vec<_>>();
-    let recording =
-        Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(rows(&trajectory.velocity)));
-    let recording = recording.unwrap();
+    let recording = recording(trajectory);
     assert_eq!(limits_kept(joints, &recording), []);
     let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
     for (k, piece) in recording.pieces().iter().enumerate() {

@@ -1,5 +1,6 @@
 //! Does a planned task again. Shares no code with the library but the types of its input and output: what lies where,
 //! what is carried and what may be touched follows from the task alone.
+#![allow(dead_code, reason = "each test uses some of it")]
 
 use crate::solid::{Solid, V, add, norm, rotate, sub};
 use cplan::model::{Action, Goal, Holding, Item, Joint, Motion, Step, Task};

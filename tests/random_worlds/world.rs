@@ -77,7 +77,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
             let axis = Axis::Interval { lower: dice.range(-0.9, 0.1), upper: dice.range(0.3, 1.2) };
             (Motion::Prismatic { direction }, axis)
         };
-        Joint { name: which.to_string(), motion, axis, velocity: 1.0, acceleration: 1.0 }
+        Joint { name: which.to_string(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
     };
     let mut letters = kind.chars();
     let joints = [letters.next().unwrap_or('R'), letters.next().unwrap_or('R')].map(&mut joint);

@@ -79,7 +79,7 @@ impl JointDraft {
             let direction = Vector::new(f64::from(self.direction.0), f64::from(self.direction.1)).try_normalize(0.0)?;
             (Motion::Prismatic { direction }, span(1.0 / 128.0))
         };
-        Some(Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0 })
+        Some(Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None })
     }
 }
 

@@ -170,6 +170,8 @@ fn limit(joints: &[Joint; 2], excess: &Excess, timed: bool) -> LimitFinding {
             Limit::Position => "position",
             Limit::Velocity => "velocity",
             Limit::Acceleration => "acceleration",
+            Limit::Jerk => "jerk",
+            Limit::AccelerationJump => "acceleration jump",
             Limit::RestAtStart => "rest at start",
             Limit::RestAtEnd => "rest at end",
         },

@@ -126,6 +126,7 @@ impl Chooser<'_> {
         defects.extend(keys("limits", robot.limits.keys().collect()));
         defects.extend(keys("velocity", robot.velocity.keys().collect()));
         defects.extend(keys("acceleration", robot.acceleration.keys().collect()));
+        defects.extend(keys("jerk", robot.jerk.keys().collect()));
         InputError::check(defects)
     }
 

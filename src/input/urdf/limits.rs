@@ -1,4 +1,4 @@
-//! Ranges, top speeds and accelerations of the joints.
+//! Ranges, top speeds, accelerations and jerks of the joints.
 
 use super::document::Document;
 use crate::input::error::Defect;
@@ -22,10 +22,11 @@ pub(super) enum Range {
     Unset(String),
 }
 
-/// Top speed and acceleration of a moving joint, and what is to be noted about them.
+/// Top speed, acceleration and jerk of a moving joint, and what is to be noted about them.
 pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
+    pub jerk: Option<f64>,
     pub note: Option<String>,
 }
 
@@ -115,7 +116,7 @@ impl Limits<'_> {
         Ok(narrowed)
     }
 
-    /// Top speed and acceleration of a joint that is to be planned for.
+    /// Top speed, acceleration and jerk of a joint that is to be planned for.
     pub fn rates(&self, index: usize) -> Result<Rates, Defect> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
@@ -134,16 +135,17 @@ impl Limits<'_> {
                 return Err(defect.cure(format!("in the world file: [robot] velocity = {{ {} = 1.0 }}", key(name))));
             }
         };
+        let jerk = self.positive(&self.world.robot.jerk, name, "jerk")?;
         let given = place.acceleration.filter(|a| *a > 0.0);
         if let Some(acceleration) = self.positive(&self.world.robot.acceleration, name, "acceleration")?.or(given) {
-            return Ok(Rates { velocity, acceleration, note: None });
+            return Ok(Rates { velocity, acceleration, jerk, note: None });
         }
         let acceleration = velocity / DEFAULT_TIME_TO_TOP_SPEED;
         let unit = if joint.joint_type == JointType::Prismatic { "m/s^2" } else { "rad/s^2" };
         let note = format!(
             "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit} (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
         );
-        Ok(Rates { velocity, acceleration, note: Some(note) })
+        Ok(Rates { velocity, acceleration, jerk, note: Some(note) })
     }
 
     fn positive(

@@ -106,6 +106,7 @@ impl<'a> Reduction<'a> {
             axis: bounds.range,
             velocity: bounds.rates.velocity,
             acceleration: bounds.rates.acceleration,
+            jerk: bounds.rates.jerk,
         };
         let arm = Arm {
             name: self.document.robot.name.clone(),

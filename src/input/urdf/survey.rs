@@ -173,6 +173,7 @@ fn joint(limits: &Limits, index: usize) -> JointEntry {
                 None => given(find(&world.acceleration, &joint.name).is_some()),
             },
         }),
+        jerk: rates.as_ref().and_then(|r| r.jerk).map(|value| RateEntry { value, source: RateSource::World }),
     }
 }
 
@@ -304,7 +305,7 @@ fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
         let rest = if slides { Axis::Interval { lower: 0.0, upper: 0.0 } } else { Axis::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),
-            rates: Rates { velocity: 1.0, acceleration: 1.0, note: None },
+            rates: Rates { velocity: 1.0, acceleration: 1.0, jerk: None, note: None },
         }
     })
 }
