@@ -1,6 +1,6 @@
 //! Coordinate frames: from values to the page, with ticks.
 
-use super::color::{FAINT, GREY, INK, PALE};
+use super::color::{FAINT, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Label, Rect, Spot, Step, Style};
 
 /// Lower and upper value along an axis.
@@ -100,6 +100,15 @@ impl Frame {
     /// opposite side, is dashed.
     #[must_use]
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
+        let mut items = self.sides(seams);
+        items.extend(self.tick_marks(units, [true; 2]));
+        items.extend(self.titles(self.rect, units, titles));
+        items
+    }
+
+    /// The sides alone.
+    #[must_use]
+    pub fn sides(&self, seams: [bool; 2]) -> Vec<Item> {
         let Rect { x: left, y: top, .. } = self.rect;
         let (right, bottom) = (self.rect.right(), self.rect.bottom());
         let side = |a: Spot, b: Spot, seam: bool| {
@@ -107,34 +116,45 @@ impl Frame {
             let pen = if seam { pen.dashed(&[7.0, 5.0]) } else { pen };
             Item::Outline(vec![Step::Move(a), Step::Line(b)], pen)
         };
-        let mut items = vec![
+        vec![
             side([left, top], [left, bottom], seams[0]),
             side([right, top], [right, bottom], seams[0]),
             side([left, top], [right, top], seams[1]),
             side([left, bottom], [right, bottom], seams[1]),
-        ];
-        let text = |at, text: String, size, anchor, upwards, color| {
-            Item::Text(Label { at, text, size, anchor, upwards, color })
-        };
+        ]
+    }
+
+    /// Marks at the ticks, with values along the axes that are to have them.
+    #[must_use]
+    pub fn tick_marks(&self, units: [Unit; 2], values: [bool; 2]) -> Vec<Item> {
+        let (left, bottom) = (self.rect.x, self.rect.bottom());
         let mark = |a: Spot, b: Spot| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
+        let mut items = Vec::new();
         let [x_ticks, y_ticks] = self.ticks(units);
         for (value, name) in x_ticks {
             let [x, _] = self.at(value, self.y.0);
             items.push(mark([x, bottom], [x, bottom + 5.0]));
-            items.push(text([x, bottom + 19.0], name, 13.0, Anchor::Middle, false, GREY));
+            items.extend(values[0].then(|| text([x, bottom + 19.0], name, 13.0, Anchor::Middle, false, GREY)));
         }
-        let mut widest = 0.0_f64;
         for (value, name) in y_ticks {
             let [_, y] = self.at(self.x.0, value);
             items.push(mark([left - 5.0, y], [left, y]));
-            widest = widest.max(super::figure::text_width(&name, 13.0));
-            items.push(text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, false, GREY));
+            items.extend(values[1].then(|| text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, false, GREY)));
         }
-        let [x_title, y_title] = titles;
-        let middle = [(left + right) / 2.0, (top + bottom) / 2.0];
-        items.push(text([middle[0], bottom + 38.0], x_title, 14.0, Anchor::Middle, false, INK));
-        items.push(text([left - 16.0 - widest, middle[1]], y_title, 14.0, Anchor::Middle, true, INK));
         items
+    }
+
+    /// Titles of the axes in the middle of the sides of `around`, beyond the values at the ticks: of this frame, or of
+    /// several beside and below each other.
+    #[must_use]
+    pub fn titles(&self, around: Rect, units: [Unit; 2], [x_title, y_title]: [String; 2]) -> [Item; 2] {
+        let [_, y_ticks] = self.ticks(units);
+        let widest = y_ticks.iter().map(|(_, name)| super::figure::text_width(name, 13.0)).fold(0.0, f64::max);
+        let middle = [around.x + around.width / 2.0, around.y + around.height / 2.0];
+        [
+            text([middle[0], around.bottom() + 38.0], x_title, 14.0, Anchor::Middle, false, INK),
+            text([around.x - 16.0 - widest, middle[1]], y_title, 14.0, Anchor::Middle, true, INK),
+        ]
     }
 
     fn ticks(&self, units: [Unit; 2]) -> [Vec<(f64, String)>; 2] {
@@ -145,14 +165,23 @@ impl Frame {
     }
 }
 
-/// Round values in the range, at most `at_most` (but two at least, if there are any), with their labels.
+fn text(at: Spot, text: String, size: f64, anchor: Anchor, upwards: bool, color: Rgb) -> Item {
+    Item::Text(Label { at, text, size, anchor, upwards, color })
+}
+
+/// Round values in the range with their labels: at most `at_most`, but more where that would leave less than two.
 fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
+    let few = sparse_ticks(range, unit, at_most.max(2));
+    if few.len() >= 2 { few } else { sparse_ticks(range, unit, 2 * at_most.max(2)) }
+}
+
+fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let factor = match unit {
         Unit::Meters => 1.0,
         Unit::Degrees => 180.0 / std::f64::consts::PI,
     };
     let (lower, upper) = (range.0 * factor, range.1 * factor);
-    let least = (upper - lower) / at_most.max(2) as f64;
+    let least = (upper - lower) / at_most as f64;
     let step = match unit {
         Unit::Meters => decimal_step(least),
         Unit::Degrees => degree_step(least),
@@ -213,6 +242,12 @@ mod tests {
     fn metres_have_round_steps() {
         assert_eq!(names((-0.31, 0.52), Unit::Meters, 6), ["\u{2212}0.2", "0.0", "0.2", "0.4"]);
         assert_eq!(names((0.0, 12.0), Unit::Meters, 4), ["0", "5", "10"]);
+    }
+
+    #[test]
+    fn short_axes_have_two_ticks() {
+        assert_eq!(names((-2.9, 2.9), Unit::Degrees, 2), ["\u{2212}90", "0", "90"]);
+        assert_eq!(names((0.1, 0.9), Unit::Meters, 1), ["0.2", "0.4", "0.6", "0.8"]);
     }
 
     #[test]

@@ -3,7 +3,8 @@
 use super::Picture;
 use super::color::{self, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Label, Pen, Rect, Step, Style, rectangle, shortened, text_width};
-use super::{boxes, cspace, page, preferences, trace};
+use super::{boxes, cspace, page, posture, preferences, shapes, trace};
+use crate::model::Payload;
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
@@ -24,6 +25,8 @@ pub enum Sign {
     Line(Pen),
     /// A surface.
     Swatch(Rgb),
+    /// A dashed outline.
+    Dashed(Rgb),
 }
 
 /// A sign and what it means.
@@ -43,10 +46,15 @@ pub fn keys(picture: &Picture) -> Vec<Key> {
     keys.extend(preferences::keys(&picture.scene.workspace.preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let obstacles = &picture.scene.workspace.obstacles;
-    if obstacles.len() <= NAMED {
-        let swatch = |(i, name): (usize, &String)| (Sign::Swatch(color::obstacle(i)), name.clone());
-        keys.extend(obstacles.iter().map(|o| &o.name).enumerate().map(swatch));
+    // Obstacles without pieces lie nowhere: they are carried.
+    let lying = obstacles.iter().enumerate().filter(|(_, o)| !o.pieces.is_empty());
+    if lying.clone().count() <= NAMED {
+        keys.extend(lying.map(|(i, o)| (Sign::Swatch(color::obstacle(i)), o.name.clone())));
     }
+    let carried = |payload: &Payload| {
+        (Sign::Swatch(posture::payload_color(picture.scene)), format!("{}, carried", payload.object))
+    };
+    keys.extend(picture.scene.payload().map(carried));
     keys
 }
 
@@ -101,8 +109,15 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN, y])], style)]
         }
         Sign::Swatch(color) => {
-            let rect = Rect { x: x + SIGN - 16.0, y: y - 6.0, width: 16.0, height: 12.0 };
-            vec![Item::Outline(rectangle(rect), Style::line(color.darker(0.25), 1.0).filled(color.lighter(0.25)))]
+            let style = Style::line(color.darker(0.25), 1.0).filled(color.lighter(0.25));
+            vec![Item::Outline(rectangle(swatch(x, y)), style)]
+        }
+        Sign::Dashed(color) => {
+            vec![Item::Outline(rectangle(swatch(x, y)), Style::line(*color, 1.4).dashed(shapes::DASH))]
         }
     }
+}
+
+fn swatch(x: f64, y: f64) -> Rect {
+    Rect { x: x + SIGN - 16.0, y: y - 6.0, width: 16.0, height: 12.0 }
 }

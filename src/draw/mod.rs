@@ -6,13 +6,16 @@
 //!
 //! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
 //! trace of its tip; right the configuration space in degrees or metres, with the C-obstacles in the colours of their
-//! obstacles, the path and what the planner saw. The same picture is the same file, byte for byte.
+//! obstacles, the path and what the planner saw. The picture of a task has a configuration space for each payload state.
+//! The same picture is the same file, byte for byte.
 
 mod axes;
 mod boxes;
+mod chart;
 mod color;
 mod copies;
 mod cspace;
+mod extent;
 mod figure;
 mod frames;
 mod isolines;
@@ -20,10 +23,17 @@ mod legend;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
+mod posture;
 mod preferences;
+mod shapes;
 mod svg_writer;
+mod task;
 mod trace;
 mod workspace;
+
+#[cfg(feature = "png")]
+pub use task::task_png;
+pub use task::{TaskPicture, task_svg};
 
 use crate::certify::StuckBox;
 use crate::cspace::CObstacle;

@@ -4,9 +4,12 @@ use super::color::{GREY, INK, Rgb};
 use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
 use super::{Picture, Posture, color, cspace, frames, legend, workspace};
 
-const WIDTH: f64 = 1400.0;
-const HEIGHT: f64 = 720.0;
-const MARGIN: f64 = 28.0;
+/// Width of every picture, pixels.
+pub const WIDTH: f64 = 1400.0;
+/// Height of pictures of one motion, and least height of all, pixels.
+pub const HEIGHT: f64 = 720.0;
+/// Beside everything, pixels.
+pub const MARGIN: f64 = 28.0;
 
 /// The pen of path `index` out of `count`: a single one is drawn in ink.
 pub fn path_pen(index: usize, count: usize) -> Pen {
@@ -18,10 +21,13 @@ pub fn path_pen(index: usize, count: usize) -> Pen {
 /// gaps of another's dashes.
 pub fn path_items(outlines: Vec<Vec<Step>>) -> Vec<Item> {
     let count = outlines.len();
-    let mut halos = Vec::with_capacity(2 * count);
-    let mut lines = Vec::with_capacity(count);
-    for (i, steps) in outlines.into_iter().enumerate() {
-        let pen = path_pen(i, count);
+    lines(outlines.into_iter().enumerate().map(|(i, steps)| (steps, path_pen(i, count))))
+}
+
+/// Lines with a broad pale one under each, all of which come first.
+pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
+    let (mut halos, mut lines) = (Vec::new(), Vec::new());
+    for (steps, pen) in outlines {
         halos.push(Item::Outline(steps.clone(), Style::line(color::WHITE, pen.width + 2.6).faded(0.85)));
         lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
     }
@@ -32,7 +38,7 @@ pub fn path_items(outlines: Vec<Vec<Step>>) -> Vec<Item> {
 /// Draws everything.
 #[must_use]
 pub fn compose(picture: &Picture) -> Figure {
-    let mut items = titles(picture);
+    let mut items = titles(&picture.title, &picture.status);
     let top = 62.0 + 18.0 * picture.title.len().max(1) as f64;
     let keys = legend::layout(legend::keys(picture), WIDTH - 2.0 * MARGIN);
     let legend_top = HEIGHT - 14.0 - legend::ROW * keys.len() as f64;
@@ -41,8 +47,8 @@ pub fn compose(picture: &Picture) -> Figure {
     let right = Rect { x: 770.0, y: top, width: 530.0, height };
     items.extend(workspace::panel(picture, left));
     items.extend(cspace::panel(picture, right));
-    items.extend(heading("Workspace", left));
-    items.extend(heading("Configuration space", right));
+    items.push(heading("Workspace", left));
+    items.push(heading("Configuration space", right));
     items.extend(legend::items(&keys, WIDTH / 2.0, legend_top));
     Figure { width: WIDTH, height: HEIGHT, items }
 }
@@ -61,7 +67,7 @@ pub fn compose_posture(posture: &Posture) -> Figure {
         c_obstacles: &[],
         proof: &[],
     };
-    let mut items = titles(&picture);
+    let mut items = titles(&picture.title, &picture.status);
     let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;
     let area = Rect { x: 84.0, y: top, width: WIDTH - 84.0 - MARGIN, height: HEIGHT - 58.0 - top };
     items.extend(workspace::panel(&picture, area));
@@ -69,16 +75,17 @@ pub fn compose_posture(posture: &Posture) -> Figure {
     Figure { width: WIDTH, height: HEIGHT, items }
 }
 
-fn heading(text: &str, area: Rect) -> Option<Item> {
+fn heading(text: &str, area: Rect) -> Item {
     let at = [area.x + area.width / 2.0, area.y - 12.0];
-    Some(label(at, text.to_owned(), 16.0, Anchor::Middle, INK))
+    label(at, text.to_owned(), 16.0, Anchor::Middle, INK)
 }
 
-fn titles(picture: &Picture) -> Vec<Item> {
+/// The title and the lines below it, and the status in the opposite corner.
+pub fn titles(lines: &[String], status: &str) -> Vec<Item> {
     let mut items = Vec::new();
-    let status_width = text_width(&picture.status, 18.0);
-    items.push(label([WIDTH - MARGIN, 36.0], picture.status.clone(), 18.0, Anchor::End, INK));
-    for (i, line) in picture.title.iter().enumerate() {
+    let status_width = text_width(status, 18.0);
+    items.push(label([WIDTH - MARGIN, 36.0], status.to_owned(), 18.0, Anchor::End, INK));
+    for (i, line) in lines.iter().enumerate() {
         let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
         let room = WIDTH - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
         items.push(label([MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
@@ -86,6 +93,7 @@ fn titles(picture: &Picture) -> Vec<Item> {
     items
 }
 
-fn label(at: [f64; 2], text: String, size: f64, anchor: Anchor, color: Rgb) -> Item {
+/// A text that reads to the right.
+pub fn label(at: [f64; 2], text: String, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text, size, anchor, upwards: false, color })
 }

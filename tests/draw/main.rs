@@ -3,6 +3,7 @@
 //! Set `CPLAN_PICTURES` to a folder to have the pictures written there and look at them.
 
 mod scenes;
+mod tasks;
 
 use cplan::draw::{Picture, svg};
 use cplan::geometry::{Point, SimplePolygon};
@@ -14,12 +15,22 @@ use std::f64::consts::PI;
 
 /// Writes the picture if someone wants to look, checks what holds for every picture, and returns it.
 fn checked(name: &str, picture: &Picture) -> String {
-    let text = svg(picture);
+    #[cfg(feature = "png")]
+    let png = || cplan::draw::png(picture, 1.0).unwrap();
+    #[cfg(not(feature = "png"))]
+    let png = Vec::new;
+    inspected(name, || svg(picture), png)
+}
+
+/// The same for anything that draws: an SVG document, and the same as PNG.
+fn inspected(name: &str, svg: impl Fn() -> String, png: impl Fn() -> Vec<u8>) -> String {
+    let text = svg();
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
         let file = |extension: &str| std::path::Path::new(&folder).join(format!("{name}.{extension}"));
         std::fs::write(file("svg"), &text).unwrap();
-        #[cfg(feature = "png")]
-        std::fs::write(file("png"), cplan::draw::png(picture, 1.0).unwrap()).unwrap();
+        if cfg!(feature = "png") {
+            std::fs::write(file("png"), png()).unwrap();
+        }
     }
     let tree = roxmltree::Document::parse(&text).expect("well-formed");
     for node in tree.descendants().filter(|n| n.is_element()) {
@@ -27,7 +38,7 @@ fn checked(name: &str, picture: &Picture) -> String {
             assert!(!attribute.value().contains("NaN") && !attribute.value().contains("inf"), "{attribute:?}");
         }
     }
-    assert_eq!(text, svg(picture), "drawing twice gives the same bytes");
+    assert_eq!(text, svg(), "drawing twice gives the same bytes");
     text
 }
 

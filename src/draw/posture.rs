@@ -1,0 +1,61 @@
+//! The arm in one configuration, with what it carries.
+
+use super::axes::Frame;
+use super::color::{self, INK, PALE, Rgb, WHITE};
+use super::figure::{Item, Step, Style};
+use super::shapes::{outline, union};
+use crate::model::Scene;
+use crate::space::Configuration;
+
+/// How a pose is drawn.
+pub struct Look {
+    fill: Rgb,
+    line: Rgb,
+    width: f64,
+    opacity: f64,
+    joints: bool,
+}
+
+/// Where the motion begins.
+pub const START: Look = Look { fill: WHITE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+/// Where it ends.
+pub const GOAL: Look = Look { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
+/// On the way.
+pub const GHOST: Look =
+    Look { fill: Rgb(0xf3, 0xf4, 0xf6), line: Rgb(0x8c, 0x94, 0x9d), width: 1.0, opacity: 0.65, joints: false };
+
+/// The scene's arm at `q`: its own outline, and above it the payload in the colour of the object.
+#[must_use]
+pub fn items(frame: &Frame, scene: &Scene, q: Configuration, look: &Look) -> Vec<Item> {
+    let arm = &scene.arm;
+    let mut items = Vec::new();
+    let body =
+        Style { pen_below: true, ..Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity) };
+    for (link, pose) in arm.poses(q).iter().enumerate() {
+        let parts = scene.own_parts(link).iter().flat_map(|part| outline(frame, &part.shape.at(pose)));
+        items.push(Item::Outline(parts.collect(), body));
+    }
+    if let Some(payload) = scene.payload() {
+        let (pose, color) = (payload.pose(arm, q), payload_color(scene));
+        let pieces: Vec<_> = payload.pieces.iter().map(|piece| piece.at(&pose)).collect();
+        let style = Style::line(color.darker(0.25), 2.0 * look.width).filled(color.lighter(0.25));
+        items.push(union(frame, &pieces, style.faded(look.opacity)));
+    }
+    if look.joints {
+        let [base, elbow, tip] = [arm.base, arm.elbow_at(q[0]), arm.tip_at(q)].map(|p| frame.at(p.x, p.y));
+        let axis = Style::line(look.line, 1.0).faded(0.7);
+        items.push(Item::Outline(vec![Step::Move(base), Step::Line(elbow), Step::Line(tip)], axis));
+        items.push(Item::Disc(base, 5.0, Style::fill(INK)));
+        items.push(Item::Disc(elbow, 3.5, Style::fill(INK)));
+        items.push(Item::Disc(tip, 3.0, Style::line(INK, 1.4).filled(WHITE)));
+    }
+    items
+}
+
+/// The colour of what is carried: that of the obstacle which it is while it lies somewhere, or the one after all others.
+#[must_use]
+pub fn payload_color(scene: &Scene) -> Rgb {
+    let obstacles = &scene.workspace.obstacles;
+    let lying = scene.payload().and_then(|payload| obstacles.iter().position(|o| o.name == payload.object));
+    color::obstacle(lying.unwrap_or(obstacles.len()))
+}

@@ -1,0 +1,81 @@
+//! The configuration spaces, side by side.
+
+use super::TaskPicture;
+use super::panel::Panel;
+use crate::draw::chart::{self, Chart};
+use crate::draw::color::GREY;
+use crate::draw::figure::{Anchor, Item, Rect};
+use crate::draw::page::label;
+use crate::model::Arm;
+
+/// Between columns, for the values at their ends, and between rows, for the titles; pixels.
+const GAP: [f64; 2] = [40.0, 36.0];
+/// Ratio of height to width of a panel whose axes have different scales.
+const PROPORTION: f64 = 0.8;
+
+/// Where the panels are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Number of panels.
+    count: usize,
+    columns: usize,
+    /// Width and height of a panel, pixels.
+    size: [f64; 2],
+    width: f64,
+}
+
+impl Grid {
+    /// As many columns as keep the panels legible in this width.
+    #[must_use]
+    pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
+        let columns = match count {
+            0..=1 => 1,
+            2..=6 => 2,
+            _ => 3,
+        };
+        let room = (width - GAP[0] * (columns - 1) as f64) / columns as f64;
+        let side = if columns == 1 { room.min(530.0) } else { room };
+        let proportion = chart::one_scale(arm).unwrap_or(PROPORTION).clamp(0.5, 1.2);
+        Self { count, columns, size: [side, side * proportion], width }
+    }
+
+    /// Of the panels, from the upper side of the first to the lower side of the last, pixels.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        let rows = self.count.div_ceil(self.columns) as f64;
+        rows * (self.size[1] + GAP[1]) - GAP[1]
+    }
+
+    fn area(&self, index: usize, [left, top]: [f64; 2]) -> Rect {
+        let [width, height] = self.size;
+        let (column, row) = ((index % self.columns) as f64, (index / self.columns) as f64);
+        let used = self.columns as f64 * (width + GAP[0]) - GAP[0];
+        let x = left + (self.width - used) / 2.0 + column * (width + GAP[0]);
+        Rect { x, y: top + row * (height + GAP[1]), width, height }
+    }
+
+    /// Draws the panels; values stand at the left and at the lowest of each column, titles of the axes once.
+    #[must_use]
+    pub fn items(&self, picture: &TaskPicture, panels: &[Panel], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
+        let arm = &picture.task.arm;
+        let mut items = Vec::new();
+        let charts: Vec<Chart> = (0..panels.len()).map(|index| Chart::new(arm, self.area(index, corner))).collect();
+        for (index, (panel, chart)) in panels.iter().zip(&charts).enumerate() {
+            items.extend(panel.items(picture, chart));
+            let values = [index + self.columns >= panels.len(), index % self.columns == 0];
+            items.extend(chart.frame.tick_marks(chart.units, values));
+        }
+        let (Some(first), Some(last)) = (charts.first(), charts.last()) else { return items };
+        let columns = &charts[..self.columns.min(charts.len())];
+        let right = columns.last().map_or(first.frame.rect.right(), |chart| chart.frame.rect.right());
+        let Rect { x, y, .. } = first.frame.rect;
+        let around = Rect { x, y, width: right - x, height: last.frame.rect.bottom() - y };
+        items.extend(first.frame.titles(around, first.units, chart::titles(arm)));
+        if left_out > 0 {
+            let text = format!("{left_out} further configuration spaces are not shown");
+            let at = [around.x + around.width / 2.0, around.bottom() + 60.0];
+            items.push(label(at, text, 13.0, Anchor::Middle, GREY));
+        }
+        items
+    }
+}

@@ -1,0 +1,138 @@
+//! Numbers beside places, none over another where there is room.
+
+use crate::draw::color::{INK, WHITE};
+use crate::draw::figure::{Anchor, Item, Rect, Spot, Style, rectangle, shortened, text_width};
+use crate::draw::page::label;
+
+const SIZE: f64 = 12.0;
+/// Widest text, pixels.
+const WIDEST: f64 = 96.0;
+/// Height of a line, pixels.
+const LINE: f64 = 15.0;
+/// Places nearer than this, pixels, share a number's box.
+const NEAR: f64 = 4.0;
+/// From the middle of a place to the nearest side of its number's box, pixels: room for the marker at the place.
+const GAP: f64 = 9.0;
+
+/// Where the box lies as seen from its place, the favourite first.
+const SIDES: [[f64; 2]; 8] =
+    [[1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, -1.0], [0.0, 1.0]];
+
+/// Gaps to choose from, in units of the least, and what the wider costs, as the others in square pixels of a covered
+/// shape: less than hiding one.
+const RINGS: [(f64, f64); 2] = [(1.0, 0.0), (2.6, 12.0)];
+/// What each side costs more than the one before: enough for numbers in a row to stand alike.
+const ORDER: f64 = 1.0;
+/// What it costs to cover a number or a place.
+const HIDING: f64 = 8.0;
+/// What it costs to cover a spot of a line; these are some pixels apart.
+const LINE_SPOT: f64 = 4.0;
+
+/// Steps that end at one place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tag {
+    /// Where.
+    pub at: Spot,
+    /// Their numbers, each once.
+    pub numbers: Vec<usize>,
+}
+
+/// Adds a number at a place.
+pub fn add(tags: &mut Vec<Tag>, at: Spot, number: usize) {
+    match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < NEAR) {
+        Some(tag) if tag.numbers.contains(&number) => {}
+        Some(tag) => tag.numbers.push(number),
+        None => tags.push(Tag { at, numbers: vec![number] }),
+    }
+}
+
+/// The numbers in boxes, each on the side of its place where it covers least of the others, of the places, of what lies
+/// outside, and then of the `shapes` and of lines through the `spots`.
+#[must_use]
+pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec<Item> {
+    let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
+    let mut items = Vec::new();
+    for tag in tags {
+        let text = shortened(&super::states::ranges(&tag.numbers), SIZE, WIDEST);
+        let size = [text_width(&text, SIZE) + 6.0, LINE];
+        let boxes = RINGS.iter().flat_map(|&(ring, extra)| {
+            SIDES.iter().zip(0..).map(move |(side, index)| {
+                // Diagonal boxes come nearer: their corner is what faces the place.
+                let gap = ring * if side[0] != 0.0 && side[1] != 0.0 { 0.6 * GAP } else { GAP };
+                let middle = [0, 1].map(|k| tag.at[k] + side[k] * (size[k] / 2.0 + gap));
+                (around(middle, size), extra + ORDER * f64::from(index))
+            })
+        });
+        let covered = |b: &Rect, others: &[Rect]| others.iter().map(|other| overlap(b, other)).sum::<f64>();
+        let cost = |(b, extra): &(Rect, f64)| {
+            let outside = b.width * b.height - overlap(b, &within);
+            let lines = spots.iter().filter(|s| (b.x..b.right()).contains(&s[0]) && (b.y..b.bottom()).contains(&s[1]));
+            HIDING * (covered(b, &taken) + outside) + covered(b, shapes) + LINE_SPOT * lines.count() as f64 + extra
+        };
+        let best = boxes.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let Some((place, _)) = best else { continue };
+        items.push(Item::Outline(rectangle(place), Style::fill(WHITE).faded(0.8)));
+        let at = [place.x + place.width / 2.0, place.bottom() - 3.5];
+        items.push(label(at, text, SIZE, Anchor::Middle, INK));
+        taken.push(place);
+    }
+    items
+}
+
+fn around([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
+    Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
+}
+
+/// The common area, square pixels.
+fn overlap(a: &Rect, b: &Rect) -> f64 {
+    let width = a.right().min(b.right()) - a.x.max(b.x);
+    let height = a.bottom().min(b.bottom()) - a.y.max(b.y);
+    width.max(0.0) * height.max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn boxes(items: &[Item]) -> Vec<Rect> {
+        let texts = items.iter().filter_map(|item| match item {
+            Item::Text(label) => Some((label.at, text_width(&label.text, SIZE))),
+            _ => None,
+        });
+        texts.map(|([x, y], width)| Rect { x: x - width / 2.0, y: y - 10.0, width, height: 11.0 }).collect()
+    }
+
+    #[test]
+    fn one_place_has_one_box() {
+        let mut tags = Vec::new();
+        for (x, number) in [(50.0, 1), (51.0, 2), (50.0, 1), (90.0, 3), (50.5, 7)] {
+            add(&mut tags, [x, 50.0], number);
+        }
+        assert_eq!(tags.iter().map(|tag| tag.numbers.clone()).collect::<Vec<_>>(), [vec![1, 2, 7], vec![3]]);
+    }
+
+    #[test]
+    fn boxes_of_crowded_places_keep_apart_and_inside() {
+        let page = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
+        let mut tags = Vec::new();
+        for number in 0..12 {
+            add(&mut tags, [2.0 + 34.0 * (number % 4) as f64, 4.0 + 30.0 * (number / 4) as f64], number);
+        }
+        let boxes = boxes(&items(&tags, page, &[], &[]));
+        assert_eq!(boxes.len(), 12);
+        for (i, a) in boxes.iter().enumerate() {
+            assert!((overlap(a, &page) - a.width * a.height).abs() < 1e-9, "{a:?} sticks out");
+            assert!(boxes[i + 1..].iter().all(|b| overlap(a, b) == 0.0), "{a:?} is covered");
+        }
+    }
+
+    #[test]
+    fn boxes_stay_off_shapes_where_there_is_room() {
+        let page = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
+        let shape = around([100.0, 100.0], [26.0, 26.0]);
+        let tags = [Tag { at: [100.0, 100.0], numbers: vec![3] }];
+        let beside = |shapes: &[Rect]| boxes(&items(&tags, page, shapes, &[]))[0];
+        assert!(overlap(&beside(&[]), &shape) > 0.0);
+        assert_eq!(overlap(&beside(&[shape]), &shape), 0.0);
+    }
+}
