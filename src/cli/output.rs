@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::certify::CertifiedCurve;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, Picture, Posture};
+use crate::draw::{self, Picture, Posture, TaskPicture};
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Verdict};
 use crate::trajectory::{Format, Report, check_writable, write_whole};
@@ -163,6 +163,21 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
         PictureFormat::Svg => write_whole(path, draw::svg(picture).as_bytes())?,
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
+        #[cfg(not(feature = "png"))]
+        PictureFormat::Png => return Err(without_png(path)),
+    }
+    Ok(())
+}
+
+/// Writes a picture of a task.
+///
+/// # Errors
+/// I/O, or a program built without PNG.
+pub fn save_task_picture(format: PictureFormat, path: &Path, picture: &TaskPicture) -> Result<(), Failure> {
+    match format {
+        PictureFormat::Svg => write_whole(path, draw::task_svg(picture).as_bytes())?,
+        #[cfg(feature = "png")]
+        PictureFormat::Png => write_whole(path, &draw::task_png(picture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
         PictureFormat::Png => return Err(without_png(path)),
     }

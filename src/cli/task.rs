@@ -4,13 +4,14 @@ use super::args::PlanArgs;
 use super::failure::Failure;
 use super::output::{self, Sink};
 use super::plan::effort;
-use super::summary::Clock;
+use super::summary::{Clock, counted};
 use super::task_files::TaskFiles;
 use super::{DONE, INFEASIBLE, UNKNOWN, task_summary};
-use crate::input::LoadedScene;
+use crate::draw::TaskPicture;
+use crate::input::{LoadedScene, LoadedTask};
 use crate::plan::FieldPlanner;
 use crate::solve::Method;
-use crate::task::{Manner, TaskReport, TaskVerdict, plan};
+use crate::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
 use crate::trajectory::SearchUsed;
 
 /// Plans, writes what was asked for, and returns the exit code.
@@ -24,8 +25,9 @@ pub fn run(
     sinks: &[Sink],
     mut clock: Clock,
 ) -> Result<u8, Failure> {
-    if let Some(conflict) = conflict(args) {
-        return Err(Failure::Usage(conflict.into()));
+    if args.optimum.gap.is_some() {
+        let message = "--gap is for a single motion; what is proven of a sequence of steps is part of every answer";
+        return Err(Failure::Usage(message.into()));
     }
     let mut loaded = loaded.task(&args.query.overrides())?;
     args.motion.override_limits(&mut loaded.task.arm.joints);
@@ -48,7 +50,13 @@ pub fn run(
     if args.timings {
         report.timings = clock.milliseconds();
     }
-    let written = files.write(&report)?;
+    let mut written = files.write(&report)?;
+    for sink in sinks {
+        if let Sink::Picture(format, path) = sink {
+            output::save_task_picture(*format, path, &picture(&loaded, &answer, &report))?;
+            written.push(path.display().to_string());
+        }
+    }
     clock.stage("write");
     if args.json {
         output::print(&report.json())?;
@@ -62,13 +70,22 @@ pub fn run(
     })
 }
 
-/// What of the options means nothing for steps, if there is something.
-fn conflict(args: &PlanArgs) -> Option<&'static str> {
-    if args.optimum.gap.is_some() {
-        return Some("--gap is for a single motion; what is proven of a sequence of steps is part of every answer");
+/// What a picture of the task shows.
+fn picture<'a>(loaded: &'a LoadedTask, answer: &'a TaskAnswer, report: &TaskReport) -> TaskPicture<'a> {
+    let steps = counted(answer.legs.len(), "step");
+    let (status, detail) = match (&answer.verdict, report.clearance()) {
+        (TaskVerdict::Done, clearance) => {
+            let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
+            ("done, certified", format!("{}: {steps} in {:.3} s, {kept}", report.planner(), answer.duration()))
+        }
+        (TaskVerdict::Infeasible(_), _) => ("no way: proven", format!("{}: {steps} before it", report.planner())),
+        (TaskVerdict::Unknown(_), _) => ("unknown", format!("{}: {steps} before it", report.planner())),
+    };
+    TaskPicture {
+        title: vec![output::title_of(&loaded.scene), detail],
+        status: status.into(),
+        task: &loaded.task,
+        answer,
+        c_obstacles: output::contours,
     }
-    if !args.picture.is_empty() {
-        return Some("--picture is for a single motion; a world with steps is not drawn");
-    }
-    None
 }

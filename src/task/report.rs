@@ -205,6 +205,13 @@ impl TaskReport {
         self.gap
     }
 
+    /// Proven lower bound on the distance to obstacles all the time, metres; none if not all steps can be done, and where
+    /// nothing can be hit.
+    #[must_use]
+    pub fn clearance(&self) -> Option<f64> {
+        self.clearance
+    }
+
     /// The steps that are done, in order.
     #[must_use]
     pub fn steps(&self) -> &[StepReport] {

@@ -259,13 +259,14 @@ fn the_first_step_that_fails_is_named() {
 #[test]
 fn the_same_task_gives_the_same_bytes() {
     let place = Place::new();
-    let names = ["a.json", "a.csv", "a.yaml"];
-    let outputs: String = names.iter().map(|n| format!("--output {n} ")).collect();
+    let names = ["a.json", "a.csv", "a.yaml", "a.svg"];
+    let outputs = "--output a.json --output a.csv --output a.yaml --picture a.svg";
     let read = || names.map(|name| place.read(name));
-    assert_eq!(place.task(STEPS, &outputs).code, 0);
+    assert_eq!(place.task(STEPS, outputs).code, 0);
     let before = read();
     let again = place.task(STEPS, &format!("{outputs} --json"));
     assert!(read() == before && again.stdout == before[0]);
+    assert!(before[3].starts_with("<svg") && before[3].contains("done, certified"));
     let timed = place.task(STEPS, "--json --timings").json();
     assert!(timed["timings"]["plan"].is_number() && !before[0].contains("timings"));
 
@@ -309,7 +310,6 @@ fn what_cannot_be_done_for_steps_is_refused() {
     let place = Place::new();
     let refused = |options: &str, code: i32, part: &str| place.task(STEPS, options).refused(code, &[part]);
     refused("--gap 0.01", 2, "--gap is for a single motion");
-    refused("--picture a.svg", 2, "--picture is for a single motion");
     refused("--per-step", 2, "--per-step needs an --output");
     refused("--per-step --output a.json", 2, ".csv or .yaml");
     refused("--goal 0.1,0.2", 1, "goal");
