@@ -21,6 +21,7 @@ Examples:
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
+  cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
@@ -216,6 +217,10 @@ pub struct PlanArgs {
     /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub output: Vec<PathBuf>,
+    /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml
+    /// and so on for --output plan.yaml (worlds with steps).
+    #[arg(long)]
+    pub per_step: bool,
     /// Draw workspace and configuration space side by side: .svg or .png. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,

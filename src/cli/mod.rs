@@ -14,6 +14,9 @@ mod plan;
 mod recheck;
 mod search_args;
 mod summary;
+mod task;
+mod task_files;
+mod task_summary;
 mod variant;
 mod verify;
 

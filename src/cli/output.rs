@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::certify::CertifiedCurve;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, Picture, Posture};
+use crate::draw::{self, Picture, Posture, TaskPicture};
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Verdict};
 use crate::trajectory::{Format, Report, check_writable, write_whole};
@@ -88,9 +88,14 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
 pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), Failure> {
     match format.bytes(report) {
         Some(bytes) => write_whole(path, &bytes)?,
-        None => say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display())),
+        None => warn_unwritten(path),
     }
     Ok(())
+}
+
+/// Says on stderr that a format has no room for a result without a trajectory.
+pub fn warn_unwritten(path: &Path) {
+    say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display()));
 }
 
 /// Draws the answer to one problem.
@@ -158,6 +163,21 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
         PictureFormat::Svg => write_whole(path, draw::svg(picture).as_bytes())?,
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
+        #[cfg(not(feature = "png"))]
+        PictureFormat::Png => return Err(without_png(path)),
+    }
+    Ok(())
+}
+
+/// Writes a picture of a task.
+///
+/// # Errors
+/// I/O, or a program built without PNG.
+pub fn save_task_picture(format: PictureFormat, path: &Path, picture: &TaskPicture) -> Result<(), Failure> {
+    match format {
+        PictureFormat::Svg => write_whole(path, draw::task_svg(picture).as_bytes())?,
+        #[cfg(feature = "png")]
+        PictureFormat::Png => write_whole(path, &draw::task_png(picture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
         PictureFormat::Png => return Err(without_png(path)),
     }

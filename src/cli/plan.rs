@@ -6,11 +6,11 @@ use super::field_report::field_report;
 use super::motion::MotionArgs;
 use super::output::{self, Sink};
 use super::summary::{self, Clock};
-use super::{DONE, INFEASIBLE, UNKNOWN};
+use super::{DONE, INFEASIBLE, UNKNOWN, task};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::input;
-use crate::model::Problem;
-use crate::plan::{Size, Wavefront};
+use crate::model::{Problem, Scene};
+use crate::plan::{FieldPlanner, Size, Wavefront};
 use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::space::Metric;
 use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
@@ -27,7 +27,14 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
-    let mut loaded = input::load(&files.urdf, &files.world, &args.query.overrides())?;
+    let loaded = input::load_scene(&files.urdf, &files.world)?;
+    if loaded.has_steps() {
+        return task::run(loaded, args, field, &sinks, clock);
+    }
+    if args.per_step {
+        return Err(Failure::Usage("--per-step is for worlds with steps".into()));
+    }
+    let mut loaded = loaded.problem(&args.query.overrides())?;
     args.motion.override_limits(&mut loaded.problem.scene.arm.joints);
     clock.stage("load");
     let say = |text: &str| {
@@ -37,12 +44,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
-    if let Some(lack) = args.field.lack(&problem.scene.workspace.preferences) {
-        return Err(Failure::Usage(lack));
-    }
-    let metric = args.optimum.metric(problem.scene.arm.joints.each_ref().map(|joint| joint.velocity));
-    let wavefront = args.search.wavefront();
-    let effort = Effort { metric, gap: args.optimum.gap, field, wavefront, ..args.effort.effort() };
+    let effort = effort(&problem.scene, args, field)?;
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
@@ -82,6 +84,19 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
         Verdict::Infeasible(_) => INFEASIBLE,
         Verdict::Unknown(_) => UNKNOWN,
     })
+}
+
+/// How hard to try, and what for.
+///
+/// # Errors
+/// A field that follows preferences of the world, which has none.
+pub fn effort(scene: &Scene, args: &PlanArgs, field: Option<FieldPlanner>) -> Result<Effort, Failure> {
+    if let Some(lack) = args.field.lack(&scene.workspace.preferences) {
+        return Err(Failure::Usage(lack));
+    }
+    let metric = args.optimum.metric(scene.arm.joints.each_ref().map(|joint| joint.velocity));
+    let wavefront = args.search.wavefront();
+    Ok(Effort { metric, gap: args.optimum.gap, field, wavefront, ..args.effort.effort() })
 }
 
 /// The result file's content, and what the motion follows.

@@ -81,19 +81,9 @@ pub fn text(
 ) -> String {
     let scene = &loaded.problem.scene;
     let arm = &scene.arm;
-    let mut lines: Vec<(&str, String)> = Vec::new();
-    lines.push(("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name)));
-    for joint in &arm.joints {
-        let unit = joint.unit();
-        let jerk = joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
-        let speeds = format!("at most {} {unit}/s, {} {unit}/s2{jerk}", joint.velocity, joint.acceleration);
-        lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
-    }
+    let mut lines = arm_lines(arm);
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
-    let obstacles = match scene.workspace.obstacles.len() {
-        1 => "1 obstacle".to_owned(),
-        n => format!("{n} obstacles"),
-    };
+    let obstacles = counted(scene.workspace.obstacles.len(), "obstacle");
     lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace.name))));
     lines.push(("start", configuration(arm, loaded.problem.start)));
     for &goal in &loaded.problem.goals {
@@ -128,17 +118,47 @@ pub fn text(
     for sink in sinks.iter().filter(|sink| sink.is_filled_by(report)) {
         lines.push(("file", sink.path().display().to_string()));
     }
+    lines.push(time_line(clock));
+    laid_out(&lines)
+}
+
+/// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.
+pub type Line = (&'static str, String);
+
+/// The arm and its joints.
+pub fn arm_lines(arm: &Arm) -> Vec<Line> {
+    let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
+    for joint in &arm.joints {
+        let unit = joint.unit();
+        let jerk = joint.jerk.map(|jerk| format!(", {jerk} {unit}/s3")).unwrap_or_default();
+        let speeds = format!("at most {} {unit}/s, {} {unit}/s2{jerk}", joint.velocity, joint.acceleration);
+        lines.push(("joint", format!("{}: {}; {speeds}", joint.name, range(joint))));
+    }
+    lines
+}
+
+/// The time that each stage took.
+pub fn time_line(clock: &Clock) -> Line {
     let stages: Vec<String> = clock.milliseconds().iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    lines.push(("time", format!("{} ms", stages.join(", "))));
+    ("time", format!("{} ms", stages.join(", ")))
+}
+
+/// Lines in two columns; a key that is the same as in the line before is not repeated.
+pub fn laid_out(lines: &[Line]) -> String {
     let mut text = String::new();
     let mut before = "";
-    for (key, line) in &lines {
+    for (key, line) in lines {
         let shown = if *key == before { "" } else { key };
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{shown:<10} {line}");
         before = key;
     }
     text
+}
+
+/// A number of things: `1 obstacle`, `3 obstacles`.
+pub fn counted(count: usize, thing: &str) -> String {
+    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
 }
 
 /// What the motion keeps, and where it comes nearest.
@@ -180,6 +200,7 @@ fn optimum(bound: &Bound) -> String {
     format!("{measure}; proven: none below {lower:.4}, so at most {} longer than the shortest", percent(bound.gap()))
 }
 
-fn non_empty(name: &str) -> &str {
+/// A title, or words for none.
+pub fn non_empty(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }

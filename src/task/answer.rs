@@ -3,7 +3,7 @@
 use crate::certify::WristTurn;
 use crate::geometry::Pose;
 use crate::model::{Scene, Step};
-use crate::trajectory::{Timed, Trajectory};
+use crate::trajectory::Timed;
 use std::rc::Rc;
 
 /// What happens at the end of a step's motion.
@@ -21,6 +21,16 @@ pub enum Event {
         /// Where it lies from then on.
         pose: Pose,
     },
+}
+
+impl Event {
+    /// The object that is taken or let go of.
+    #[must_use]
+    pub fn object(&self) -> usize {
+        match *self {
+            Event::Grasp { object } | Event::Release { object, .. } => object,
+        }
+    }
 }
 
 /// What the arm does for one step: a motion from rest to rest, perhaps a turn of the wrist, perhaps an event, and a rest.
@@ -122,20 +132,6 @@ impl TaskAnswer {
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.legs.last().map_or(0.0, Leg::end)
-    }
-
-    /// The whole motion, standing still at the ends of steps; none without steps.
-    #[must_use]
-    pub fn trajectory(&self) -> Option<Trajectory> {
-        let mut legs = self.legs.iter();
-        let mut rest = legs.next()?;
-        let mut whole = rest.timed.trajectory.clone();
-        for leg in legs {
-            whole.then(rest.rest(), &leg.timed.trajectory);
-            rest = leg;
-        }
-        whole.stand(rest.rest());
-        Some(whole)
     }
 
     /// Proven lower bound on the distance to obstacles all the time, metres; infinite if nothing can be hit.

@@ -11,17 +11,24 @@
 //! orders), are the heuristic; at the start they bound the whole task from below.
 
 mod answer;
+mod files;
 mod legs;
 mod least_time;
 mod order;
 mod outlook;
 mod postures;
+mod report;
 mod search;
+mod sequence;
 mod state;
+mod step_report;
 
 pub use answer::{Event, Impossible, Leg, TaskAnswer, TaskVerdict};
 pub use least_time::rest_to_rest;
+pub use report::{Choice, FailedStep, TaskReport};
 pub use search::plan;
+pub use sequence::Sequence;
+pub use step_report::{ActionName, EventName, EventReport, StepReport, TurnReport};
 
 use crate::solve::{Effort, Method};
 use crate::trajectory::Drive;

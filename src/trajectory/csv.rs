@@ -11,6 +11,17 @@ use std::fmt::Write;
 /// Numbers have as many digits as it takes to read the same `f64` back.
 #[must_use]
 pub fn csv(joints: &[String; 2], trajectory: &Trajectory) -> String {
+    table(joints, trajectory, None)
+}
+
+/// The same with one more column, `step`: the number of the step that each sample belongs to. There are as many numbers as
+/// samples.
+#[must_use]
+pub fn csv_with_steps(joints: &[String; 2], trajectory: &Trajectory, steps: &[usize]) -> String {
+    table(joints, trajectory, Some(steps))
+}
+
+fn table(joints: &[String; 2], trajectory: &Trajectory, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
     for suffix in ["", "_velocity", "_acceleration"] {
         for joint in joints {
@@ -18,12 +29,17 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory) -> String {
             text.push_str(&quoted(&format!("{joint}{suffix}")));
         }
     }
-    text.push('\n');
+    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+    let mut step = steps.into_iter().flatten();
     for (k, time) in trajectory.time.iter().enumerate() {
         let ([p1, p2], [v1, v2], [a1, a2]) =
             (trajectory.position[k], trajectory.velocity[k], trajectory.acceleration[k]);
         // Debug formatting is Rust's shortest round-trip one, with an exponent where digits would be many.
-        writeln!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?},{a1:?},{a2:?}").expect("a string takes all");
+        write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?},{a1:?},{a2:?}").expect("a string takes all");
+        if let Some(step) = step.next() {
+            write!(text, ",{step}").expect("a string takes all");
+        }
+        text.push('\n');
     }
     text
 }

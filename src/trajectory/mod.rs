@@ -9,6 +9,7 @@ mod drive;
 mod field;
 mod format;
 mod jerk;
+mod json;
 mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
@@ -25,13 +26,15 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::mcap;
-pub use csv::csv;
+pub use csv::{csv, csv_with_steps};
 pub use drive::Drive;
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
+pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
+pub(crate) use result::interpolation;
 pub use result::{Blends, INTERPOLATION, Optimum, Report, SMOOTH_INTERPOLATION, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use tip::TipSpeed;
-pub use whole_file::{WriteError, check_writable, write_whole};
+pub use whole_file::{WriteError, check_writable, write_whole, write_whole_set};

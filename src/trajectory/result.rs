@@ -1,13 +1,11 @@
 //! What a run found, as JSON.
 
+use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::model::Joint;
 use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
-use serde_json::ser::{CompactFormatter, Formatter};
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 
 /// The sentence, with what holds on straight pieces at its end.
 macro_rules! interpolation {
@@ -28,6 +26,11 @@ pub const INTERPOLATION: &str =
 
 /// The same where the jerk has a limit.
 pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");
+
+/// How to read trajectories of these joints.
+pub(crate) fn interpolation(joints: &[Joint; 2]) -> &'static str {
+    if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
+}
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -64,6 +67,15 @@ pub struct Blends {
     pub count: usize,
     /// Greatest distance between a blend's ends and its corner, in joint space (radians and metres as they come).
     pub largest_radius: f64,
+}
+
+impl Blends {
+    /// Those of a curve.
+    #[must_use]
+    pub fn of(curve: &CertifiedCurve) -> Self {
+        let radii = || curve.curve().radii().iter().copied().filter(|radius| *radius > 0.0);
+        Self { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }
+    }
 }
 
 /// How a grid was searched.
@@ -146,16 +158,14 @@ impl Report {
     #[must_use]
     pub fn found(planner: &str, joints: &[Joint; 2], curve: &CertifiedCurve, trajectory: Trajectory) -> Self {
         let (path, clearance) = (curve.curve().path(), curve.clearance());
-        let smooth = joints.iter().any(|joint| joint.jerk.is_some());
-        let radii = || curve.curve().radii().iter().copied().filter(|radius| *radius > 0.0);
         Self {
             path: Some(path.waypoints().iter().map(|q| [q[0], q[1]]).collect()),
             length: Some(path.length()),
             certified: true,
             clearance: clearance.is_finite().then_some(clearance),
-            blends: Some(Blends { count: radii().count(), largest_radius: radii().fold(0.0, f64::max) }),
+            blends: Some(Blends::of(curve)),
             duration: Some(trajectory.duration()),
-            interpolation: Some(if smooth { SMOOTH_INTERPOLATION } else { INTERPOLATION }),
+            interpolation: Some(interpolation(joints)),
             trajectory: Some(trajectory),
             ..Self::bare(Status::Found, planner, joints)
         }
@@ -205,58 +215,9 @@ impl Report {
         self.status
     }
 
-    /// The result as a JSON object: a line a field, so that people can read it and the trajectory stays compact. Numbers
-    /// have as many digits as it takes to read the same `f64` back.
+    /// The result as a JSON object, a line a field. Numbers have as many digits as it takes to read the same `f64` back.
     #[must_use]
     pub fn json(&self) -> String {
-        let mut text = Vec::new();
-        let mut serializer = serde_json::Serializer::with_formatter(&mut text, LineAField::default());
-        self.serialize(&mut serializer).expect("string keys and a buffer that takes all");
-        text.push(b'\n');
-        String::from_utf8(text).expect("JSON is UTF-8")
-    }
-}
-
-fn as_map<S: Serializer>(pairs: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    let mut map = serializer.serialize_map(Some(pairs.len()))?;
-    for (key, value) in pairs {
-        map.serialize_entry(key, value)?;
-    }
-    map.end()
-}
-
-/// JSON layout: the outermost object's fields on lines of their own, all within them compact with a blank after each
-/// comma and colon.
-#[derive(Default)]
-struct LineAField {
-    depth: usize,
-}
-
-impl Formatter for LineAField {
-    fn begin_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.depth += 1;
-        CompactFormatter.begin_object(writer)
-    }
-
-    fn end_object<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        self.depth -= 1;
-        writer.write_all(if self.depth == 0 { b"\n}" } else { b"}" })
-    }
-
-    fn begin_object_key<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
-        writer.write_all(match (first, self.depth) {
-            (true, 1) => b"\n  ",
-            (false, 1) => b",\n  ",
-            (true, _) => b"",
-            (false, _) => b", ",
-        })
-    }
-
-    fn begin_object_value<W: ?Sized + Write>(&mut self, writer: &mut W) -> io::Result<()> {
-        writer.write_all(b": ")
-    }
-
-    fn begin_array_value<W: ?Sized + Write>(&mut self, writer: &mut W, first: bool) -> io::Result<()> {
-        writer.write_all(if first { b"" } else { b", " })
+        line_a_field(self)
     }
 }

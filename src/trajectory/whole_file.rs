@@ -42,15 +42,46 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError`]; nothing is left behind.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
-    let Target { file: target, folder, kept } = target(path)?;
-    let mut file = new_temporary(&folder).map_err(refused)?;
-    file.write_all(bytes).map_err(refused)?;
-    if let Some(permissions) = kept {
-        file.as_file().set_permissions(permissions).map_err(refused)?;
+    Prepared::new(path, bytes)?.put()
+}
+
+/// Writes several files as [`write_whole`] writes one, all temporary files before the first takes its name: whatever can
+/// fail for lack of room or of a permission fails while all files are as they were. Should the system refuse a name after
+/// that, those before it are new and the others as they were.
+///
+/// # Errors
+/// [`WriteError`] for the first file that fails; no temporary file is left behind.
+pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), WriteError> {
+    let prepared = files.iter().map(|(path, bytes)| Prepared::new(path, bytes.as_ref()));
+    prepared.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(Prepared::put)
+}
+
+/// A temporary file that holds what a file is to hold; removed unless it is put there.
+struct Prepared {
+    /// As given.
+    path: PathBuf,
+    target: PathBuf,
+    /// Closed, so that the number of files is not limited by that of open ones.
+    temporary: tempfile::TempPath,
+}
+
+impl Prepared {
+    fn new(path: &Path, bytes: &[u8]) -> Result<Self, WriteError> {
+        let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
+        let Target { file: target, folder, kept } = target(path)?;
+        let mut file = new_temporary(&folder).map_err(refused)?;
+        file.write_all(bytes).map_err(refused)?;
+        if let Some(permissions) = kept {
+            file.as_file().set_permissions(permissions).map_err(refused)?;
+        }
+        Ok(Self { path: path.to_owned(), target, temporary: file.into_temp_path() })
     }
-    file.persist(&target).map_err(|e| refused(e.error))?;
-    Ok(())
+
+    /// Gives the file its name.
+    fn put(self) -> Result<(), WriteError> {
+        let refused = |e: tempfile::PathPersistError| WriteError::Refused { path: self.path, source: e.error };
+        self.temporary.persist(&self.target).map_err(refused)
+    }
 }
 
 /// Whether a file of that name could be written, as far as can be told without writing: for jobs that would learn it
@@ -138,6 +169,19 @@ mod tests {
         assert!(message.contains("a.csv: there is no folder") && message.ends_with("absent"), "{message}");
         assert_eq!(names(folder.path()), ["inner.csv"]);
         assert!(names(&inner).is_empty());
+    }
+
+    #[test]
+    fn sets_are_written_together_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let [one, two, inner] = ["1.csv", "2.csv", "inner.csv"].map(|name| folder.path().join(name));
+        fs::create_dir(&inner).unwrap();
+        let message = write_whole_set(&[(one.clone(), "a"), (inner.clone(), "b")]).unwrap_err().to_string();
+        assert!(message.contains("inner.csv"), "{message}");
+        assert_eq!(names(folder.path()), ["inner.csv"]);
+        write_whole_set(&[(one.clone(), "a"), (two.clone(), "b")]).unwrap();
+        assert_eq!((fs::read(&one).unwrap(), fs::read(&two).unwrap()), (b"a".to_vec(), b"b".to_vec()));
+        assert_eq!(names(folder.path()), ["1.csv", "2.csv", "inner.csv"]);
     }
 
     #[cfg(unix)]

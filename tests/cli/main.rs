@@ -5,6 +5,7 @@ mod fields;
 mod inputs;
 mod mazes;
 mod results;
+mod tasks;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -1,0 +1,100 @@
+//! Files for what became of a task.
+
+use super::failure::Failure;
+use super::output::{self, Sink};
+use crate::task::TaskReport;
+use crate::trajectory::{Format, check_writable, write_whole_set};
+use std::path::{Path, PathBuf};
+
+/// Digits of a step's number in file names, at least: so that names sort as the steps follow.
+const DIGITS: usize = 3;
+
+/// The result files to write.
+pub struct TaskFiles {
+    results: Vec<(Format, PathBuf)>,
+    /// Whether each step gets a file of its own.
+    per_step: bool,
+    /// Steps of the task.
+    steps: usize,
+}
+
+impl TaskFiles {
+    /// What was asked for, for a task of so many steps.
+    ///
+    /// # Errors
+    /// Files of steps that no format asked for can hold, or that cannot be written.
+    pub fn new(sinks: &[Sink], per_step: bool, steps: usize) -> Result<Self, Failure> {
+        let results = sinks.iter().filter_map(|sink| match sink {
+            Sink::Result(format, path) => Some((*format, path.clone())),
+            Sink::Picture(..) => None,
+        });
+        let files = Self { results: results.collect(), per_step, steps };
+        let parted: Vec<&Path> =
+            files.results.iter().filter(|(format, _)| files.parts(*format)).map(|(_, path)| path.as_path()).collect();
+        if per_step && parted.is_empty() {
+            let message = "--per-step needs an --output of motions alone: .csv or .yaml";
+            return Err(Failure::Usage(message.into()));
+        }
+        for path in parted {
+            (1..=steps).try_for_each(|number| check_writable(&files.part(path, number)))?;
+        }
+        Ok(files)
+    }
+
+    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a task that is not done. The
+    /// names of those that are written, for people.
+    ///
+    /// # Errors
+    /// I/O.
+    pub fn write(&self, report: &TaskReport) -> Result<Vec<String>, Failure> {
+        let mut files = Vec::new();
+        let mut names = Vec::new();
+        for (format, path) in &self.results {
+            let is_parted = self.parts(*format) && report.trajectory().is_some();
+            let parts = is_parted.then(|| report.bytes_per_step(*format)).flatten();
+            if let Some(parts) = parts {
+                files.extend(parts.into_iter().zip(1..).map(|(bytes, number)| (self.part(path, number), bytes)));
+                names.push(self.span(path));
+                self.warn_of_more(path);
+            } else if let Some(bytes) = report.bytes(*format) {
+                files.push((path.clone(), bytes));
+                names.push(path.display().to_string());
+            } else {
+                output::warn_unwritten(path);
+            }
+        }
+        write_whole_set(&files)?;
+        Ok(names)
+    }
+
+    /// Whether each step has a file of its own in that format.
+    fn parts(&self, format: Format) -> bool {
+        self.per_step && matches!(format, Format::Csv | Format::Yaml)
+    }
+
+    /// The file of one step, from 1: `plan-001.yaml` for `plan.yaml`.
+    fn part(&self, path: &Path, number: usize) -> PathBuf {
+        let digits = self.steps.to_string().len().max(DIGITS);
+        let mut name = path.file_stem().unwrap_or_default().to_os_string();
+        name.push(format!("-{number:0digits$}"));
+        if let Some(extension) = path.extension() {
+            name.push(".");
+            name.push(extension);
+        }
+        path.with_file_name(name)
+    }
+
+    /// The files of all steps, for people.
+    fn span(&self, path: &Path) -> String {
+        let first = self.part(path, 1).display().to_string();
+        if self.steps == 1 { first } else { format!("{first} to {}", self.part(path, self.steps).display()) }
+    }
+
+    /// A longer task's files may lie there, and would be taken for this one's.
+    fn warn_of_more(&self, path: &Path) {
+        let next = self.part(path, self.steps + 1);
+        if next.exists() {
+            output::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
+        }
+    }
+}

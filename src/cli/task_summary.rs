@@ -1,0 +1,124 @@
+//! The summary of a task for people.
+
+use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, non_empty, time_line};
+use crate::input::LoadedTask;
+use crate::plan::FieldPlanner;
+use crate::solve::percent;
+use crate::task::{Leg, TaskAnswer, TaskReport};
+
+/// Repetitions of a step that are shown; of the others only how many there are.
+const SHOWN_CYCLES: usize = 3;
+
+/// What was found, a line a step.
+pub fn text(
+    loaded: &LoadedTask,
+    answer: &TaskAnswer,
+    report: &TaskReport,
+    field: Option<&FieldPlanner>,
+    files: &[String],
+    clock: &Clock,
+) -> String {
+    let task = &loaded.task;
+    let mut lines = arm_lines(&task.arm);
+    lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
+    let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object")];
+    lines.push(("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))));
+    lines.push(("start", configuration(&task.arm, task.start)));
+    let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
+    lines.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner())));
+    lines.extend(field.map(|field| ("field", field.to_string())));
+    lines.extend(steps(loaded, answer).into_iter().map(|step| ("step", step)));
+    lines.extend(outcome(answer, report));
+    lines.extend(clearance(answer, report));
+    lines.extend(files.iter().map(|file| ("file", file.clone())));
+    lines.push(time_line(clock));
+    laid_out(&lines)
+}
+
+/// A line a step, those of later cycles in one.
+fn steps(loaded: &LoadedTask, answer: &TaskAnswer) -> Vec<String> {
+    let shown = |leg: &Leg| leg.step.cycle <= SHOWN_CYCLES;
+    let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
+    let rows: Vec<_> = answer.legs.iter().filter(|leg| shown(leg)).map(|leg| row(loaded, leg, repeated)).collect();
+    let [a, b, c] = [0, 1, 2].map(|k| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0));
+    let mut rows = rows.iter();
+    let mut lines = Vec::new();
+    for run in answer.legs.chunk_by(|a, b| shown(a) == shown(b)) {
+        if shown(&run[0]) {
+            lines.extend(rows.by_ref().take(run.len()).map(|[number, action, carried, motion]| {
+                format!("{number:<a$}  {action:<b$}  {carried:<c$}  {motion}")
+            }));
+        } else {
+            let cycles = run.iter().map(|leg| leg.step.cycle);
+            let (first, last) =
+                cycles.fold((usize::MAX, 0), |(first, last), cycle| (first.min(cycle), last.max(cycle)));
+            let which = if first == last { format!("cycle {first}") } else { format!("cycles {first} to {last}") };
+            lines.push(format!("... {} in {which}", counted(run.len(), "step")));
+        }
+    }
+    lines
+}
+
+/// Number, action, what is carried, and the motion of a step.
+fn row(loaded: &LoadedTask, leg: &Leg, repeated: bool) -> [String; 4] {
+    let objects = &loaded.task.objects;
+    let cycle = if repeated { format!(" (cycle {})", leg.step.cycle) } else { String::new() };
+    let carried = leg.carried.map_or("empty-handed".into(), |object| format!("carrying \"{}\"", objects[object].name));
+    let seconds = leg.timed.trajectory.duration();
+    let turn = leg.turn.map_or(String::new(), |(_, seconds)| format!(", turn in {seconds:.3} s"));
+    let clearance = match leg.clearance() {
+        clearance if clearance.is_finite() => format!("clearance {clearance:.4} m"),
+        _ => "nothing can be hit".into(),
+    };
+    let number = format!("{}{cycle}", leg.step.number);
+    [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
+}
+
+/// The verdict, and what is proven of the time, or why it fails.
+fn outcome(answer: &TaskAnswer, report: &TaskReport) -> Vec<Line> {
+    let count = counted(answer.legs.len(), "step");
+    let (duration, lower) = report.seconds();
+    let Some(duration) = duration else {
+        let mut lines = vec![("result", report.reason().unwrap_or_default().to_owned())];
+        let reasons = report.failed().into_iter().flat_map(|failed| failed.reasons.iter().cloned());
+        lines.extend(reasons.map(|reason| ("why", reason)));
+        lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
+        return lines;
+    };
+    let samples = report.trajectory().map_or(0, |trajectory| trajectory.time.len());
+    let still: f64 = answer.legs.iter().map(Leg::rest).sum();
+    let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
+    let proven = match (lower, report.gap()) {
+        (Some(lower), Some(gap)) => format!(
+            "proven: no sequence of motions takes less than {lower:.3} s, so at most {} longer than the fastest",
+            percent(gap)
+        ),
+        _ => "nothing is proven of the fastest".into(),
+    };
+    let choice = if answer.exact {
+        "no other postures, turns and order are faster with the motions of this planner"
+    } else {
+        "a good choice of postures, turns and order; not all were looked at"
+    };
+    vec![
+        ("result", format!("done and certified: {count}")),
+        ("motion", format!("{duration:.3} s{still}, {samples} samples")),
+        ("optimum", proven),
+        ("optimum", choice.into()),
+    ]
+}
+
+/// What is kept all the time, and in which step it comes nearest.
+fn clearance(answer: &TaskAnswer, report: &TaskReport) -> Option<Line> {
+    report.trajectory()?;
+    let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
+    let (step, cycle) = (least.step.number, least.step.cycle);
+    let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
+    let curve = &least.timed.curve;
+    let closest = match (least.turn, curve.nearest()) {
+        (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),
+        (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
+        (_, None) => return Some(("clearance", "nothing can be hit".into())),
+    };
+    Some(("clearance", format!("{:.6} m proven; closest: {closest} in step {step}{cycle}", least.clearance())))
+}
