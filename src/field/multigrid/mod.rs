@@ -9,6 +9,7 @@
 //! Conjugate gradients run in double precision. The preconditioner, one V-cycle in single precision, need not be precise:
 //! it costs steps, not digits.
 
+mod chequer;
 mod cycle;
 mod envelope;
 mod frame;
@@ -24,5 +25,6 @@ mod solve;
 mod stencil;
 mod transfer;
 
+pub use conjugate::Workspace;
 pub use frame::Ends;
-pub use solve::{Convergence, Multigrid, Workspace};
+pub use solve::{Convergence, Multigrid};
