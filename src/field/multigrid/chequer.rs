@@ -8,110 +8,9 @@
 //! Where a limit reflects, or a circle has an odd number of cells, neighbours have the same colour. Two even ones find
 //! each other's value in the frame of the odd cells; odd ones are eliminated together ([`Chequer::settle`]).
 
+use super::band::{Band, STAGES};
 use super::frame::Ends;
-use super::machine::{LANES, Machine, packs, packs_mut};
-
-/// The most stages of a pipeline. The last works so many rows behind the first, less one, and needs one row more.
-const STAGES: usize = 5;
-
-/// Rows of one colour, each with a cell before the first and one after the last, between a row above and one below. Of
-/// many rows only the last few may be kept.
-#[derive(Debug, Clone)]
-pub(super) struct Band<T> {
-    width: usize,
-    kept: usize,
-    pub data: Vec<T>,
-}
-
-impl<T: Copy + Default> Band<T> {
-    fn new(width: usize, kept: usize) -> Self {
-        Self { width, kept, data: vec![T::default(); kept * (width + LANES) + LANES] }
-    }
-
-    /// Where the row above row `i` starts.
-    #[inline(always)]
-    pub fn above(&self, i: usize) -> usize {
-        let slot = if i < self.kept { i } else { i % self.kept };
-        slot * (self.width + LANES) + LANES
-    }
-
-    #[inline(always)]
-    pub fn start(&self, i: usize) -> usize {
-        self.above(i + 1)
-    }
-
-    #[inline(always)]
-    fn below(&self, i: usize) -> usize {
-        self.above(i + 2)
-    }
-
-    /// Row `i`, padding included.
-    #[inline(always)]
-    pub fn row(&self, i: usize) -> &[[T; LANES]] {
-        packs(&self.data, self.start(i), self.width / LANES)
-    }
-
-    #[inline(always)]
-    pub fn row_mut(&mut self, i: usize) -> &mut [[T; LANES]] {
-        let start = self.start(i);
-        packs_mut(&mut self.data, start, self.width / LANES)
-    }
-
-    /// Row `i` as single cells.
-    #[inline(always)]
-    pub fn cells_mut(&mut self, i: usize) -> &mut [T] {
-        let start = self.start(i);
-        &mut self.data[start..start + self.width]
-    }
-
-    /// The neighbours of the cells of the other colour in row `i`, which is of `colour`.
-    #[inline(always)]
-    pub fn around(&self, i: usize, colour: Colour) -> Around<'_, T> {
-        let at = self.start(i);
-        let west = (colour == Colour::Odd) == (i % 2 == 0);
-        let packs = |at: usize| packs(&self.data, at, self.width / LANES);
-        let side = packs(if west { at - 1 } else { at + 1 });
-        Around { above: packs(self.above(i)), below: packs(self.below(i)), beside: [packs(at), side] }
-    }
-}
-
-/// Of a cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Colour {
-    Even,
-    Odd,
-}
-
-/// The neighbours of the cells of a row.
-pub(super) struct Around<'a, T> {
-    above: &'a [[T; LANES]],
-    below: &'a [[T; LANES]],
-    beside: [&'a [[T; LANES]]; 2],
-}
-
-impl Around<'_, f32> {
-    #[inline(always)]
-    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
-        (m.pack(&self.beside[0][k]) + m.pack(&self.beside[1][k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
-    }
-
-    /// The sum without rounding to single precision.
-    #[inline(always)]
-    pub fn exact_sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
-        let [a, b] = self.beside.map(|row| m.double(m.pack(&row[k])));
-        let [c, d] = [self.above, self.below].map(|row| m.double(m.pack(&row[k])));
-        (a + b) + (c + d)
-    }
-}
-
-impl Around<'_, f64> {
-    #[inline(always)]
-    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
-        let [a, b] = self.beside.map(|row| m.pack_double(&row[k]));
-        let [c, d] = [self.above, self.below].map(|row| m.pack_double(&row[k]));
-        (a + b) + (c + d)
-    }
-}
+use super::machine::LANES;
 
 /// A number of either precision.
 pub(super) trait Real: Copy + Default + Into<f64> {
@@ -169,7 +68,7 @@ impl Chequer {
     /// Row `i` of the flags: even columns, odd columns.
     fn halves(&mut self, i: usize) -> [&mut [f32]; 2] {
         let halves = [self.even.cells_mut(i), self.odd.cells_mut(i)];
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             halves
         } else {
             let [a, b] = halves;
@@ -180,6 +79,11 @@ impl Chequer {
     /// Cells of a colour in a row, at the most.
     fn half(&self) -> usize {
         self.shape.columns.div_ceil(2)
+    }
+
+    /// Packs in a row of one colour.
+    pub fn count(&self) -> usize {
+        self.even.width / LANES
     }
 
     /// A band of all rows.
@@ -199,7 +103,10 @@ impl Chequer {
     pub fn pipeline(&self, stages: usize, mut stage: impl FnMut(usize, usize)) {
         if self.shape.ends[0] == Ends::Joined {
             for s in 0..stages {
-                (0..self.shape.rows).for_each(|i| stage(s, i));
+                // No iterator: its closure would not be inlined.
+                for i in 0..self.shape.rows {
+                    stage(s, i);
+                }
             }
             return;
         }
@@ -239,10 +146,10 @@ impl Chequer {
         let (at, half) = (band.start(i), self.half());
         let even_at = even.start(i);
         let [first, last] = [even.data[even_at], even.data[even_at + half - 1]].map(Into::into);
-        let across = i % 2 == 0 && self.shape.columns % 2 == 1;
+        let across = i.is_multiple_of(2) && self.shape.columns % 2 == 1;
         match self.shape.ends[1] {
             Ends::High => (band.data[at - 1], band.data[at + half]) = (T::default(), T::default()),
-            Ends::Joined if self.shape.columns % 2 == 0 => {
+            Ends::Joined if self.shape.columns.is_multiple_of(2) => {
                 (band.data[at - 1], band.data[at + half]) = (band.data[at + half - 1], band.data[at]);
             }
             ends => {

@@ -9,7 +9,7 @@ use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Corners, Rows, Transfer};
 
 /// A level with at most this many cells is solved directly.
-const BOTTOM: usize = 100;
+const BOTTOM: usize = 40;
 
 /// The levels below the finest. Depends on the operator only.
 #[derive(Debug, Clone)]
@@ -98,13 +98,13 @@ fn descend<M: Machine, L: Smooth>(
 /// The factor of an operator.
 fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
     let Frame { rows, columns, width, .. } = operator.frame();
-    let mut entries = vec![Vec::new(); rows * columns];
+    let mut entries = Vec::with_capacity(5 * rows * columns);
     let mut line = Line::new(width + 2 + LANES);
     for i in 0..rows {
         operator.line(m, i, &mut line);
         for j in 0..columns {
             let here = i * columns + j;
-            entries[here].push((here, f64::from(line.diagonal[j + 1])));
+            entries.push((here, here, f64::from(line.diagonal[j + 1])));
             let (below, right, left) = ((i + 1) % rows, (j + 1) % columns, (j + columns - 1) % columns);
             for (coupling, row, column) in [
                 (line.east[j + 1], i, right),
@@ -116,10 +116,10 @@ fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
                     let there = row * columns + column;
                     // A cell that is its own neighbour on a tiny circle is so from both sides.
                     let twice = if there == here { 2.0 } else { 1.0 };
-                    entries[here.max(there)].push((here.min(there), -twice * f64::from(coupling)));
+                    entries.push((here.max(there), here.min(there), -twice * f64::from(coupling)));
                 }
             }
         }
     }
-    Envelope::new(&entries)
+    Envelope::new(rows * columns, &entries)
 }

@@ -249,7 +249,7 @@ fn power_of_two(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::multigrid::chequer::Band;
+    use crate::field::multigrid::band::Band;
     use crate::field::multigrid::machine::LANES;
 
     #[cfg(target_arch = "x86_64")]
@@ -282,11 +282,14 @@ mod tests {
         for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Joined, Ends::Reflecting]] {
             let solver = Multigrid::new(cells, ends, &free, 0.0);
             let chequer = &solver.chequer;
+            let count = chequer.count();
             let hierarchy = solver.hierarchy.as_ref().expect("cells");
             let vector = |seed: usize| {
                 let mut vector = chequer.band();
                 for i in 0..cells[0] {
-                    for (j, (to, free)) in vector.row_mut(i).iter_mut().zip(chequer.even.row(i)).enumerate() {
+                    for (j, (to, free)) in
+                        vector.row_mut(i, count).iter_mut().zip(chequer.even.row(i, count)).enumerate()
+                    {
                         for k in 0..LANES {
                             to[k] = (((i * 37 + j * LANES + k + seed) as f32 * 0.618_034).fract() - 0.5) * free[k];
                         }
@@ -296,7 +299,7 @@ mod tests {
                 vector
             };
             let dot = |a: &Band<f32>, b: &Band<f32>| -> f64 {
-                let row = |i: usize| a.row(i).as_flattened().iter().zip(b.row(i).as_flattened());
+                let row = |i: usize| a.row(i, count).as_flattened().iter().zip(b.row(i, count).as_flattened());
                 (0..cells[0]).flat_map(row).map(|(&a, &b)| f64::from(a) * f64::from(b)).sum()
             };
             let cycle = |residual: &Band<f32>| {

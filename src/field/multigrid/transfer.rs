@@ -1,6 +1,6 @@
 //! Between a level and the next coarser one.
 
-use super::chequer::Band;
+use super::band::Band;
 use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::seam::odd_circles;
@@ -65,7 +65,7 @@ impl Corners {
         let [below, before_below] = [below, below - 1].map(|at| packs(&residual.data, at, count));
         let [above, before_above] = [above, above - 1].map(|at| packs(&residual.data, at, count));
         let into = packs_mut(into, row, count);
-        for (k, (here, into)) in residual.row(2 * i).iter().zip(into).enumerate() {
+        for (k, (here, into)) in residual.row(2 * i, count).iter().zip(into).enumerate() {
             let lower = m.pack(&nw[k]) * m.pack(&below[k]) + m.pack(&ne[k]) * m.pack(&before_below[k]);
             let upper = m.pack(&sw[k]) * m.pack(&above[k]) + m.pack(&se[k]) * m.pack(&before_above[k]);
             (m.pack(here) + (lower + upper)).store(into, 0);
@@ -85,7 +85,7 @@ impl Corners {
     ) {
         let (row, under, count) = (self.coarse.row(i / 2).start, self.coarse.below(i / 2), self.coarse.width / LANES);
         let nw = packs(from, row, count);
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             for ((from, residual), to) in nw.iter().zip(residual).zip(onto) {
                 (inverse * m.pack(residual) + m.pack(from)).store(to, 0);
             }
