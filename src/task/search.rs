@@ -32,6 +32,12 @@ const PATIENCE: usize = 10;
 pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     let (settled, ordered) = order::settled(task);
     let outlook = Outlook::new(&settled);
+    let start = State::at_start(&settled);
+    // An order that was settled on bounds nothing but itself.
+    let lower_bound = match ordered {
+        true => Outlook::new(task).remaining(task.start, State::at_start(task).progress),
+        false => outlook.remaining(start.q, start.progress),
+    };
     let mut search = Search {
         task: &settled,
         outlook: &outlook,
@@ -45,7 +51,7 @@ pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> Tas
         complete: !ordered,
         expanded: 0,
     };
-    search.run(progress)
+    search.run(start, lower_bound, progress)
 }
 
 /// A way to a state.
@@ -88,9 +94,7 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn run(&mut self, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-        let start = State::at_start(self.task);
-        let lower_bound = self.outlook.remaining(start.q, start.progress);
+    fn run(&mut self, start: State, lower_bound: f64, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
         self.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
         let mut told = 0;
         while let Some(Reverse((_, _, index))) = self.open.pop() {
