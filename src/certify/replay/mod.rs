@@ -41,7 +41,8 @@ pub struct ReplayedStep<'a> {
     pub step: &'a Step,
     /// What was recorded of it.
     pub recorded: &'a RecordedStep,
-    /// The world during the motion, and what is carried.
+    /// The world during the motion, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
+    /// world then.
     pub scene: Scene,
     /// The object that is picked or placed.
     pub object: Option<usize>,
@@ -49,7 +50,7 @@ pub struct ReplayedStep<'a> {
     pub carried: Option<usize>,
     /// Seconds from the beginning to the end of the motion.
     pub seconds: f64,
-    /// The motion among the obstacles; moments are the whole recording's.
+    /// The motion among the obstacles of the scene; moments are the whole recording's.
     pub passage: Passage,
     /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
     pub broken: Vec<Excess>,
@@ -76,7 +77,7 @@ pub struct Replay<'a> {
 ///
 /// - each motion from rest to rest, by [`passage`] with the workspace's clearance, in the scene of its moment: objects where
 ///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
-///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. And by [`limits_kept`];
+///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
 /// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
 ///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
 ///   that the arm stands still for as long as was asked for, and the turn.
@@ -112,8 +113,12 @@ impl<'a> Iterator for Replay<'a> {
         }
         self.state.renew(task, &matched.renewed);
         let carried = self.state.carried();
-        let scene = self.state.scene(task, step);
-        let passage = shifted(passage(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
+        let picked = match step.action {
+            Action::Pick { object, .. } => Some(object),
+            _ => None,
+        };
+        let mut scene = self.state.scene(task, picked);
+        let mut passage = shifted(passage(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
         let mut broken = limits_kept(&task.arm.joints, &motion);
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
@@ -141,8 +146,19 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         let asked = step.dwell + recorded.turn.map_or(0.0, |turn| turn.seconds);
-        if matched.rest < asked - SHORT {
-            faults.push(Fault::Rest { stood: matched.rest, asked });
+        // Where a step leaves the arm the next one begins; the last leaves it there.
+        if self.next == self.matched.len()
+            && matches!(passage, Passage::Free { .. })
+            && let Some(standing) = self.recording.part(*recorded.samples.end()..=*recorded.samples.end())
+        {
+            let after = self.state.scene(task, None);
+            let found = super::passage(&after, &standing, task.workspace.clearance);
+            if !matches!(found, Passage::Free { .. }) {
+                (scene, passage) = (after, shifted(found, *recorded.samples.end()));
+            }
+        }
+        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
+            faults.push(Fault::Rest { stood, asked });
         }
         let seconds = motion.duration().unwrap_or(0.0);
         Some(ReplayedStep { step, recorded, scene, object, carried, seconds, passage, broken, turn, faults })

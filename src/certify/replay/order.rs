@@ -10,8 +10,8 @@ pub(super) struct Matched<'a> {
     pub step: &'a Step,
     /// Objects that are supplied before it.
     pub renewed: Vec<usize>,
-    /// Seconds that the arm stands still after its motion.
-    pub rest: f64,
+    /// Seconds that the arm stands still after its motion; none where the record departs from the task after it.
+    pub rest: Option<f64>,
 }
 
 /// The steps of the task in the order of the record, up to where that departs from it.
@@ -36,17 +36,17 @@ pub(super) fn matched<'a>(
             return (all, Some(Departure::Overlap { index, first, last }));
         }
         match stands(recording, last, first) {
-            Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut Matched| before.rest = rest),
+            Ok(rest) => all.last_mut().into_iter().for_each(|before: &mut Matched| before.rest = Some(rest)),
             Err(sample) => return (all, Some(Departure::Moves { index, sample })),
         }
-        all.push(Matched { step, renewed: std::mem::take(&mut order.renewed), rest: 0.0 });
+        all.push(Matched { step, renewed: std::mem::take(&mut order.renewed), rest: None });
         last = *record.samples.end();
     }
     if let Some(expected) = order.expected() {
         return (all, Some(Departure::Missing { count: recorded.len(), expected }));
     }
     match stands(recording, last, recording.positions().len() - 1) {
-        Ok(rest) => all.last_mut().into_iter().for_each(|before| before.rest = rest),
+        Ok(rest) => all.last_mut().into_iter().for_each(|before| before.rest = Some(rest)),
         Err(sample) => return (all, Some(Departure::Moves { index: recorded.len(), sample })),
     }
     (all, None)

@@ -30,12 +30,8 @@ impl State {
         self.held.as_ref().map(|(object, _)| *object)
     }
 
-    /// The scene of a step's motion.
-    pub fn scene(&self, task: &Task, step: &Step) -> Scene {
-        let picked = match step.action {
-            Action::Pick { object, .. } => Some(object),
-            _ => None,
-        };
+    /// The scene of a motion, to the object that it is to pick if there is one; else of standing still.
+    pub fn scene(&self, task: &Task, picked: Option<usize>) -> Scene {
         let spared: Vec<usize> =
             self.released.into_iter().chain(picked).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|(_, payload)| payload.clone());

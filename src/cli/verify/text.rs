@@ -45,8 +45,7 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
     };
     let mut lines = Vec::new();
     match (way.clearance, &way.nearest) {
-        (clearance, Some(nearest)) => {
-            let proven = clearance.unwrap_or(f64::INFINITY);
+        (Some(proven), Some(nearest)) => {
             let seen = format!("{proven:.6} m proven; least seen {:.6} m: {}", -nearest.depth, place(nearest));
             lines.push(("clearance", seen));
         }
@@ -54,7 +53,7 @@ fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
         (None, None) if verdict != Verdict::Collision && way.undecided.is_none() => {
             lines.push(("clearance", "nothing can be hit".into()));
         }
-        (None, None) => {}
+        _ => {}
     }
     if let Some(first) = &way.first_contact {
         lines.push(("contact", format!("{}, {}", place(first), depth(first))));
