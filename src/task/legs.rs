@@ -53,6 +53,11 @@ impl<'a> Legs<'a> {
 
     /// The motion to a candidate's target and the turn there.
     pub fn motion(&mut self, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
+        if candidate.after.is_done(self.task) {
+            // No motion follows that would begin there.
+            let after = from.scene_after(self.task, candidate);
+            unobstructed(&after, candidate.to, "after it")?;
+        }
         let key = scene_key(from, candidate);
         let next = self.scenes.len();
         let (number, scene) =
@@ -93,6 +98,12 @@ impl<'a> Legs<'a> {
     }
 }
 
+/// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
+fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
+    let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
+    if hits.is_empty() { Ok(()) } else { Err(Refusal { reason: format!("{when} {}", hits.join("; ")), proven: true }) }
+}
+
 /// A motion from one configuration to another.
 fn planned(
     scene: &Scene,
@@ -101,12 +112,8 @@ fn planned(
     speed: f64,
     manner: &Manner,
 ) -> Result<Timed, Refusal> {
-    for (end, q) in [("at its beginning", from), ("at its end", to)] {
-        let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
-        if !hits.is_empty() {
-            return Err(Refusal { reason: format!("{end} {}", hits.join("; ")), proven: true });
-        }
-    }
+    unobstructed(scene, from, "at its beginning")?;
+    unobstructed(scene, to, "at its end")?;
     let clearance = scene.workspace.clearance;
     let straight = || {
         let path = Path::new(vec![from, scene.arm.topology().lift(to, from)]);

@@ -112,7 +112,7 @@ impl<'a> Iterator for Replay<'a> {
             faults.push(Fault::Start);
         }
         self.state.renew(task, &matched.renewed);
-        let carried = self.state.carried();
+        let (carried, released) = (self.state.carried(), self.state.released());
         let picked = match step.action {
             Action::Pick { object, .. } => Some(object),
             _ => None,
@@ -146,12 +146,12 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         let asked = step.dwell + recorded.turn.map_or(0.0, |turn| turn.seconds);
-        // Where a step leaves the arm the next one begins; the last leaves it there.
+        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
         if self.next == self.matched.len()
             && matches!(passage, Passage::Free { .. })
             && let Some(standing) = self.recording.part(*recorded.samples.end()..=*recorded.samples.end())
         {
-            let after = self.state.scene(task, None);
+            let after = self.state.scene(task, released);
             let found = super::passage(&after, &standing, task.workspace.clearance);
             if !matches!(found, Passage::Free { .. }) {
                 (scene, passage) = (after, shifted(found, *recorded.samples.end()));

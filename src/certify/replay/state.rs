@@ -30,10 +30,15 @@ impl State {
         self.held.as_ref().map(|(object, _)| *object)
     }
 
-    /// The scene of a motion, to the object that it is to pick if there is one; else of standing still.
-    pub fn scene(&self, task: &Task, picked: Option<usize>) -> Scene {
+    /// The object just let go of.
+    pub fn released(&self) -> Option<usize> {
+        self.released
+    }
+
+    /// The scene as it is. Link 2 is free to meet the object just let go of, and another one.
+    pub fn scene(&self, task: &Task, spared: Option<usize>) -> Scene {
         let spared: Vec<usize> =
-            self.released.into_iter().chain(picked).map(|object| task.obstacle_number(object)).collect();
+            self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
         Scene::handling(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
     }
