@@ -141,3 +141,30 @@ fn entry([start, end]: [f64; 2], [from, to]: [f64; 2]) -> Option<f64> {
     let shift = ((from - end) / TAU).ceil() * TAU;
     Some((start + shift).max(from)).filter(|angle| *angle <= to)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against a look at 4000 places of the turn, each of which is in the arc or not.
+        #[test]
+        fn a_turn_meets_an_arc_where_it_first_is_in_it(
+            start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, way in -6.2..6.2_f64,
+        ) {
+            let is_in = |angle: f64| (angle - start).rem_euclid(TAU) <= width;
+            let at = |i: u32| from + way * f64::from(i) / 4000.0;
+            let seen = (0..=4000).map(at).find(|angle| is_in(*angle));
+            let step = way.abs() / 4000.0 + 1e-9;
+            match (entry([start, start + width], [from, from + way]), seen) {
+                (Some(found), Some(seen)) => prop_assert!((found - seen).abs() <= step, "{found} {seen}"),
+                // At the very end, or within an arc that lies between two looks.
+                (Some(found), None) => {
+                    prop_assert!(width <= step || (found - from - way).abs() <= step, "{found}");
+                }
+                (None, seen) => prop_assert!(seen.is_none_or(|seen| (seen - from - way).abs() <= step), "{seen:?}"),
+            }
+        }
+    }
+}
