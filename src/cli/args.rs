@@ -28,6 +28,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
+  cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
 Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
@@ -323,8 +324,10 @@ pub struct RecheckArgs {
 #[command(after_help = "\
 Between samples the motion is the cubic that positions and velocities imply; without velocities it is straight in
 joint space. CSV columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians
-or metres. Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision or limit
-broken, 4 undecided.")]
+or metres. In a world with steps a result of cplan's for it (.json) is judged step by step: that the steps are the world's,
+each motion with what is carried and objects where they lie then, grasps, places, turns of the wrist and rests.
+Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision, limit broken or not the
+task asked for, 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,
@@ -334,6 +337,9 @@ pub struct VerifyArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
+    /// Start of a task instead of the world's, such as 0.3,-1 or 20deg,-60deg.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    pub start: Option<JointValues>,
     /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
     #[arg(long)]
     pub unwrap: bool,

@@ -13,6 +13,7 @@ mod output;
 mod plan;
 mod recheck;
 mod search_args;
+mod step_lines;
 mod summary;
 mod task;
 mod task_files;
@@ -33,7 +34,7 @@ const BAD_INPUT: u8 = 1;
 const USAGE: u8 = 2;
 /// Exit code: there is no path, proven.
 const INFEASIBLE: u8 = 3;
-/// Exit code of `verify`: a proven collision, or a limit that is broken.
+/// Exit code of `verify`: a proven collision, a limit that is broken, or a task that is not the one asked for.
 const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;

@@ -1,13 +1,11 @@
 //! The summary of a task for people.
 
+use super::step_lines::{StepLine, step_lines};
 use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, non_empty, time_line};
 use crate::input::LoadedTask;
 use crate::plan::FieldPlanner;
 use crate::solve::percent;
 use crate::task::{Leg, TaskAnswer, TaskReport};
-
-/// Repetitions of a step that are shown; of the others only how many there are.
-const SHOWN_CYCLES: usize = 3;
 
 /// What was found, a line a step.
 pub fn text(
@@ -37,26 +35,9 @@ pub fn text(
 
 /// A line a step, those of later cycles in one.
 fn steps(loaded: &LoadedTask, answer: &TaskAnswer) -> Vec<String> {
-    let shown = |leg: &Leg| leg.step.cycle <= SHOWN_CYCLES;
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
-    let rows: Vec<_> = answer.legs.iter().filter(|leg| shown(leg)).map(|leg| row(loaded, leg, repeated)).collect();
-    let [a, b, c] = [0, 1, 2].map(|k| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0));
-    let mut rows = rows.iter();
-    let mut lines = Vec::new();
-    for run in answer.legs.chunk_by(|a, b| shown(a) == shown(b)) {
-        if shown(&run[0]) {
-            lines.extend(rows.by_ref().take(run.len()).map(|[number, action, carried, motion]| {
-                format!("{number:<a$}  {action:<b$}  {carried:<c$}  {motion}")
-            }));
-        } else {
-            let cycles = run.iter().map(|leg| leg.step.cycle);
-            let (first, last) =
-                cycles.fold((usize::MAX, 0), |(first, last), cycle| (first.min(cycle), last.max(cycle)));
-            let which = if first == last { format!("cycle {first}") } else { format!("cycles {first} to {last}") };
-            lines.push(format!("... {} in {which}", counted(run.len(), "step")));
-        }
-    }
-    lines
+    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(loaded, leg, repeated) };
+    step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Number, action, what is carried, and the motion of a step.

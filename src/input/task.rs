@@ -11,7 +11,7 @@ use crate::space::Configuration;
 /// A task and how it was read.
 #[derive(Debug, Clone)]
 pub struct LoadedTask {
-    /// The task; its start is within the limits and free.
+    /// The task; its start is within the limits and free, unless it is [`LoadedScene::recorded_task`].
     pub task: Task,
     /// The arm, empty-handed, among obstacles and objects where they lie at first.
     pub scene: Scene,
@@ -34,7 +34,20 @@ impl LoadedScene {
     /// When the world has no steps, or a goal is given on the command line; when the start is missing, outside the limits
     /// or not free; when a step asks for joint values outside the limits, for a point out of the tip's reach, or for an
     /// object to rest that is too thin for it.
-    pub fn task(mut self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+    pub fn task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+        self.task_from(overrides, true)
+    }
+
+    /// The same for judging what was recorded of the task: the start may be outside the limits or not free, which is then a
+    /// finding.
+    ///
+    /// # Errors
+    /// As for [`LoadedScene::task`] else.
+    pub fn recorded_task(self, overrides: &Overrides) -> Result<LoadedTask, InputError> {
+        self.task_from(overrides, false)
+    }
+
+    fn task_from(mut self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
         if !self.has_steps() {
             let defect = self.world.source.defect("there are no steps");
             return Err(defect.cure("[[step]] pick = \"NAME\", and so on").into());
@@ -46,7 +59,9 @@ impl LoadedScene {
             self.scene.workspace.clearance = checked_clearance(clearance)?;
         }
         let (start, place) = self.start(overrides)?;
-        self.require("the start", start, &place)?;
+        if is_checked {
+            self.require("the start", start, &place)?;
+        }
         let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| self.unfulfilled(r, start)).collect())?;
         let Self { scene, world, robot } = self;

@@ -1,6 +1,7 @@
 //! Motions as samples.
 
 use super::{Configuration, Path, Piece, Topology};
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// Joint values beyond this are no radians or metres of an arm; and doubles near it still resolve a nanometre.
@@ -138,6 +139,23 @@ impl Recording {
         self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
     }
 
+    /// The samples of a range alone, on the same clock; those that there are, if it reaches beyond the last. None if there
+    /// are none.
+    #[must_use]
+    pub fn part(&self, samples: RangeInclusive<usize>) -> Option<Self> {
+        let last = (*samples.end()).min(self.position.len() - 1);
+        let range = *samples.start()..=last;
+        if range.is_empty() {
+            return None;
+        }
+        let of = |values: &Vec<Configuration>| values[range.clone()].to_vec();
+        Some(Self {
+            position: of(&self.position),
+            time: self.time.as_ref().map(|time| time[range.clone()].to_vec()),
+            velocity: self.velocity.as_ref().map(of),
+        })
+    }
+
     /// The motion between the samples, piece `k` from sample `k` to `k + 1`; a single sample is one piece that stands
     /// still. Without times, sample `k` is at `k`.
     #[must_use]
@@ -223,6 +241,22 @@ mod tests {
         let unwrapped = wrapped.unwrapped(&topology);
         assert!(unwrapped.turns(&topology).is_empty());
         assert!((unwrapped.positions()[2] - q(std::f64::consts::TAU - 2.9, -5.0)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_part_is_what_the_samples_say() {
+        let at = |k: usize| q(k as f64, -(k as f64));
+        let all = || (0..5).map(at).collect::<Vec<_>>();
+        let times = vec![0.0, 1.0, 2.5, 3.0, 4.0];
+        let whole = Recording::new(all(), Some(times.clone()), Some(all())).unwrap();
+        let expected = |range: std::ops::Range<usize>| {
+            let of = || Some(all()[range.clone()].to_vec());
+            Some(Recording::new(of().unwrap(), Some(times[range.clone()].to_vec()), of()).unwrap())
+        };
+        assert_eq!(whole.part(1..=3), expected(1..4));
+        assert_eq!(whole.part(3..=usize::MAX), expected(3..5));
+        assert_eq!(whole.part(2..=2), expected(2..3));
+        assert_eq!((whole.part(5..=9), whole.part(RangeInclusive::new(3, 2))), (None, None));
     }
 
     #[test]

@@ -68,6 +68,11 @@ impl<'a> Legs<'a> {
     /// The motion to a candidate's target and the turn there.
     pub fn motion(&mut self, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
         let task = self.task;
+        let after = from.after(task, candidate, candidate.to);
+        if after.is_done(task) {
+            // No motion follows that would begin there.
+            unobstructed(&from.scene_after(task, &after), candidate.to, "after it")?;
+        }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
         let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
@@ -110,6 +115,12 @@ impl<'a> Legs<'a> {
     }
 }
 
+/// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
+fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
+    let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
+    if hits.is_empty() { Ok(()) } else { Err(Refusal { reason: format!("{when} {}", hits.join("; ")), proven: true }) }
+}
+
 /// A motion from one configuration to another.
 fn planned(
     scene: &Scene,
@@ -118,12 +129,8 @@ fn planned(
     speed: f64,
     manner: &Manner,
 ) -> Result<Timed, Refusal> {
-    for (end, q) in [("at its beginning", from), ("at its end", to)] {
-        let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
-        if !hits.is_empty() {
-            return Err(Refusal { reason: format!("{end} {}", hits.join("; ")), proven: true });
-        }
-    }
+    unobstructed(scene, from, "at its beginning")?;
+    unobstructed(scene, to, "at its end")?;
     let clearance = scene.workspace.clearance;
     let straight = || {
         let path = Path::new(vec![from, scene.arm.topology().lift(to, from)]);

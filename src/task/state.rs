@@ -118,6 +118,14 @@ impl State {
         Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 
+    /// The scene of standing still in a state that follows this one: link 2 may still be within the object that it has let
+    /// go of before.
+    pub fn scene_after(&self, task: &Task, after: &Self) -> Scene {
+        let spared: Vec<usize> =
+            self.released.into_iter().chain(after.released).map(|object| task.obstacle_number(object)).collect();
+        Scene::handling(task.arm.clone(), task.obstacles(&after.poses), after.payload(task), &spared)
+    }
+
     /// What the arm carries.
     pub fn payload(&self, task: &Task) -> Option<Payload> {
         self.held.as_ref().map(|held| payload(task, held))

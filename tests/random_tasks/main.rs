@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod flood;
+mod judged;
 mod replay;
 #[path = "../random_worlds/solid.rs"]
 mod solid;

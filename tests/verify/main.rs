@@ -8,3 +8,4 @@ mod command;
 mod files;
 mod limits;
 mod motion;
+mod tasks;

@@ -1,22 +1,25 @@
 //! What `verify` found, as data.
 
+use super::task::StepFinding;
 use crate::certify::{Encounter, Excess, Limit, Moment, Passage};
 use crate::model::{Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;
 
-/// In a word. A collision comes before a broken limit, and that before doubt.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+/// In a word, the worst last.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Verdict {
     /// Proven free and within all limits that can be judged.
     Free,
-    /// Proven to collide.
-    Collision,
-    /// Not known to collide, but a limit is broken.
-    Limits,
     /// Neither proven free nor proven to collide.
     Undecided,
+    /// Not known to collide, but a limit is broken.
+    Limits,
+    /// Not known to collide, but not the task that was asked for.
+    Task,
+    /// Proven to collide.
+    Collision,
 }
 
 impl Verdict {
@@ -27,6 +30,7 @@ impl Verdict {
             Verdict::Collision => "collision",
             Verdict::Limits => "limits",
             Verdict::Undecided => "undecided",
+            Verdict::Task => "task",
         }
     }
 }
@@ -43,6 +47,21 @@ pub(super) struct Findings {
     pub duration: Option<f64>,
     /// The distance to keep, metres.
     pub required: f64,
+    #[serde(flatten)]
+    pub way: WayFinding,
+    pub limits_broken: Vec<LimitFinding>,
+    /// In what a task is not the one asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<String>,
+    /// Of a task.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<Vec<StepFinding>>,
+    pub notes: Vec<String>,
+}
+
+/// What a motion meets, or how near it comes.
+#[derive(Debug, Clone, Default, Serialize)]
+pub(super) struct WayFinding {
     /// Proven lower bound on the distance to every obstacle, metres; only of a free motion that could hit something.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
@@ -60,11 +79,9 @@ pub(super) struct Findings {
     /// Where it could not be decided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undecided: Option<EncounterFinding>,
-    pub limits_broken: Vec<LimitFinding>,
-    pub notes: Vec<String>,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct EncounterFinding {
     #[serde(flatten)]
     pub moment: MomentFinding,
@@ -73,9 +90,12 @@ pub(super) struct EncounterFinding {
     pub obstacle: String,
     /// Penetration depth, metres; negative is a distance.
     pub depth: f64,
+    /// The pair, for people.
+    #[serde(skip)]
+    pub pair: String,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct MomentFinding {
     /// Seconds on the file's clock.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -88,7 +108,7 @@ pub(super) struct MomentFinding {
     pub configuration: [f64; 2],
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(super) struct LimitFinding {
     pub joint: String,
     pub limit: &'static str,
@@ -96,50 +116,77 @@ pub(super) struct LimitFinding {
     pub allowed: f64,
     #[serde(flatten)]
     pub moment: MomentFinding,
+    /// The same as it was found.
+    #[serde(skip)]
+    pub excess: Excess,
 }
 
 impl Findings {
-    /// Collects what the checks found.
+    /// Collects what the checks found of one motion.
     pub fn new(scene: &Scene, recording: &Recording, passage: &Passage, broken: &[Excess], notes: Vec<String>) -> Self {
         let timed = recording.times().is_some();
-        let encounter = |e: &Encounter| encounter(scene, e, timed);
+        Self {
+            verdict: verdict(passage, broken),
+            way: WayFinding::new(scene, passage, timed),
+            limits_broken: limits(&scene.arm.joints, broken, timed),
+            notes,
+            ..Self::of_nothing(scene, recording)
+        }
+    }
+
+    /// What there is to say of a recording before it is judged.
+    pub fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm.joints;
-        let verdict = match passage {
-            Passage::Collision { .. } => Verdict::Collision,
-            _ if !broken.is_empty() => Verdict::Limits,
-            Passage::Free { .. } => Verdict::Free,
-            Passage::Undecided(_) => Verdict::Undecided,
-        };
-        let mut findings = Self {
-            verdict,
+        Self {
+            verdict: Verdict::Free,
             joints: joints.each_ref().map(|j| j.name.clone()),
             units: joints.each_ref().map(Joint::unit),
             samples: recording.positions().len(),
             duration: recording.duration(),
             required: scene.workspace.clearance,
-            clearance: None,
-            nearest: None,
-            first_contact: None,
-            free_until: None,
-            deepest: None,
-            undecided: None,
-            limits_broken: broken.iter().map(|excess| limit(joints, excess, timed)).collect(),
-            notes,
-        };
-        match passage {
-            Passage::Free { clearance, nearest } => {
-                findings.clearance = Some(*clearance).filter(|c| c.is_finite());
-                findings.nearest = nearest.as_ref().map(encounter);
-            }
-            Passage::Collision { first, free_until, deepest } => {
-                findings.first_contact = Some(encounter(first));
-                findings.free_until = Some(*free_until);
-                findings.deepest = Some(encounter(deepest));
-            }
-            Passage::Undecided(nearest) => findings.undecided = Some(encounter(nearest)),
+            way: WayFinding::default(),
+            limits_broken: Vec::new(),
+            faults: Vec::new(),
+            steps: None,
+            notes: Vec::new(),
         }
-        findings
     }
+}
+
+/// What to say of a motion in a word.
+pub(super) fn verdict(passage: &Passage, broken: &[Excess]) -> Verdict {
+    match passage {
+        Passage::Collision { .. } => Verdict::Collision,
+        _ if !broken.is_empty() => Verdict::Limits,
+        Passage::Free { .. } => Verdict::Free,
+        Passage::Undecided(_) => Verdict::Undecided,
+    }
+}
+
+impl WayFinding {
+    /// What the check found of a motion, which has times or not.
+    pub fn new(scene: &Scene, passage: &Passage, timed: bool) -> Self {
+        let encounter = |e: &Encounter| encounter(scene, e, timed);
+        match passage {
+            Passage::Free { clearance, nearest } => Self {
+                clearance: Some(*clearance).filter(|c| c.is_finite()),
+                nearest: nearest.as_ref().map(encounter),
+                ..Self::default()
+            },
+            Passage::Collision { first, free_until, deepest } => Self {
+                first_contact: Some(encounter(first)),
+                free_until: Some(*free_until),
+                deepest: Some(encounter(deepest)),
+                ..Self::default()
+            },
+            Passage::Undecided(nearest) => Self { undecided: Some(encounter(nearest)), ..Self::default() },
+        }
+    }
+}
+
+/// The limits that are broken.
+pub(super) fn limits(joints: &[Joint; 2], broken: &[Excess], timed: bool) -> Vec<LimitFinding> {
+    broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }
 
 fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
@@ -151,6 +198,7 @@ fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
         body: link.parts[pair.part].body.clone(),
         obstacle: scene.workspace.obstacles[pair.obstacle].name.clone(),
         depth: -e.contact.separation.distance,
+        pair: scene.describe(pair),
     }
 }
 
@@ -178,5 +226,6 @@ fn limit(joints: &[Joint; 2], excess: &Excess, timed: bool) -> LimitFinding {
         value: excess.value,
         allowed: excess.allowed,
         moment: moment(&excess.moment, timed),
+        excess: *excess,
     }
 }

@@ -1,6 +1,8 @@
-//! `cplan verify`: whether a recorded motion is free of collision and within the limits.
+//! `cplan verify`: whether a recorded motion is free of collision and within the limits, or a recorded task is that and the one
+//! that the world asks for.
 
 mod findings;
+mod task;
 mod text;
 
 use super::args::VerifyArgs;
@@ -8,17 +10,18 @@ use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::value;
 use super::{DONE, REFUTED, UNKNOWN};
-use crate::certify::{limits_kept, passage};
+use crate::certify::{limits_kept, passage, replay};
 use crate::draw::Picture;
-use crate::input::{self, LoadedRecording};
-use crate::model::Scene;
+use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
+use crate::model::{RecordedStep, Scene};
 use crate::space::Recording;
 use findings::{Findings, Verdict};
 
 /// Checks and reports.
 ///
 /// # Errors
-/// Bad input and I/O. A motion that collides is no error: finding that out is the job.
+/// Bad input and I/O, and options that do not go with what is judged. A motion that collides is no error: finding that out
+/// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
     let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
@@ -28,31 +31,79 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     if !args.quiet {
         loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
     }
-    let LoadedRecording { mut recording, mut notes } = input::load_recording(&args.trajectory, &loaded)?;
-    let scene = &loaded.scene;
+    let LoadedRecording { mut recording, steps, mut notes } = input::load_recording(&args.trajectory, &loaded)?;
     if args.unwrap {
-        recording = recording.unwrapped(&scene.arm.topology());
+        recording = recording.unwrapped(&loaded.scene.arm.topology());
     }
-    notes.extend(turns(scene, &recording));
-    let passage = passage(scene, &recording, scene.workspace.clearance);
-    let broken = limits_kept(&scene.arm.joints, &recording);
-    let findings = Findings::new(scene, &recording, &passage, &broken, notes);
+    notes.extend(turns(&loaded.scene, &recording));
+    let scene = loaded.scene.clone();
+    let findings = match steps {
+        Some(steps) => judge_task(args, loaded, &recording, &steps, notes)?,
+        None => judge_motion(args, &loaded, &recording, notes)?,
+    };
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            draw(scene, &recording, &findings, *format, path)?;
+            draw(&scene, &recording, &findings, *format, path)?;
         }
     }
     if args.json {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
         output::print(&(json + "\n"))?;
     } else if !args.quiet {
-        output::print(&text::summary(&loaded, &recording, &passage, &broken, &findings))?;
+        output::print(&text::summary(&scene.arm, &recording, &findings))?;
     }
     Ok(match findings.verdict {
         Verdict::Free => DONE,
         Verdict::Undecided => UNKNOWN,
-        Verdict::Collision | Verdict::Limits => REFUTED,
+        Verdict::Collision | Verdict::Limits | Verdict::Task => REFUTED,
     })
+}
+
+/// Judges the recording as one motion.
+fn judge_motion(
+    args: &VerifyArgs,
+    loaded: &LoadedScene,
+    recording: &Recording,
+    mut notes: Vec<String>,
+) -> Result<Findings, Failure> {
+    if args.start.is_some() {
+        let message = "--start is for results of tasks; a motion begins with its first sample";
+        return Err(Failure::Usage(message.into()));
+    }
+    if loaded.has_steps() {
+        notes.push(
+            "the world has steps, the file none: judged as one motion, empty-handed, with all objects where they lie at \
+             first; for the steps verify a task's result in .json"
+                .into(),
+        );
+    }
+    let scene = &loaded.scene;
+    let passage = passage(scene, recording, scene.workspace.clearance);
+    let broken = limits_kept(&scene.arm.joints, recording);
+    Ok(Findings::new(scene, recording, &passage, &broken, notes))
+}
+
+/// Judges the recording as the task of the world.
+fn judge_task(
+    args: &VerifyArgs,
+    loaded: LoadedScene,
+    recording: &Recording,
+    steps: &[RecordedStep],
+    mut notes: Vec<String>,
+) -> Result<Findings, Failure> {
+    if !args.picture.is_empty() {
+        let message = "--picture shows one motion, not a task; the main job draws tasks";
+        return Err(Failure::Usage(message.into()));
+    }
+    let overrides = Overrides { start: args.start, clearance: args.clearance, ..Overrides::default() };
+    let LoadedTask { task, scene, .. } = loaded.recorded_task(&overrides)?;
+    notes.push(
+        "step by step: that the steps are the world's in an order that it allows, each motion with what is carried and \
+         objects where they lie then, limits, grasps, places, turns and rests; the file's own times, events and clearances \
+         are not used"
+            .into(),
+    );
+    Ok(task::judged(&task, &scene, recording, replay(&task, recording, steps), notes))
 }
 
 /// Steps that look like a seam in wrapped angles.
@@ -84,7 +135,7 @@ fn draw(
     let contours = output::contours(scene);
     let path = recording.outline();
     // The arm is shown where it hits.
-    let shown = findings.first_contact.as_ref().map(|c| c.moment.configuration.into());
+    let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
     let goals = [shown.unwrap_or(path.goal())];
     let picture = Picture {
         title: vec![output::title_of(scene), format!("{} samples", findings.samples)],

@@ -1,97 +1,136 @@
 //! What `verify` found, for people.
 
-use super::findings::{Findings, Verdict};
-use crate::certify::{Encounter, Excess, Limit, Moment, Passage};
-use crate::cli::summary::{configuration, value};
-use crate::input::LoadedScene;
+use super::findings::{EncounterFinding, Findings, LimitFinding, MomentFinding, Verdict, WayFinding};
+use super::task::StepFinding;
+use crate::certify::Limit;
+use crate::cli::step_lines::{StepLine, step_lines};
+use crate::cli::summary::{Line, configuration, counted, laid_out, value};
+use crate::model::Arm;
 use crate::space::Recording;
-use std::fmt::Write;
+
+/// The findings for people.
+pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &Findings) -> String {
+    let mut lines = vec![("arm", format!("{} ({})", arm.name, arm.kind()))];
+    let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
+    lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
+    lines.extend(findings.notes.iter().map(|note| ("", note.clone())));
+    let positions = recording.positions();
+    lines.push(("from", configuration(arm, positions[0])));
+    lines.push(("to", configuration(arm, positions[findings.samples - 1])));
+    lines.extend(findings.steps.iter().flat_map(|steps| rows(steps)).map(|row| ("step", row)));
+    lines.extend(way(arm, &findings.way, findings.verdict));
+    lines.extend(findings.steps.iter().flatten().filter_map(turn));
+    lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
+    lines.extend(findings.faults.iter().map(|fault| ("task", fault.clone())));
+    lines.push(("result", result(findings)));
+    laid_out(&lines)
+}
 
 /// When, in words.
-fn when(m: &Moment, recording: &Recording) -> String {
-    match recording.times() {
-        Some(_) => format!("at {:.6} s (sample {})", m.time, m.sample),
-        None => format!("at waypoint {:.4}", m.time),
+fn when(m: &MomentFinding) -> String {
+    match (m.time, m.waypoint) {
+        (Some(time), _) => format!("at {time:.6} s (sample {})", m.sample),
+        (None, waypoint) => format!("at waypoint {:.4}", waypoint.unwrap_or_default()),
     }
 }
 
-/// The findings for people.
-pub(super) fn summary(
-    loaded: &LoadedScene,
-    recording: &Recording,
-    passage: &Passage,
-    broken: &[Excess],
-    findings: &Findings,
-) -> String {
-    let scene = &loaded.scene;
-    let arm = &scene.arm;
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let mut line = |key: &str, value: String| {
-        let _ = writeln!(text, "{key:<10} {value}");
+/// What is met on the way.
+fn way(arm: &Arm, way: &WayFinding, verdict: Verdict) -> Vec<Line> {
+    let place = |e: &EncounterFinding| {
+        format!("{} {}, {}", e.pair, when(&e.moment), configuration(arm, e.moment.configuration.into()))
     };
-    line("arm", format!("{} ({})", arm.name, arm.kind()));
-    let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
-    line("motion", format!("{} samples, {duration}", findings.samples));
-    findings.notes.iter().for_each(|note| line("", note.clone()));
-    line("from", configuration(arm, recording.positions()[0]));
-    line("to", configuration(arm, recording.positions()[findings.samples - 1]));
-    let place = |e: &Encounter| {
-        let pair = scene.describe(e.contact.pair);
-        format!("{pair} {}, {}", when(&e.moment, recording), configuration(arm, e.moment.at))
-    };
-    let depth = |e: &Encounter| match -e.contact.separation.distance {
+    let depth = |e: &EncounterFinding| match e.depth {
         d if d >= 0.0 => format!("{d:.6} m deep"),
         d => format!("{:.6} m apart", -d),
     };
-    match passage {
-        Passage::Free { clearance, nearest: Some(nearest) } => {
-            line("clearance", format!("{clearance:.6} m proven; least seen {} m: {}", apart(nearest), place(nearest)));
+    let mut lines = Vec::new();
+    match (way.clearance, &way.nearest) {
+        (Some(proven), Some(nearest)) => {
+            let seen = format!("{proven:.6} m proven; least seen {:.6} m: {}", -nearest.depth, place(nearest));
+            lines.push(("clearance", seen));
         }
-        Passage::Free { nearest: None, .. } => line("clearance", "nothing can be hit".into()),
-        Passage::Collision { first, free_until, deepest } => {
-            line("contact", format!("{}, {}", place(first), depth(first)));
-            let free = match recording.times() {
-                Some(_) => format!("proven free before {free_until:.6} s"),
-                None => format!("proven free before waypoint {free_until:.4}"),
-            };
-            line("", free);
-            line("deepest", format!("{}, {}", place(deepest), depth(deepest)));
+        (Some(clearance), None) => lines.push(("clearance", format!("{clearance:.6} m proven"))),
+        (None, None) if verdict != Verdict::Collision && way.undecided.is_none() => {
+            lines.push(("clearance", "nothing can be hit".into()));
         }
-        Passage::Undecided(nearest) => {
-            line("undecided", format!("{}: {} m, too near to be told apart", place(nearest), apart(nearest)));
-        }
+        _ => {}
     }
-    for (excess, finding) in broken.iter().zip(&findings.limits_broken) {
-        let joint = &arm.joints[excess.joint];
-        let unit = joint.unit();
-        let what = match excess.limit {
-            Limit::Position => {
-                format!("position {} beyond {}", value(joint, excess.value), value(joint, excess.allowed))
-            }
-            Limit::Velocity => format!("velocity {:.6} {unit}/s, at most {:.6}", excess.value, excess.allowed),
-            Limit::Acceleration => format!("acceleration {:.6} {unit}/s2, at most {:.6}", excess.value, excess.allowed),
-            Limit::Jerk => format!("jerk {:.6} {unit}/s3, at most {:.6}", excess.value, excess.allowed),
-            Limit::AccelerationJump => format!("acceleration jumps by {:.6} {unit}/s2", excess.value),
-            Limit::RestAtStart => format!("starts at {:.6} {unit}/s, not at rest", excess.value),
-            Limit::RestAtEnd => format!("ends at {:.6} {unit}/s, not at rest", excess.value),
-        };
-        line("limit", format!("{}: {what}, {}", finding.joint, when(&excess.moment, recording)));
+    if let Some(first) = &way.first_contact {
+        lines.push(("contact", format!("{}, {}", place(first), depth(first))));
+        lines.extend(way.free_until.map(|until| match first.moment.time {
+            Some(_) => ("", format!("proven free before {until:.6} s")),
+            None => ("", format!("proven free before waypoint {until:.4}")),
+        }));
     }
-    let required = findings.required;
-    let kept = if required > 0.0 { format!(" by {required} m") } else { String::new() };
-    let result = match findings.verdict {
-        Verdict::Free => format!("free{kept}: the whole motion, proven"),
-        Verdict::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
-        Verdict::Collision => "collision: proven".into(),
-        Verdict::Limits => "limits are broken".into(),
-        Verdict::Undecided => "undecided".into(),
-    };
-    line("result", result);
-    text
+    lines.extend(way.deepest.iter().map(|deepest| ("deepest", format!("{}, {}", place(deepest), depth(deepest)))));
+    lines.extend(way.undecided.iter().map(|nearest| {
+        ("undecided", format!("{}: {:.6} m, too near to be told apart", place(nearest), -nearest.depth))
+    }));
+    lines
 }
 
-/// The distance of a pair that is apart.
-fn apart(e: &Encounter) -> String {
-    format!("{:.6}", e.contact.separation.distance)
+/// A limit that is broken.
+fn broken(arm: &Arm, limit: &LimitFinding) -> String {
+    let excess = &limit.excess;
+    let joint = &arm.joints[excess.joint];
+    let unit = joint.unit();
+    let what = match excess.limit {
+        Limit::Position => {
+            format!("position {} beyond {}", value(joint, excess.value), value(joint, excess.allowed))
+        }
+        Limit::Velocity => format!("velocity {:.6} {unit}/s, at most {:.6}", excess.value, excess.allowed),
+        Limit::Acceleration => format!("acceleration {:.6} {unit}/s2, at most {:.6}", excess.value, excess.allowed),
+        Limit::Jerk => format!("jerk {:.6} {unit}/s3, at most {:.6}", excess.value, excess.allowed),
+        Limit::AccelerationJump => format!("acceleration jumps by {:.6} {unit}/s2", excess.value),
+        Limit::RestAtStart => format!("starts at {:.6} {unit}/s, not at rest", excess.value),
+        Limit::RestAtEnd => format!("ends at {:.6} {unit}/s, not at rest", excess.value),
+    };
+    format!("{}: {what}, {}", limit.joint, when(&limit.moment))
+}
+
+/// A turn of the wrist that hits something.
+fn turn(step: &StepFinding) -> Option<Line> {
+    let contact = step.turn.as_ref()?.contact.as_ref()?;
+    let object = step.object.as_deref().or(step.carried.as_deref()).unwrap_or_default();
+    let what = format!("payload \"{object}\" and obstacle \"{}\"", contact.obstacle);
+    Some(("turn", format!("{what} in {}, at {:.6} rad", step.name(), contact.angle)))
+}
+
+/// A line a step.
+fn rows(steps: &[StepFinding]) -> Vec<String> {
+    let repeated = steps.iter().any(|step| step.cycle > 1);
+    let line = |step: &StepFinding| {
+        let cycle = if repeated { format!(" (cycle {})", step.cycle) } else { String::new() };
+        let carried = step.carried.as_ref().map_or("empty-handed".into(), |object| format!("carrying \"{object}\""));
+        let turn = step.turn.as_ref().map_or(String::new(), |turn| format!(", turn in {:.3} s", turn.seconds));
+        let found = match (step.verdict, step.clearance()) {
+            (Verdict::Free, Some(clearance)) => format!("clearance {clearance:.4} m"),
+            (Verdict::Free, None) => "nothing can be hit".into(),
+            (Verdict::Collision, _) => "collides".into(),
+            (Verdict::Task, _) => "not as asked for".into(),
+            (Verdict::Limits, _) => "breaks limits".into(),
+            (Verdict::Undecided, _) => "undecided".into(),
+        };
+        let motion = format!("{:.3} s{turn}, {found}", step.seconds);
+        let columns = [format!("{}{cycle}", step.step), step.action.clone(), carried, motion];
+        StepLine { cycle: step.cycle, matters: step.verdict != Verdict::Free, columns }
+    };
+    step_lines(&steps.iter().map(line).collect::<Vec<_>>())
+}
+
+fn result(findings: &Findings) -> String {
+    let required = findings.required;
+    let kept = if required > 0.0 { format!(" by {required} m") } else { String::new() };
+    let whole = match &findings.steps {
+        Some(steps) => format!("the whole task, {}, ", counted(steps.len(), "step")),
+        None => "the whole motion, ".into(),
+    };
+    match findings.verdict {
+        Verdict::Free => format!("free{kept}: {whole}proven"),
+        Verdict::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
+        Verdict::Collision => "collision: proven".into(),
+        Verdict::Task => "not the task that the world asks for".into(),
+        Verdict::Limits => "limits are broken".into(),
+        Verdict::Undecided => "undecided".into(),
+    }
 }

@@ -7,10 +7,12 @@ mod columns;
 mod csv;
 mod document;
 mod records;
+mod steps;
 
 use super::LoadedScene;
 use super::error::{Defect, InputError, quoted};
 use super::source::Source;
+use crate::model::RecordedStep;
 use crate::space::{Configuration, Recording, RecordingDefect};
 use std::ops::Range;
 use std::path::Path;
@@ -27,6 +29,8 @@ const UNUSED: &str = "accelerations in the file are not used: positions and velo
 pub struct LoadedRecording {
     /// The arm's two joints, base to tip.
     pub recording: Recording,
+    /// The steps of a task: of a result of cplan's for a world that has steps.
+    pub steps: Option<Vec<RecordedStep>>,
     /// What the user should know: what was ignored, and which rule joins the samples.
     pub notes: Vec<String>,
 }
@@ -53,13 +57,14 @@ struct Samples {
 
 /// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml` or `.yml`.
 ///
-/// - JSON: a result of cplan's own (its trajectory, else its path), or a ROS 2 message;
+/// - JSON: a result of cplan's own (its trajectory, else its path), with the steps if it and the world have any; or a ROS 2
+///   message;
 /// - CSV: a header of names, then a sample a line. A column is a joint's position if its name is the joint's, or the
 ///   joint's with `position` before or after it; velocities likewise; `time`, `t` or `time_from_start` are seconds;
 /// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
-/// Files that cannot be read, are no such format, lack a joint, move a joint that the arm holds still, or whose samples
+/// Files that cannot be read, are no such format, have steps that are none, lack a joint, move a joint that the arm holds still, or whose samples
 /// are no motion; with the place in the file and the cure.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
@@ -78,7 +83,11 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
         Some("csv") => csv::read(&source, &names)?,
         _ => document::yaml(&source)?,
     };
-    Ok(names.recording(&source, samples)?)
+    let steps = match extension.as_deref() {
+        Some("json") if scene.has_steps() => steps::json(&source, &samples)?,
+        _ => None,
+    };
+    Ok(LoadedRecording { steps, ..names.recording(&source, samples)? })
 }
 
 /// The joints that a file can speak of.
@@ -126,7 +135,7 @@ impl Names<'_> {
         let recording =
             Recording::new(position, samples.time.take(), velocity).map_err(|d| misplaced(source, &samples, &d))?;
         notes.push(rule(&recording).into());
-        Ok(LoadedRecording { recording, notes })
+        Ok(LoadedRecording { recording, steps: None, notes })
     }
 
     /// Checks a joint that is none of the arm's two.

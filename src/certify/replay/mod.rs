@@ -1,0 +1,201 @@
+//! Does a recorded task again and judges it: whether it is the task that the world asks for, and whether every motion and
+//! every turn of it is free.
+//!
+//! Shares nothing with the search for tasks but their types: what lies where, what is carried and how, and what may be
+//! touched follows from the world's steps and from where the recorded arm is.
+
+mod fault;
+mod order;
+mod state;
+
+pub use fault::{Departure, Fault};
+
+use super::{Excess, Passage, TurnContact, WristTurn, limits_kept, passage};
+use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
+use crate::space::{Configuration, Recording};
+use order::{Matched, matched};
+use state::State;
+use std::f64::consts::TAU;
+
+/// Where something is and where it is asked to be may differ by this, metres or radians: a thousand times what inverse
+/// kinematics leaves, and less than any arm repeats.
+const AT: f64 = 1e-6;
+
+/// Times may fall short of what is asked for by this, seconds: far above the rounding of clocks, and of rests that are
+/// too short to be sampled; far below what a gripper needs.
+const SHORT: f64 = 1e-6;
+
+/// A turn of the wrist that was judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReplayedTurn {
+    /// As recorded.
+    pub turn: RecordedTurn,
+    /// Proven free, or where it first hits something.
+    pub verdict: Result<WristTurn, TurnContact>,
+}
+
+/// A step that was judged.
+#[derive(Debug, Clone)]
+pub struct ReplayedStep<'a> {
+    /// What was to be done.
+    pub step: &'a Step,
+    /// What was recorded of it.
+    pub recorded: &'a RecordedStep,
+    /// The world during the motion, and what is carried. Of a last step whose motion is free, but not how it leaves the arm, the
+    /// world then.
+    pub scene: Scene,
+    /// The object that is picked or placed.
+    pub object: Option<usize>,
+    /// The object that is carried during the motion.
+    pub carried: Option<usize>,
+    /// Seconds from the beginning to the end of the motion.
+    pub seconds: f64,
+    /// The motion among the obstacles of the scene; moments are the whole recording's.
+    pub passage: Passage,
+    /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
+    pub broken: Vec<Excess>,
+    /// The turn of the wrist after it. None too for one that was recorded with nothing in the hand to turn, which is a fault.
+    pub turn: Option<ReplayedTurn>,
+    /// In what the step is not what was asked for.
+    pub faults: Vec<Fault>,
+}
+
+/// Judges recorded steps one after the other: an iterator, since each has a scene of its own.
+#[derive(Debug, Clone)]
+pub struct Replay<'a> {
+    task: &'a Task,
+    recording: &'a Recording,
+    recorded: &'a [RecordedStep],
+    matched: Vec<Matched<'a>>,
+    departure: Option<Departure>,
+    next: usize,
+    state: State,
+}
+
+/// Puts the steps of a record beside those of the task: fixed steps in order, pairs of a free group in any order, and between
+/// them the arm stands still. Iterating then judges, up to where the record departs from the task:
+///
+/// - each motion from rest to rest, by [`passage`] with the workspace's clearance, in the scene of its moment: objects where
+///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
+///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
+/// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
+///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
+///   that the arm stands still for as long as was asked for, and the turn.
+///
+/// `O(n)` for `n` samples but for the motions.
+#[must_use]
+pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
+    let (matched, departure) = matched(task, recording, recorded);
+    Replay { task, recording, recorded, matched, departure, next: 0, state: State::at_first(task) }
+}
+
+impl Replay<'_> {
+    /// Where the record departs from the sequence of the task; none if it is the whole task.
+    #[must_use]
+    pub fn departure(&self) -> Option<&Departure> {
+        self.departure.as_ref()
+    }
+}
+
+impl<'a> Iterator for Replay<'a> {
+    type Item = ReplayedStep<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let index = self.next;
+        let (matched, recorded) = (self.matched.get(index)?.clone(), self.recorded.get(index)?);
+        let motion = self.recording.part(recorded.samples.clone())?;
+        self.next += 1;
+        let (task, step) = (self.task, matched.step);
+        let mut faults = Vec::new();
+        let [from, to] = [0, motion.positions().len() - 1].map(|sample| motion.positions()[sample]);
+        if index == 0 && !same(task, from, task.start) {
+            faults.push(Fault::Start);
+        }
+        self.state.renew(task, &matched.renewed);
+        let (carried, released) = (self.state.carried(), self.state.released());
+        let picked = match step.action {
+            Action::Pick { object, .. } => Some(object),
+            _ => None,
+        };
+        let mut scene = self.state.scene(task, picked);
+        let mut passage = shifted(passage(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
+        let mut broken = limits_kept(&task.arm.joints, &motion);
+        broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
+        let mut object = carried;
+        let turn;
+        match &step.action {
+            Action::Pick { object: picked, grasp, .. } => {
+                object = Some(*picked);
+                // What the place that follows rests it on is declared there.
+                let following = self.matched[index + 1..].iter().find_map(|next| match &next.step.action {
+                    Action::Place { supports, .. } => Some(supports.as_slice()),
+                    _ => None,
+                });
+                faults.extend(self.state.grasp(task, to, step, *grasp, following.unwrap_or_default()));
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+            }
+            Action::Place { at, angle, .. } => {
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                faults.extend(self.state.release(task, to, *at, *angle));
+            }
+            Action::Move(goal) => {
+                object = None;
+                faults.extend(missed(task, to, goal));
+                turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                self.state.moved();
+            }
+        }
+        let asked = step.dwell + recorded.turn.map_or(0.0, |turn| turn.seconds);
+        // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
+        if self.next == self.matched.len()
+            && matches!(passage, Passage::Free { .. })
+            && let Some(standing) = self.recording.part(*recorded.samples.end()..=*recorded.samples.end())
+        {
+            let after = self.state.scene(task, released);
+            let found = super::passage(&after, &standing, task.workspace.clearance);
+            if !matches!(found, Passage::Free { .. }) {
+                (scene, passage) = (after, shifted(found, *recorded.samples.end()));
+            }
+        }
+        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
+            faults.push(Fault::Rest { stood, asked });
+        }
+        let seconds = motion.duration().unwrap_or(0.0);
+        Some(ReplayedStep { step, recorded, scene, object, carried, seconds, passage, broken, turn, faults })
+    }
+}
+
+/// Whether two configurations are the same, up to whole turns of joints on a circle.
+fn same(task: &Task, a: Configuration, b: Configuration) -> bool {
+    task.arm.topology().displacement(a, b).amax() <= AT
+}
+
+/// By how much a motion misses the goal of a move.
+fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
+    match goal {
+        Goal::Joints(target) => (!same(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
+        Goal::Tip(target) => {
+            let off = (task.arm.tip_at(q) - target).norm();
+            (off > AT).then_some(Fault::Tip { off })
+        }
+    }
+}
+
+/// The difference between two orientations, from none to half a turn.
+fn angle_between(a: f64, b: f64) -> f64 {
+    let ahead = (a - b).rem_euclid(TAU);
+    ahead.min(TAU - ahead)
+}
+
+/// What was found, with the samples counted from the beginning of the whole recording.
+fn shifted(mut passage: Passage, by: usize) -> Passage {
+    match &mut passage {
+        Passage::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),
+        Passage::Collision { first, deepest, .. } => {
+            first.moment.sample += by;
+            deepest.moment.sample += by;
+        }
+        Passage::Undecided(nearest) => nearest.moment.sample += by,
+    }
+    passage
+}

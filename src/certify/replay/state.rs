@@ -1,0 +1,141 @@
+//! Where everything is between the steps of a record.
+
+use super::super::given_turn;
+use super::{AT, Fault, ReplayedTurn, SHORT, angle_between};
+use crate::geometry::{Point, Pose};
+use crate::model::{Action, Grip, Holding, Payload, RecordedTurn, Scene, Step, Task};
+use crate::space::Configuration;
+
+/// Where the objects are, and what the arm carries.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    /// Of each object, where it lies; none while it is carried.
+    poses: Vec<Option<Pose>>,
+    held: Option<(usize, Payload)>,
+    /// The object just let go of.
+    released: Option<usize>,
+}
+
+impl State {
+    pub fn at_first(task: &Task) -> Self {
+        let poses = task.objects.iter().map(|object| Some(object.at)).collect();
+        Self { poses, held: None, released: None }
+    }
+
+    pub fn renew(&mut self, task: &Task, objects: &[usize]) {
+        objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+    }
+
+    pub fn carried(&self) -> Option<usize> {
+        self.held.as_ref().map(|(object, _)| *object)
+    }
+
+    /// The object just let go of.
+    pub fn released(&self) -> Option<usize> {
+        self.released
+    }
+
+    /// The scene as it is. Link 2 is free to meet the object just let go of, and another one.
+    pub fn scene(&self, task: &Task, spared: Option<usize>) -> Scene {
+        let spared: Vec<usize> =
+            self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
+        let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
+        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
+    }
+
+    /// Takes the object that a step picks with the arm at `q`, held as it lies to the arm then; `then` is what it will rest
+    /// on. What is not as asked for.
+    pub fn grasp(&mut self, task: &Task, q: Configuration, step: &Step, grasp: Point, then: &[usize]) -> Option<Fault> {
+        let Action::Pick { object, supports, .. } = &step.action else { return None };
+        let (object, arm) = (*object, &task.arm);
+        self.released = None;
+        // Picks of a task find their objects.
+        let lies = self.poses[object].take()?;
+        let tip = arm.tip_at(q);
+        let grip = match task.objects[object].holding {
+            Holding::Rigid => Payload::rigid_grip(arm, q, &lies),
+            Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: lies.inverse() * tip },
+        };
+        let carried = &task.objects[object];
+        let payload = Payload {
+            object: carried.name.clone(),
+            pieces: carried.pieces.clone(),
+            heights: carried.carried_heights(),
+            grip,
+            supports: supports.iter().chain(then).copied().collect(),
+        };
+        self.held = Some((object, payload));
+        let off = (tip - lies * grasp).norm();
+        (off > AT).then_some(Fault::Tip { off })
+    }
+
+    /// Lets go of what is carried with the arm at `q`. What is not as asked for.
+    pub fn release(&mut self, task: &Task, q: Configuration, at: Point, angle: Option<f64>) -> Vec<Fault> {
+        // Places of a task follow picks.
+        let Some((object, payload)) = self.held.take() else { return Vec::new() };
+        let pose = payload.pose(&task.arm, q);
+        self.poses[object] = Some(pose);
+        self.released = Some(object);
+        let mut faults = Vec::new();
+        let off = (Point::from(pose.translation.vector) - at).norm();
+        if off > AT {
+            faults.push(Fault::Origin { off });
+        }
+        if let Some(off) = angle.map(|angle| angle_between(pose.rotation.angle(), angle)).filter(|off| *off > AT) {
+            faults.push(Fault::Angle { off });
+        }
+        faults
+    }
+
+    /// Goes on after a motion without an event.
+    pub fn moved(&mut self) {
+        self.released = None;
+    }
+
+    /// Judges and makes a turn of the wrist with the arm at `q`; none if nothing can turn. Adds what is not as it should be.
+    pub fn turn(
+        &mut self,
+        task: &Task,
+        q: Configuration,
+        turn: Option<RecordedTurn>,
+        faults: &mut Vec<Fault>,
+    ) -> Option<ReplayedTurn> {
+        let turn = turn?;
+        match task.wrist {
+            Some(wrist) => {
+                let least = least_seconds((turn.to - turn.from).abs(), wrist.velocity, wrist.acceleration);
+                if turn.seconds < least - SHORT {
+                    faults.push(Fault::Haste { seconds: turn.seconds, least });
+                }
+            }
+            None => faults.push(Fault::NoWrist),
+        }
+        let workspace = task.obstacles(&self.poses);
+        let level = self.held.as_mut().and_then(|(_, payload)| match payload.grip {
+            Grip::Level { angle, point } => Some((payload, angle, point)),
+            Grip::Rigid(_) => None,
+        });
+        let Some((payload, angle, point)) = level else {
+            faults.push(Fault::Nothing);
+            return None;
+        };
+        let verdict = given_turn(&task.arm, &workspace, payload, point, q, [turn.from, turn.to]);
+        let off = angle_between(turn.from, angle);
+        if off > AT {
+            faults.push(Fault::Turn { off });
+        }
+        payload.grip = Grip::Level { angle: angle + (turn.to - turn.from), point };
+        Some(ReplayedTurn { turn, verdict })
+    }
+}
+
+/// Least seconds for an angle from rest to rest: up to the top speed, along at it, and down; or, where there is no room
+/// for that, up and down.
+fn least_seconds(angle: f64, velocity: f64, acceleration: f64) -> f64 {
+    let ramps = velocity * velocity / acceleration;
+    if angle > ramps {
+        2.0 * velocity / acceleration + (angle - ramps) / velocity
+    } else {
+        2.0 * (angle / acceleration).sqrt()
+    }
+}

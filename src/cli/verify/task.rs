@@ -1,0 +1,158 @@
+//! What `verify` found of a task, step by step.
+
+use super::findings::{Findings, LimitFinding, Verdict, WayFinding, limits, verdict};
+use crate::certify::{Departure, Replay, ReplayedStep, ReplayedTurn};
+use crate::model::{Scene, Task};
+use crate::space::Recording;
+use serde::Serialize;
+
+/// What there is to say of a step.
+#[derive(Debug, Serialize)]
+pub(super) struct StepFinding {
+    /// Its number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it this is, from 1.
+    pub cycle: usize,
+    /// What it does, in a few words.
+    pub action: String,
+    /// The object that is picked or placed.
+    pub object: Option<String>,
+    /// The object that is carried during the motion.
+    pub carried: Option<String>,
+    pub verdict: Verdict,
+    pub first_sample: usize,
+    pub last_sample: usize,
+    /// Of the motion.
+    pub seconds: f64,
+    #[serde(flatten)]
+    pub way: WayFinding,
+    /// The turn of the wrist.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn: Option<TurnFinding>,
+    pub limits_broken: Vec<LimitFinding>,
+    /// In what it is not what was asked for.
+    pub faults: Vec<String>,
+}
+
+/// A turn of the wrist while the arm stands still.
+#[derive(Debug, Serialize)]
+pub(super) struct TurnFinding {
+    /// Orientation of the object at the beginning, radians.
+    pub from: f64,
+    /// At the end.
+    pub to: f64,
+    pub seconds: f64,
+    /// Proven lower bound on the distance between object and obstacles, metres; only of a free turn that could hit something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
+    /// Where a turn that is not free first hits something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<TurnContactFinding>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct TurnContactFinding {
+    /// Orientation of the object then, radians.
+    pub angle: f64,
+    pub obstacle: String,
+}
+
+impl StepFinding {
+    fn new(task: &Task, replayed: &ReplayedStep) -> Self {
+        let ReplayedStep { step, recorded, scene, passage, broken, faults, .. } = replayed;
+        let name = |object: usize| task.objects[object].name.clone();
+        let turn = replayed.turn.map(|turn| TurnFinding::new(scene, &turn));
+        let of_turn = match &turn {
+            Some(TurnFinding { contact: Some(_), .. }) => Verdict::Collision,
+            _ => Verdict::Free,
+        };
+        let of_faults = if faults.is_empty() { Verdict::Free } else { Verdict::Task };
+        Self {
+            step: step.number,
+            cycle: step.cycle,
+            action: step.action.describe(&task.objects),
+            object: replayed.object.map(name),
+            carried: replayed.carried.map(name),
+            verdict: verdict(passage, broken).max(of_turn).max(of_faults),
+            first_sample: *recorded.samples.start(),
+            last_sample: *recorded.samples.end(),
+            seconds: replayed.seconds,
+            way: WayFinding::new(scene, passage, true),
+            turn,
+            limits_broken: limits(&scene.arm.joints, broken, true),
+            faults: faults.iter().map(ToString::to_string).collect(),
+        }
+    }
+
+    /// In words that stand for it.
+    pub fn name(&self) -> String {
+        format!("step {} (cycle {})", self.step, self.cycle)
+    }
+
+    /// Proven lower bound on the distance kept in its motion and its turn, metres; none where nothing can be hit.
+    pub fn clearance(&self) -> Option<f64> {
+        let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
+        turn.into_iter().chain(self.way.clearance).reduce(f64::min)
+    }
+}
+
+impl TurnFinding {
+    fn new(scene: &Scene, ReplayedTurn { turn, verdict }: &ReplayedTurn) -> Self {
+        let contact = verdict.err().map(|contact| TurnContactFinding {
+            angle: contact.angle,
+            obstacle: scene.workspace.obstacles[contact.obstacle].name.clone(),
+        });
+        let clearance = verdict.ok().map(|free| free.clearance).filter(|clearance| clearance.is_finite());
+        Self { from: turn.from, to: turn.to, seconds: turn.seconds, clearance, contact }
+    }
+}
+
+/// Judges all steps. What is found of the whole is that of the step that decides it: of the first that collides, else of
+/// the first that is undecided, else of that which keeps the least.
+pub(super) fn judged(
+    task: &Task,
+    scene: &Scene,
+    recording: &Recording,
+    mut replay: Replay,
+    notes: Vec<String>,
+) -> Findings {
+    let steps: Vec<StepFinding> = replay.by_ref().map(|step| StepFinding::new(task, &step)).collect();
+    let departure = replay.departure().map(Departure::to_string);
+    let of_departure = if departure.is_some() { Verdict::Task } else { Verdict::Free };
+    let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Verdict::Free);
+    let of_step = |step: &StepFinding| {
+        let name = step.name();
+        step.faults.iter().map(move |fault| format!("{name}: {fault}")).collect::<Vec<_>>()
+    };
+    let faults = steps.iter().flat_map(of_step).chain(departure).collect();
+    Findings {
+        verdict: worst.max(of_departure),
+        way: way(&steps),
+        limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
+        faults,
+        steps: Some(steps),
+        notes,
+        ..Findings::of_nothing(scene, recording)
+    }
+}
+
+/// What is met on the whole way.
+fn way(steps: &[StepFinding]) -> WayFinding {
+    let undecided = steps.iter().position(|step| step.way.undecided.is_some());
+    let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());
+    if let Some(hit) = steps.iter().position(|step| step.way.first_contact.is_some()) {
+        let proven = undecided.is_none_or(|open| open > hit) && !steps[..hit].iter().any(turn_hits);
+        let way = steps[hit].way.clone();
+        return WayFinding { free_until: way.free_until.filter(|_| proven), ..way };
+    }
+    if let Some(open) = undecided {
+        return steps[open].way.clone();
+    }
+    if steps.iter().any(turn_hits) {
+        return WayFinding::default();
+    }
+    let clearance = steps.iter().filter_map(StepFinding::clearance).reduce(f64::min);
+    let depth = |step: &&StepFinding| step.way.nearest.as_ref().map_or(f64::NEG_INFINITY, |nearest| nearest.depth);
+    let nearest = steps.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
+    WayFinding { clearance, nearest: nearest.and_then(|step| step.way.nearest.clone()), ..WayFinding::default() }
+}

@@ -1,0 +1,381 @@
+//! Results of tasks: our own ones as they are, tampered with, and in worlds that are not theirs.
+
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+/// A shipped task, and what is planned for it.
+struct Shipped {
+    robot: PathBuf,
+    world: String,
+    result: Value,
+}
+
+/// Exit code, what is printed, and what is said of errors.
+type Said = (i32, String, String);
+
+fn run(folder: &Path, arguments: &[&str]) -> Said {
+    let run = Command::new(env!("CARGO_BIN_EXE_cplan")).current_dir(folder).args(arguments).output();
+    let Output { status, stdout, stderr } = run.unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (status.code().expect("no signal"), text(stdout), text(stderr))
+}
+
+fn shipped(name: &str) -> Shipped {
+    let file = root(&format!("workspaces/tasks/{name}.toml"));
+    let world = std::fs::read_to_string(&file).unwrap();
+    let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
+    let robot = root(&format!("robots/{}.urdf", robot.trim()));
+    let (code, json, errors) =
+        run(Path::new("."), &[robot.to_str().unwrap(), file.to_str().unwrap(), "--json", "--quiet"]);
+    assert_eq!(code, 0, "{name}: {errors}");
+    Shipped { robot, world, result: serde_json::from_str(&json).unwrap() }
+}
+
+impl Shipped {
+    /// What `verify` says of the result.
+    fn said(&self, options: &[&str]) -> Said {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("world.toml"), &self.world).unwrap();
+        std::fs::write(folder.path().join("task.json"), self.result.to_string()).unwrap();
+        let files = ["verify", self.robot.to_str().unwrap(), "world.toml", "task.json"];
+        run(folder.path(), &[&files, options].concat())
+    }
+
+    fn found(&self) -> (i32, Value) {
+        let (code, json, errors) = self.said(&["--json"]);
+        (code, serde_json::from_str(&json).unwrap_or_else(|error| panic!("{error}: {errors}{json}")))
+    }
+
+    /// The same in a world in which one thing is another.
+    fn in_world(mut self, thing: &str, other: &str) -> Self {
+        assert!(self.world.contains(thing), "{thing}");
+        self.world = self.world.replacen(thing, other, 1);
+        self
+    }
+
+    /// First and last sample of a step.
+    fn samples(&self, step: usize) -> [usize; 2] {
+        let sample = |key: &str| self.result["steps"][step][key].as_u64().unwrap() as usize;
+        [sample("first_sample"), sample("last_sample")]
+    }
+
+    fn change(&mut self, key: &str, sample: usize, change: impl Fn(f64) -> f64) {
+        match &mut self.result["trajectory"][key][sample] {
+            Value::Array(row) => row.iter_mut().for_each(|v| *v = json!(change(v.as_f64().unwrap()))),
+            value => *value = json!(change(value.as_f64().unwrap())),
+        }
+    }
+
+    fn time(&self, sample: usize) -> f64 {
+        self.result["trajectory"]["time"][sample].as_f64().unwrap()
+    }
+
+    fn count(&self) -> usize {
+        self.result["trajectory"]["time"].as_array().unwrap().len()
+    }
+
+    /// Refuted with this verdict: of the whole, and of these steps alone, counted from 0.
+    #[track_caller]
+    fn refuted(&self, verdict: &str, steps: &[usize]) -> Value {
+        let (code, found) = self.found();
+        assert_eq!((code, &found["verdict"]), (3, &json!(verdict)), "{found:#}");
+        let of_steps = found["steps"].as_array().unwrap();
+        let wrong: Vec<usize> = (0..of_steps.len()).filter(|&k| of_steps[k]["verdict"] != "free").collect();
+        assert_eq!(wrong, steps, "{found:#}");
+        assert!(steps.iter().any(|&k| of_steps[k]["verdict"] == verdict) || steps.is_empty());
+        found
+    }
+}
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64()
+}
+
+#[test]
+fn our_own_tasks_are_free_and_their_clearances_agree() {
+    for (name, count) in [("kitting_cell", 24), ("tower", 5), ("board_turned", 3), ("feeder", 300), ("sorting", 8)] {
+        let task = shipped(name);
+        let (code, found) = task.found();
+        assert_eq!((code, &found["verdict"], &found["faults"]), (0, &json!("free"), &Value::Null), "{name}: {found:#}");
+        assert_eq!(found["limits_broken"], json!([]), "{name}");
+        let (ours, theirs) = (found["steps"].as_array().unwrap(), task.result["steps"].as_array().unwrap());
+        assert_eq!((ours.len(), theirs.len()), (count, count), "{name}");
+        for (ours, theirs) in ours.iter().zip(theirs) {
+            for key in ["step", "cycle", "object", "carried", "first_sample", "last_sample"] {
+                assert_eq!(ours[key], theirs[key], "{name}, {key}");
+            }
+            let turn = [&ours["turn"], &theirs["turn"]].map(|turn| number(&turn["clearance"]));
+            assert_eq!(turn[0], turn[1], "{name}");
+            let bound = turn[0].into_iter().chain(number(&ours["clearance"])).reduce(f64::min);
+            // Both at least 0.9 of the same distance; the one is of the curve, the other of the cubics between samples.
+            match (bound, number(&theirs["clearance"])) {
+                (Some(a), Some(b)) => assert!(a >= 0.89 * b && b >= 0.89 * a, "{name}: {a}, {b} in {ours:#}"),
+                (a, b) => assert_eq!(a, b, "{name}"),
+            }
+        }
+        assert!(number(&found["clearance"]).unwrap() > 0.0);
+    }
+}
+
+#[test]
+fn the_summary_has_a_line_a_step() {
+    let (code, text, _) = shipped("feeder").said(&[]);
+    assert_eq!(code, 0);
+    for part in
+        ["step       1 (cycle 1)  pick \"part\"", "... 291 steps in cycles 4 to 100", "the whole task, 300 steps"]
+    {
+        assert!(text.contains(part), "no {part:?} in:\n{text}");
+    }
+    assert!(text.contains("step by step"), "{text}");
+    let turned = shipped("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
+    let (code, text, _) = turned.said(&[]);
+    assert_eq!(code, 3);
+    for part in ["not as asked for", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
+        assert!(text.contains(part), "no {part:?} in:\n{text}");
+    }
+    assert_eq!(turned.said(&["--quiet"]), (3, String::new(), String::new()));
+}
+
+#[test]
+fn a_sample_in_an_obstacle() {
+    let mut task = shipped("board_turned");
+    let [first, last] = task.samples(2);
+    let middle = (first + last) / 2;
+    task.result["trajectory"]["position"][middle] = json!([1.0, 0.4]);
+    let found = task.refuted("collision", &[2]);
+    let hit = &found["steps"][2]["first_contact"];
+    assert!(hit["obstacle"].as_str().unwrap().ends_with("wall"), "{hit:#}");
+    let (time, sample) = (number(&hit["time"]).unwrap(), hit["sample"].as_u64().unwrap() as usize);
+    assert!(task.time(sample) <= time && time <= task.time(middle) && sample == middle - 1, "{hit:#}");
+    assert_eq!(&found["first_contact"], hit);
+}
+
+#[test]
+fn an_object_elsewhere() {
+    let task = shipped("sorting").in_world("at = [0.25, 0.45]", "at = [0.25, 0.40]");
+    let steps = task.result["steps"].as_array().unwrap();
+    let picked = steps.iter().position(|step| step["action"] == "pick" && step["object"] == "red").unwrap();
+    let (code, found) = task.found();
+    assert_eq!((code, &found["verdict"]), (3, &json!("task")), "{found:#}");
+    for (at, what) in [(picked, "the tip ends 0.05"), (picked + 1, "the object's origin ends 0.05")] {
+        let step = &found["steps"][at];
+        assert_eq!(step["verdict"], "task");
+        assert!(step["faults"][0].as_str().unwrap().starts_with(what), "{step:#}");
+    }
+}
+
+#[test]
+fn steps_in_another_order() {
+    // Pairs of a free group may come in any order, and do.
+    let sorting = shipped("sorting");
+    let numbers = |task: &Shipped| {
+        let steps = task.result["steps"].as_array().unwrap();
+        steps.iter().map(|step| step["step"].as_u64().unwrap()).collect::<Vec<_>>()
+    };
+    assert!(!numbers(&sorting).is_sorted());
+    assert_eq!(sorting.found().0, 0);
+
+    let mut tower = shipped("tower");
+    tower.result["steps"][0]["step"] = json!(3);
+    tower.result["steps"][2]["step"] = json!(1);
+    let found = tower.refuted("task", &[]);
+    assert_eq!(found["faults"], json!(["steps[0] is step 3 (cycle 1), where the world asks for step 1 (cycle 1)"]));
+
+    let mut tower = shipped("tower");
+    tower.result["steps"].as_array_mut().unwrap().swap(3, 4);
+    assert_eq!(tower.refuted("task", &[])["steps"].as_array().unwrap().len(), 3);
+
+    let mut tower = shipped("tower");
+    tower.result["steps"].as_array_mut().unwrap().pop();
+    assert_eq!(
+        tower.refuted("task", &[])["faults"][0],
+        "after 4 steps the world asks for step 5 (cycle 1), but there are no more"
+    );
+
+    let mut feeder = shipped("feeder");
+    feeder.result["steps"][4]["cycle"] = json!(3);
+    assert!(feeder.refuted("task", &[])["faults"][0].as_str().unwrap().contains("asks for step 2 (cycle 2)"));
+
+    // A place that is another pair's.
+    let mut sorting = shipped("sorting");
+    let number = |k: usize| sorting.result["steps"][k]["step"].clone();
+    let (one, other) = (number(1), number(3));
+    sorting.result["steps"][1]["step"] = other;
+    sorting.result["steps"][3]["step"] = one;
+    assert_eq!(sorting.refuted("task", &[])["steps"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn samples_that_belong_to_no_step() {
+    let mut tower = shipped("tower");
+    let [_, last] = tower.samples(1);
+    tower.result["steps"][1]["last_sample"] = json!(last - 3);
+    // What is left of the motion ends elsewhere, and not at rest.
+    let found = tower.refuted("task", &[1]);
+    assert!(found["faults"].to_string().contains("which belong to no step"), "{found:#}");
+    assert!(found["steps"][1]["limits_broken"].to_string().contains("rest at end"), "{found:#}");
+
+    let mut tower = shipped("tower");
+    let [first, _] = tower.samples(2);
+    tower.result["steps"][2]["first_sample"] = json!(first - 5);
+    assert!(tower.refuted("task", &[])["faults"][0].as_str().unwrap().starts_with("steps[2] begins with sample"));
+}
+
+#[test]
+fn rests_that_are_cut() {
+    let mut tower = shipped("tower");
+    let [_, last] = tower.samples(1);
+    (last + 1..tower.count()).for_each(|sample| tower.change("time", sample, |time| time - 0.2));
+    let found = tower.refuted("task", &[1]);
+    assert_eq!(found["steps"][1]["faults"], json!(["the arm stands still for 0.100000 s, not for 0.300000 s"]));
+}
+
+#[test]
+fn a_step_that_is_too_fast() {
+    let mut tower = shipped("tower");
+    let [first, last] = tower.samples(1);
+    let [begin, end] = [first, last].map(|sample| tower.time(sample));
+    for sample in first..=last {
+        tower.change("time", sample, |time| begin + (time - begin) / 2.0);
+        tower.change("velocity", sample, |velocity| 2.0 * velocity);
+    }
+    (last + 1..tower.count()).for_each(|sample| tower.change("time", sample, |time| time - (end - begin) / 2.0));
+    let found = tower.refuted("limits", &[1]);
+    let broken = found["limits_broken"].as_array().unwrap();
+    assert!(!broken.is_empty() && broken == found["steps"][1]["limits_broken"].as_array().unwrap());
+    let sample = broken[0]["sample"].as_u64().unwrap() as usize;
+    assert!((first..=last).contains(&sample), "{broken:#?}");
+}
+
+#[test]
+fn a_turn_that_is_another() {
+    let reversed = |from: f64, to: f64| {
+        let mut task = shipped("board_turned");
+        task.result["steps"][1]["turn"]["from"] = json!(from);
+        task.result["steps"][1]["turn"]["to"] = json!(to);
+        task
+    };
+    let to = number(&shipped("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
+    let found = reversed(to, 0.0).refuted("task", &[1, 2]);
+    assert_eq!(
+        found["steps"][1]["faults"],
+        json!(["the wrist turns from an angle that is 1.570800 rad from the object's"])
+    );
+    // The other way round, in the time of the shorter.
+    let found = reversed(0.0, to - std::f64::consts::TAU).refuted("task", &[1]);
+    assert!(found["steps"][1]["faults"][0].as_str().unwrap().starts_with("the wrist turns in"), "{found:#}");
+    // Not at all: carried as it lay, the board does not pass.
+    let mut task = shipped("board_turned");
+    task.result["steps"][1]["turn"] = Value::Null;
+    task.refuted("collision", &[2]);
+    // With a post in the way of the turn alone.
+    let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.52, 1.1], radius = 0.01 }\nheight = [0.0, 0.04]\n\n[[object]]";
+    let found = shipped("board_turned").in_world("[[object]]", post).found().1;
+    let turn = &found["steps"][1]["turn"];
+    assert_eq!((&found["steps"][1]["verdict"], &turn["contact"]["obstacle"]), (&json!("collision"), &json!("post")));
+    // The post's centre is 0.12 beside the tip, the board's long side 0.06: they touch when the one is 0.07 from the other's
+    // axis, whichever way the board turns.
+    let expected = (0.07_f64 / 0.12).acos();
+    let angle = |turn: &Value| number(&turn["contact"]["angle"]).unwrap();
+    assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
+    let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).found().1;
+    assert!((angle(&back["steps"][1]["turn"]) + expected).abs() < 1e-6, "{back:#}");
+}
+
+#[test]
+fn supports_that_are_none() {
+    let task = shipped("tower").in_world("at = [0.50, 0.45]\nsupports = [\"table\"]", "at = [0.50, 0.45]");
+    let found = task.refuted("collision", &[1]);
+    let hit = &found["first_contact"];
+    assert_eq!((&hit["obstacle"], &hit["body"]), (&json!("table"), &json!("base block")), "{hit:#}");
+}
+
+#[test]
+fn a_payload_that_is_larger() {
+    let board = |half: f64| format!("[[-{half}, -0.15], [{half}, -0.15], [{half}, 0.15], [-{half}, 0.15]]");
+    let task = shipped("board_turned").in_world(&board(0.06), &board(0.12));
+    let hit = &task.refuted("collision", &[2])["first_contact"];
+    assert_eq!(hit["body"], "board");
+    assert!(hit["obstacle"].as_str().unwrap().ends_with("wall"), "{hit:#}");
+}
+
+#[test]
+fn another_start() {
+    let tower = shipped("tower");
+    assert_eq!(tower.said(&["--start", "0.6,0.8", "--quiet"]).0, 0);
+    let (code, text, _) = tower.said(&["--start", "0.6,0.7"]);
+    assert_eq!(code, 3);
+    assert!(text.contains("step 1 (cycle 1): it does not begin at the start"), "{text}");
+    let (code, _, error) = tower.said(&["--picture", "a.svg"]);
+    assert_eq!(code, 2, "{error}");
+    assert!(error.contains("--picture"), "{error}");
+    // More than there is.
+    let (code, text, _) = shipped("sorting").said(&["--clearance", "0.01"]);
+    assert!(code == 3 && text.contains("nearer than the clearance to keep"), "{text}");
+}
+
+#[test]
+fn a_file_without_steps_is_one_motion() {
+    let mut tower = shipped("tower");
+    tower.result.as_object_mut().unwrap().remove("steps");
+    let (_, found) = tower.found();
+    assert!(found["steps"].is_null());
+    assert!(found["notes"].to_string().contains("the world has steps, the file none"), "{found:#}");
+    let (code, _, error) = tower.said(&["--start", "0,0"]);
+    assert_eq!(code, 2, "{error}");
+}
+
+#[test]
+fn steps_that_are_none_are_refused() {
+    let tower = shipped("tower");
+    let refused = |steps: Value, parts: &[&str]| {
+        let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
+        task.result["steps"] = steps;
+        let (code, text, error) = task.said(&[]);
+        assert_eq!((code, text.as_str()), (1, ""), "{error}");
+        for part in [&["error: ", "task.json"], parts].concat() {
+            assert!(error.contains(part) && !error.contains("panicked"), "no {part:?} in {error}");
+        }
+    };
+    let step = |members: Value| {
+        let mut step = json!({"step": 1, "cycle": 1, "first_sample": 0, "last_sample": 1});
+        step.as_object_mut().unwrap().extend(members.as_object().unwrap().clone());
+        json!([step])
+    };
+    refused(json!(7), &["line 1", "cure"]);
+    refused(json!([1]), &["line 1"]);
+    refused(json!([{}]), &["missing field `step`"]);
+    refused(json!([{"step": 1}]), &["missing field `cycle`"]);
+    refused(step(json!({"step": -1})), &["line 1"]);
+    refused(step(json!({"step": 1.5})), &["line 1"]);
+    refused(step(json!({"cycle": "one"})), &["line 1"]);
+    refused(step(json!({"first_sample": null})), &["steps[0]", "first_sample or last_sample is missing"]);
+    refused(step(json!({"first_sample": 1, "last_sample": 0})), &["steps[0]", "samples are 1 to 0"]);
+    refused(step(json!({"last_sample": u64::MAX})), &["steps[0]", "the trajectory has"]);
+    refused(step(json!({"turn": {"from": 0.0, "to": 1.0}})), &["missing field `seconds`"]);
+    refused(step(json!({"turn": {"from": 0.0, "to": 1e300, "seconds": 1.0}})), &["the turn's to is 1"]);
+
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
+        change(&mut task.result);
+        task.said(&[])
+    };
+    let (code, _, error) = with(&|result| {
+        result["trajectory"].as_object_mut().unwrap().remove("velocity");
+    });
+    assert!(code == 1 && error.contains("no trajectory with time, position and velocity"), "{error}");
+    let (code, _, error) = with(&|result| {
+        result.as_object_mut().unwrap().remove("trajectory");
+    });
+    assert!(code == 1 && error.contains("no trajectory with time, position and velocity"), "{error}");
+    // No steps, or any numbers that are none of the world's, are not the task.
+    for steps in [json!([]), step(json!({"step": 99})), step(json!({"cycle": 0}))] {
+        let (code, text, error) = with(&|result| result["steps"] = steps.clone());
+        assert!(code == 3 && text.contains("not the task"), "{text}{error}");
+    }
+}
