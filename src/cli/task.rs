@@ -78,7 +78,7 @@ fn picture<'a>(loaded: &'a LoadedTask, answer: &'a TaskAnswer, report: &TaskRepo
             let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
             ("done, certified", format!("{}: {steps} in {:.3} s, {kept}", report.planner(), answer.duration()))
         }
-        (TaskVerdict::Infeasible(_), _) => ("no way: proven", format!("{}: {steps} before it", report.planner())),
+        (TaskVerdict::Infeasible(_), _) => ("proven", format!("{}: {steps} before it", report.planner())),
         (TaskVerdict::Unknown(_), _) => ("unknown", format!("{}: {steps} before it", report.planner())),
     };
     TaskPicture {

@@ -1,6 +1,6 @@
 //! The arm among its obstacles.
 
-use super::{Arm, Grip, Obstacle, Part, Payload, Workspace};
+use super::{Arm, Grip, Part, Payload, Workspace};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -64,49 +64,23 @@ impl Scene {
     }
 
     /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
-    /// just let go of or is about to take. Where a payload may press into its supports, parts of it that are thinner than that (and the
-    /// clearance) do not count there.
+    /// just let go of or is about to take. Where a payload may press into its supports, parts of it that are thinner than
+    /// that (and the clearance) do not count there.
     #[must_use]
     pub fn handling(mut arm: Arm, workspace: Workspace, payload: Option<Payload>, spared: &[usize]) -> Self {
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len()];
-        let carried = payload.as_ref().map_or_else(Vec::new, |payload| {
-            payload.parts(&arm, workspace.clearance).into_iter().map(|part| (payload, part)).collect()
-        });
-        // Of each part of the payload, what of each obstacle it can meet.
-        let mut ranges: Vec<Vec<Range<usize>>> = Vec::new();
-        for (carrier, (shape, _)) in &carried {
-            let (part, level) = match carrier.grip {
-                Grip::Rigid(in_link) => (shape.at(&in_link), None),
-                Grip::Level { angle, point } => {
-                    let pose = Isometry2::rotation(angle) * Translation2::from(-point.coords);
-                    (Convex::disc(arm.tip, 0.0), Some(shape.at(&pose)))
-                }
-            };
-            let of = |(obstacle, differences): (&Obstacle, &mut Vec<Convex>)| {
-                let Some(level) = &level else { return 0..obstacle.pieces.len() };
-                let first = obstacle.pieces.len() + differences.len();
-                differences.extend(obstacle.pieces.iter().map(|piece| piece.minkowski_difference(level)));
-                first..obstacle.pieces.len() + differences.len()
-            };
-            ranges.push(workspace.obstacles.iter().zip(&mut differences).map(of).collect());
-            arm.links[1].parts.push(Part { shape: part, heights: carrier.heights, body: carrier.object.clone() });
-        }
+        let carried = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &mut differences));
+        arm.links[1].parts.extend(carried.iter().map(|(part, _)| part.clone()));
         let mut pairs = Vec::new();
         for (link, l) in arm.links.iter().enumerate() {
             for (part, p) in l.parts.iter().enumerate() {
-                let payload_part = (link == 1).then(|| part.checked_sub(own_parts)).flatten();
+                let meetable = (link == 1 && part >= own_parts).then(|| &carried[part - own_parts].1);
                 for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(|(_, o)| p.heights.meet(o.heights)) {
-                    let pieces = match payload_part {
-                        None if link == 1 && spared.contains(&obstacle) => continue,
+                    let pieces = match meetable {
+                        Some(meetable) => meetable[obstacle].clone(),
+                        None if link == 1 && spared.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
-                        Some(k) => {
-                            let (carrier, (_, meets)) = &carried[k];
-                            if !carrier.meets(*meets, obstacle) {
-                                continue;
-                            }
-                            ranges[k][obstacle].clone()
-                        }
                     };
                     pairs.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
                 }
@@ -194,7 +168,41 @@ impl Scene {
     }
 }
 
+/// Which pieces of each obstacle something can meet.
+type Meetable = Vec<Range<usize>>;
+
 impl Payload {
+    /// It as parts of link 2, each with what it can meet; what a level one makes of the obstacles' pieces is added to
+    /// `differences`.
+    fn on_link(&self, arm: &Arm, workspace: &Workspace, differences: &mut [Vec<Convex>]) -> Vec<(Part, Meetable)> {
+        let mut parts = Vec::new();
+        for (shape, kind) in self.parts(arm, workspace.clearance) {
+            let (on_link, level) = match self.grip {
+                Grip::Rigid(in_link) => (shape.at(&in_link), None),
+                Grip::Level { angle, point } => {
+                    let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
+                    (Convex::disc(arm.tip, 0.0), Some(shape.at(&about_tip)))
+                }
+            };
+            let mut meetable = Vec::new();
+            for (number, obstacle) in workspace.obstacles.iter().enumerate() {
+                let own = obstacle.pieces.len();
+                meetable.push(match &level {
+                    _ if !self.meets(kind, number) => 0..0,
+                    None => 0..own,
+                    Some(level) => {
+                        let first = own + differences[number].len();
+                        differences[number]
+                            .extend(obstacle.pieces.iter().map(|piece| piece.minkowski_difference(level)));
+                        first..first + own
+                    }
+                });
+            }
+            parts.push((Part { shape: on_link, heights: self.heights, body: self.object.clone() }, meetable));
+        }
+        parts
+    }
+
     /// Its pieces, and smaller ones for its supports, in its own frame.
     pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
         let whole = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others));

@@ -23,7 +23,6 @@ pub(super) struct Refusal {
 /// A motion with the turn that follows it.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
-    pub scene: Rc<Scene>,
     pub timed: Rc<Timed>,
     pub turn: Option<(WristTurn, f64)>,
 }
@@ -31,19 +30,28 @@ pub(super) struct Motion {
 /// What a scene depends on, bit by bit.
 type SceneKey = Vec<u64>;
 
-/// Plans motions, and remembers them: the same motion in the same scene is planned once.
+/// Plans motions, and remembers them: the same motion among the same things that can be hit is planned once.
 pub(super) struct Legs<'a> {
     task: &'a Task,
     manner: Manner,
-    scenes: BTreeMap<SceneKey, (usize, Rc<Scene>)>,
+    /// Scenes as far as they matter, by number.
+    numbers: BTreeMap<SceneKey, usize>,
     motions: BTreeMap<(usize, [u64; 5]), Result<Rc<Timed>, Refusal>>,
+    /// Whole scenes, for answers.
+    scenes: BTreeMap<SceneKey, Rc<Scene>>,
 }
 
 impl<'a> Legs<'a> {
     pub fn new(task: &'a Task, manner: Manner) -> Self {
         // Tasks bound times, not the lengths of paths.
         let effort = Effort { bounded: false, ..manner.effort };
-        Self { task, manner: Manner { effort, ..manner }, scenes: BTreeMap::new(), motions: BTreeMap::new() }
+        Self {
+            task,
+            manner: Manner { effort, ..manner },
+            numbers: BTreeMap::new(),
+            motions: BTreeMap::new(),
+            scenes: BTreeMap::new(),
+        }
     }
 
     /// Motions planned so far.
@@ -51,39 +59,48 @@ impl<'a> Legs<'a> {
         self.motions.len()
     }
 
+    /// The scene of a motion; the same one for the same state of the world.
+    pub fn scene(&mut self, from: &State, candidate: &Candidate) -> Rc<Scene> {
+        let key = scene_key(from, candidate, |_| true);
+        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(self.task, candidate))).clone()
+    }
+
     /// The motion to a candidate's target and the turn there.
     pub fn motion(&mut self, from: &State, candidate: &Candidate) -> Result<Motion, Refusal> {
-        if candidate.after.is_done(self.task) {
+        let task = self.task;
+        let after = from.after(task, candidate, candidate.to);
+        if after.is_done(task) {
             // No motion follows that would begin there.
-            let after = from.scene_after(self.task, candidate);
-            unobstructed(&after, candidate.to, "after it")?;
+            unobstructed(&after.standing(task, from.released), candidate.to, "after it")?;
         }
-        let key = scene_key(from, candidate);
-        let next = self.scenes.len();
-        let (number, scene) =
-            self.scenes.entry(key).or_insert_with(|| (next, Rc::new(from.scene(self.task, candidate)))).clone();
+        let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
+        let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
+        let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
+        let key = scene_key(from, candidate, matters);
+        let next = self.numbers.len();
+        let number = *self.numbers.entry(key).or_insert(next);
         let (q, to, speed) = (from.q, candidate.to, candidate.step.speed);
         let key = (number, [q[0], q[1], to[0], to[1], speed].map(f64::to_bits));
         let manner = self.manner;
-        let planned = self.motions.entry(key).or_insert_with(|| planned(&scene, q, to, speed, &manner).map(Rc::new));
-        let timed = planned.clone()?;
+        let plan = || planned(&from.scene(task, candidate), q, to, speed, &manner).map(Rc::new);
+        let timed = self.motions.entry(key).or_insert_with(plan).clone()?;
         let turn = candidate.turn.map(|turn| self.turn(from, candidate, turn)).transpose()?;
-        Ok(Motion { scene, timed, turn })
+        Ok(Motion { timed, turn })
     }
 
     /// The turn of the wrist at a candidate's target, and the seconds that it takes.
     fn turn(&self, from: &State, candidate: &Candidate, turn: [f64; 2]) -> Result<(WristTurn, f64), Refusal> {
         let unproven = |reason: &str| Refusal { reason: reason.to_owned(), proven: false };
-        let held = candidate.after.held.as_ref().or(from.held.as_ref());
-        let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = held else {
+        // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
+        let after = from.after(self.task, candidate, candidate.to);
+        let with = if after.held.is_some() { &after } else { from };
+        let Some(held @ Held { grip: Grip::Level { point, .. }, .. }) = &with.held else {
             return Err(unproven("nothing is held that could be turned"));
         };
         let Some(wrist) = self.task.wrist else {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
-        // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
-        let poses = if candidate.after.held.is_some() { &candidate.after.poses } else { &from.poses };
-        let (arm, workspace) = (&self.task.arm, self.task.obstacles(poses));
+        let (arm, workspace) = (&self.task.arm, self.task.obstacles(&with.poses));
         let found = wrist_turn(arm, &workspace, &payload(self.task, held), *point, candidate.to, turn);
         let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
         let seconds = rest_to_rest((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
@@ -139,9 +156,16 @@ fn planned(
     manner.drive.along(scene, &path, speed).map_err(|error| Refusal { reason: error.to_string(), proven: false })
 }
 
-fn scene_key(from: &State, candidate: &Candidate) -> SceneKey {
+/// What the scene of a motion depends on, of the objects that matter.
+fn scene_key(from: &State, candidate: &Candidate, matters: impl Fn(usize) -> bool) -> SceneKey {
     let mut key = Vec::new();
-    for pose in &from.poses {
+    let picked = match candidate.event {
+        Some(super::Event::Grasp { object }) => Some(object),
+        _ => None,
+    };
+    for (object, pose) in from.poses.iter().enumerate().filter(|(object, _)| matters(*object)) {
+        let spared = from.released == Some(object) || picked == Some(object);
+        key.extend([object as u64, u64::from(spared)]);
         match pose {
             None => key.push(u64::MAX),
             Some(pose) => key.extend([pose.translation.x, pose.translation.y, pose.rotation.angle()].map(f64::to_bits)),
@@ -155,10 +179,5 @@ fn scene_key(from: &State, candidate: &Candidate) -> SceneKey {
         }
         key.extend(held.supports.iter().map(|&support| support as u64));
     }
-    let picked = match candidate.event {
-        Some(super::Event::Grasp { object }) => object as u64,
-        _ => u64::MAX,
-    };
-    key.extend([from.released.map_or(u64::MAX, |object| object as u64), picked]);
     key
 }

@@ -63,8 +63,13 @@ enum After {
     One(Vec<f64>),
     /// Of a group in any order.
     Pairs(Table),
+    /// Of a group that is too large for that: from its beginning, wherever the arm is.
+    Many(f64),
     Nothing,
 }
+
+/// Pairs of a group up to which all subsets are looked at: some hundred thousand numbers.
+const MOST_PAIRS: usize = 12;
 
 /// Least seconds from within a group to the end of the task, by the pairs done (a bit each), one of these, and the place
 /// to stand at.
@@ -84,7 +89,9 @@ pub(super) struct Outlook<'a> {
 }
 
 impl<'a> Outlook<'a> {
-    /// `O(n b^2)` for `n` steps with `b` postures each, and `O(2^k k^2 b^2)` for a group of `k` pairs.
+    /// `O(n b^2)` for `n` steps with `b` postures each, and `O(2^k k^2 b^2)` for a group of up to [`MOST_PAIRS`] pairs, whose
+    /// best order is found. Of larger ones each pick is reached from the nearest place, and the farthest of these ways left out
+    /// for the first.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
         let mut outlook = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
@@ -93,7 +100,8 @@ impl<'a> Outlook<'a> {
                 Stops::One(stop) => {
                     After::One((0..stop.count()).map(|place| outlook.from(stop.at(place), item + 1)).collect())
                 }
-                Stops::Pairs(pairs) => After::Pairs(outlook.table(pairs, item)),
+                Stops::Pairs(pairs) if pairs.len() <= MOST_PAIRS => After::Pairs(outlook.table(pairs, item)),
+                Stops::Pairs(pairs) => After::Many(outlook.at_least(pairs, item)),
                 Stops::Nothing => After::Nothing,
             };
         }
@@ -120,6 +128,7 @@ impl<'a> Outlook<'a> {
         match (self.stops.get(item), self.after.get(item)) {
             (Some(Stops::One(stop)), Some(After::One(after))) => self.over(stop, q, after),
             (Some(Stops::Pairs(pairs)), Some(After::Pairs(table))) => self.next_pair(pairs, table, q, 0),
+            (Some(Stops::Pairs(_)), Some(After::Many(least))) => *least,
             (Some(_), _) => self.from(q, item + 1),
             (None, _) => 0.0,
         }
@@ -136,6 +145,29 @@ impl<'a> Outlook<'a> {
         let open = (0..pairs.len()).filter(|pair| done & (1 << pair) == 0);
         let by = |pair: usize| self.over(&pairs[pair][0], q, &table.picked[done | 1 << pair][pair]);
         open.map(by).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A bound for a group in any order and what follows it.
+    fn at_least(&self, pairs: &[[Stop; 2]], item: usize) -> f64 {
+        let least = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::INFINITY, f64::min);
+        let way = |from: &Stop, to: &Stop| {
+            let of = |at: usize| least(&mut (0..to.count()).map(|place| to.seconds(self.arm, from.at(at), place)));
+            least(&mut (0..from.count()).map(of))
+        };
+        let mut ways: Vec<f64> = (0..pairs.len())
+            .map(|pair| {
+                let others = (0..pairs.len()).filter(|other| *other != pair);
+                least(&mut others.map(|other| way(&pairs[other][1], &pairs[pair][0])))
+            })
+            .collect();
+        ways.sort_by(f64::total_cmp);
+        ways.pop();
+        let carried: f64 = pairs.iter().map(|[pick, place]| way(pick, place)).sum();
+        let ends = pairs.iter().flat_map(|[_, place]| (0..place.count()).map(|at| place.at(at)));
+        let onward = least(&mut ends.map(|end| self.from(end, item + 1)));
+        // The dwell at the first pick is in the way that is left out.
+        let dwell = pairs.iter().map(|[pick, _]| pick.dwell).fold(f64::INFINITY, f64::min);
+        ways.iter().sum::<f64>() + dwell + carried + onward
     }
 
     fn table(&self, pairs: &[[Stop; 2]], item: usize) -> Table {
@@ -235,6 +267,68 @@ fn targets(
             let exact = turned.map(|angle| Isometry2::new(at.coords, angle) * grasp);
             lies[object] = Lies { at: *at, angle: turned };
             tip_to(exact.or_else(|| lies[object].place_of(grasp)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+    use crate::model::{Joint, Link, Motion, OutlineSource, Plane};
+    use crate::space::Axis;
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    fn arm() -> Arm {
+        let joint = |name: &str| Joint {
+            name: name.into(),
+            motion: Motion::Revolute { sign: 1.0 },
+            axis: Axis::Circle,
+            velocity: 2.0,
+            acceleration: 9.0,
+            jerk: None,
+        };
+        let link = |name: &str| Link { name: name.into(), parts: Vec::new(), source: OutlineSource::None };
+        Arm {
+            name: "arm".into(),
+            joints: [joint("a"), joint("b")],
+            links: [link("a"), link("b")],
+            base: Point::origin(),
+            offset: Vector::new(1.0, 0.0),
+            tip: Point::new(0.7, 0.0),
+            tip_name: "tip".into(),
+            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        /// What is said of large groups is less than the best of all orders.
+        #[test]
+        fn the_bound_of_a_large_group_is_a_bound(
+            spots in prop::collection::vec(((0.4..1.6f64, -3.0..3.0f64), (0.4..1.6f64, -3.0..3.0f64)), 2..7),
+            dwells in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64), 7),
+        ) {
+            let arm = arm();
+            let stop = |(radius, angle): (f64, f64), dwell| Stop {
+                postures: Some(postures(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
+                speed: 1.0,
+                dwell,
+            };
+            let pairs: Vec<[Stop; 2]> = spots.iter().zip(&dwells).map(|((a, b), (c, d))| [stop(*a, *c), stop(*b, *d)]).collect();
+            let home = stop((1.2, 0.3), 0.1);
+            let mut outlook = Outlook {
+                arm: &arm,
+                after: vec![After::Nothing, After::One(vec![0.0; home.count()])],
+                stops: vec![Stops::Pairs(pairs.clone()), Stops::One(home)],
+            };
+            let least = outlook.at_least(&pairs, 0);
+            outlook.after[0] = After::Pairs(outlook.table(&pairs, 0));
+            let best = outlook.from(Some(Configuration::new(0.3, -1.0)), 0);
+            prop_assert!(least <= best + 1e-12, "{least} {best}");
+            prop_assert!(least > 0.0);
         }
     }
 }

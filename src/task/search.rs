@@ -2,6 +2,7 @@
 
 use super::Manner;
 use super::answer::{Impossible, Leg, TaskAnswer, TaskVerdict};
+use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::order;
 use super::outlook::Outlook;
@@ -31,6 +32,12 @@ const PATIENCE: usize = 10;
 pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     let (settled, ordered) = order::settled(task);
     let outlook = Outlook::new(&settled);
+    let start = State::at_start(&settled);
+    // An order that was settled on bounds nothing but itself.
+    let lower_bound = match ordered {
+        true => Outlook::new(task).remaining(task.start, State::at_start(task).progress),
+        false => outlook.remaining(start.q, start.progress),
+    };
     let mut search = Search {
         task: &settled,
         outlook: &outlook,
@@ -44,18 +51,25 @@ pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> Tas
         complete: !ordered,
         expanded: 0,
     };
-    search.run(progress)
+    search.run(start, lower_bound, progress)
 }
 
-/// A state and how it is reached.
-struct Node {
-    state: State,
+/// A way to a state.
+struct Node<'a> {
     parent: Option<usize>,
     /// Steps done.
     depth: usize,
     /// Seconds to here; a lower bound while the motion is not planned.
     seconds: f64,
-    way: Option<(Candidate, Option<Motion>)>,
+    stage: Stage<'a>,
+}
+
+/// How far a node is looked into.
+enum Stage<'a> {
+    /// The motion is not planned yet.
+    Pending(Candidate<'a>),
+    /// The motion is planned; none to the start.
+    Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
 }
 
 /// By least total time; of equals the one that is farther, then the earlier found.
@@ -65,13 +79,13 @@ struct Search<'a> {
     task: &'a Task,
     outlook: &'a Outlook<'a>,
     legs: Legs<'a>,
-    nodes: Vec<Node>,
+    nodes: Vec<Node<'a>>,
     open: BinaryHeap<Entry>,
     closed: BTreeSet<Vec<i64>>,
     /// Weight of what is left.
     haste: f64,
     /// Steps that could not be done: after how many steps, which, and why.
-    refused: Vec<(usize, usize, Step, Refusal)>,
+    refused: Vec<(usize, usize, &'a Step, Refusal)>,
     /// Whether what is found is the fastest of all that is looked at.
     exact: bool,
     /// Whether all there is is looked at.
@@ -79,11 +93,9 @@ struct Search<'a> {
     expanded: usize,
 }
 
-impl Search<'_> {
-    fn run(&mut self, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-        let start = State::at_start(self.task);
-        let lower_bound = self.outlook.remaining(start.q, start.progress);
-        self.push(Node { state: start, parent: None, depth: 0, seconds: 0.0, way: None });
+impl<'a> Search<'a> {
+    fn run(&mut self, start: State, lower_bound: f64, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+        self.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
         let mut told = 0;
         while let Some(Reverse((_, _, index))) = self.open.pop() {
             if self.legs.planned() >= told + NEWS {
@@ -101,15 +113,15 @@ impl Search<'_> {
                 }
                 self.hurry();
             }
-            if matches!(self.nodes[index].way, Some((_, None))) {
+            let Stage::Reached(state, _) = &self.nodes[index].stage else {
                 self.settle(index);
                 continue;
-            }
-            if !self.closed.insert(self.nodes[index].state.key(self.task)) {
+            };
+            if !self.closed.insert(state.key(self.task)) {
                 continue;
             }
             self.expanded += 1;
-            if self.nodes[index].state.is_done(self.task) {
+            if state.is_done(self.task) {
                 return self.answer(TaskVerdict::Done, index, lower_bound);
             }
             self.expand(index);
@@ -117,13 +129,17 @@ impl Search<'_> {
         self.failure(lower_bound)
     }
 
-    fn push(&mut self, node: Node) {
+    fn push(&mut self, node: Node<'a>) {
         self.open.push(self.entry(&node, self.nodes.len()));
         self.nodes.push(node);
     }
 
     fn entry(&self, node: &Node, index: usize) -> Entry {
-        let left = self.outlook.remaining(node.state.q, node.state.progress);
+        let (q, progress) = match &node.stage {
+            Stage::Pending(candidate) => (candidate.to, candidate.progress),
+            Stage::Reached(state, _) => (state.q, state.progress),
+        };
+        let left = self.outlook.remaining(q, progress);
         Reverse((Ordered(node.seconds + self.haste * left), Reverse(node.depth), index))
     }
 
@@ -136,17 +152,19 @@ impl Search<'_> {
 
     /// Plans the motion to a node.
     fn settle(&mut self, index: usize) {
-        let node = &self.nodes[index];
-        let (Some(parent), Some((candidate, None))) = (node.parent, &node.way) else { return };
-        let candidate = candidate.clone();
-        match self.legs.motion(&self.nodes[parent].state, &candidate) {
+        let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
+            return;
+        };
+        let candidate = *candidate;
+        let Stage::Reached(from, _) = &self.nodes[parent].stage else { return };
+        match self.legs.motion(from, &candidate) {
             Ok(motion) => {
                 let turn = motion.turn.map_or(0.0, |(_, seconds)| seconds);
-                let before = self.nodes[parent].seconds;
+                let seconds = motion.timed.trajectory.duration() + turn + candidate.step.dwell;
+                let state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
+                let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
-                node.seconds = before + motion.timed.trajectory.duration() + turn + candidate.step.dwell;
-                node.state.q = motion.timed.curve.curve().path().goal();
-                node.way = Some((candidate, Some(motion)));
+                (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
                 let entry = self.entry(&self.nodes[index], index);
                 self.open.push(entry);
             }
@@ -155,7 +173,7 @@ impl Search<'_> {
     }
 
     fn expand(&mut self, index: usize) {
-        let Node { state, depth, seconds, .. } = &self.nodes[index];
+        let Node { stage: Stage::Reached(state, _), depth, seconds, .. } = &self.nodes[index] else { return };
         let (depth, seconds, from) = (*depth, *seconds, state.q);
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
@@ -165,37 +183,33 @@ impl Search<'_> {
                 self.refused.push((depth, index, candidates.step, refusal));
             }
             for way in candidates.ways {
-                let step = &way.step;
                 let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
-                let least = super::least_time::least_time(&self.task.arm, from, way.to, step.speed) + turn + step.dwell;
-                let state = way.after.clone();
-                let node = Node {
-                    state,
-                    parent: Some(index),
-                    depth: depth + 1,
-                    seconds: seconds + least,
-                    way: Some((way, None)),
-                };
-                self.push(node);
+                let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn + way.step.dwell;
+                let stage = Stage::Pending(way);
+                self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
         }
     }
 
     /// The steps up to a node.
-    fn answer(&self, verdict: TaskVerdict, index: usize, lower_bound: f64) -> TaskAnswer {
+    fn answer(&mut self, verdict: TaskVerdict, index: usize, lower_bound: f64) -> TaskAnswer {
         let mut legs = Vec::new();
         let mut at = Some(index);
         while let Some(node) = at.map(|index| &self.nodes[index]) {
-            if let (Some(parent), Some((candidate, Some(motion)))) = (node.parent, &node.way) {
-                let before = &self.nodes[parent];
+            let before = node.parent.map(|parent| &self.nodes[parent]);
+            if let (
+                Some(Node { stage: Stage::Reached(from, _), seconds, .. }),
+                Stage::Reached(_, Some((candidate, motion))),
+            ) = (before, &node.stage)
+            {
                 legs.push(Leg {
                     step: candidate.step.clone(),
-                    scene: motion.scene.clone(),
-                    carried: before.state.held.as_ref().map(|held| held.object),
+                    scene: self.legs.scene(from, candidate),
+                    carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,
                     event: candidate.event,
-                    begin: before.seconds,
+                    begin: *seconds,
                 });
             }
             at = node.parent;
@@ -212,10 +226,9 @@ impl Search<'_> {
     }
 
     /// What can be done, and why no more.
-    fn failure(&self, lower_bound: f64) -> TaskAnswer {
+    fn failure(&mut self, lower_bound: f64) -> TaskAnswer {
         // Of the places where it ends, the farthest; of these the one reached first.
-        let reached = |node: &Node| matches!(node.way, None | Some((_, Some(_))));
-        let farthest = self.refused.iter().filter(|(_, node, ..)| reached(&self.nodes[*node]));
+        let farthest = self.refused.iter();
         let depth = farthest.clone().map(|(depth, ..)| *depth).max().unwrap_or(0);
         let mut at_depth = farthest.filter(|(d, ..)| *d == depth);
         let Some((_, index, step, _)) = at_depth.clone().next() else {
@@ -227,9 +240,10 @@ impl Search<'_> {
                 reasons.push(refusal.reason.clone());
             }
         }
-        let impossible = Impossible { step: step.clone(), reasons };
+        let impossible = Impossible { step: (*step).clone(), reasons };
         let proven = self.complete && self.refused.iter().all(|(.., refusal)| refusal.proven);
         let verdict = if proven { TaskVerdict::Infeasible(impossible) } else { TaskVerdict::Unknown(impossible) };
-        self.answer(verdict, *index, lower_bound)
+        let index = *index;
+        self.answer(verdict, index, lower_bound)
     }
 }

@@ -7,6 +7,7 @@ use crate::model::{Action, Grip, Holding, Item, Payload, Scene, Step, Task};
 use crate::space::Configuration;
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
+use std::rc::Rc;
 
 /// How much of the items is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,29 +35,31 @@ pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
     /// Of each object, where it lies; none while it is carried.
-    pub poses: Vec<Option<Pose>>,
+    pub poses: Rc<[Option<Pose>]>,
     pub held: Option<Held>,
     /// The object just let go of.
     pub released: Option<usize>,
 }
 
 /// One way to do the next step.
-#[derive(Debug, Clone)]
-pub(super) struct Candidate {
-    pub step: Step,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Candidate<'a> {
+    pub step: &'a Step,
     /// Where the motion is to end.
     pub to: Configuration,
     /// Orientations between which the wrist has to turn the object then.
     pub turn: Option<[f64; 2]>,
     pub event: Option<Event>,
-    /// How everything is then, but for turns of the joints.
-    pub after: State,
+    /// How an object is held that is taken.
+    grip: Option<Grip>,
+    /// What is done then.
+    pub progress: Progress,
 }
 
 /// The ways to do a step.
-pub(super) struct Candidates {
-    pub step: Step,
-    pub ways: Vec<Candidate>,
+pub(super) struct Candidates<'a> {
+    pub step: &'a Step,
+    pub ways: Vec<Candidate<'a>>,
     /// Whether there are no other ways.
     pub all: bool,
 }
@@ -115,12 +118,11 @@ impl State {
         Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 
-    /// The scene of standing still after a candidate: link 2 may still be within the object that it has let go of before.
-    pub fn scene_after(&self, task: &Task, candidate: &Candidate) -> Scene {
-        let after = &candidate.after;
+    /// The scene of standing still: link 2 may still be within an object that it has `left` before.
+    pub fn standing(&self, task: &Task, left: Option<usize>) -> Scene {
         let spared: Vec<usize> =
-            self.released.into_iter().chain(after.released).map(|object| task.obstacle_number(object)).collect();
-        Scene::handling(task.arm.clone(), task.obstacles(&after.poses), after.payload(task), &spared)
+            left.into_iter().chain(self.released).map(|object| task.obstacle_number(object)).collect();
+        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 
     /// What the arm carries.
@@ -129,10 +131,13 @@ impl State {
     }
 
     /// The ways to do each of the steps that can be next.
-    pub fn candidates(&self, task: &Task) -> Vec<Candidates> {
+    pub fn candidates<'a>(&self, task: &'a Task) -> Vec<Candidates<'a>> {
         let Some(item) = task.items.get(self.progress.item) else { return Vec::new() };
         match (item, self.progress.half) {
-            (Item::Step(step), _) => vec![self.ways(task, step, following_place(task, self.progress.item), None)],
+            (Item::Step(step), _) => {
+                let place = following_place(task, self.progress.item);
+                vec![self.ways(task, step, place, None)]
+            }
             (Item::AnyOrder(pairs), Some(half)) => vec![self.ways(task, &pairs[half][1], None, Some(half))],
             (Item::AnyOrder(pairs), None) => {
                 let open = (0..pairs.len()).filter(|pair| self.progress.done & (1 << pair) == 0);
@@ -143,52 +148,37 @@ impl State {
         }
     }
 
-    fn ways(&self, task: &Task, step: &Step, place: Option<&Step>, pair: Option<usize>) -> Candidates {
-        let mut candidates = Candidates { step: step.clone(), ways: Vec::new(), all: true };
-        let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, held: Option<Held>| {
-            let mut after = Self { q: to, held, released: None, ..self.clone() };
-            match event {
-                Some(Event::Grasp { object }) => after.poses[object] = None,
-                Some(Event::Release { object, pose }) => {
-                    after.poses[object] = Some(pose);
-                    after.released = Some(object);
-                }
-                None => {}
-            }
-            after.progress = self.progress.after(&step.action, pair, task);
-            candidates.ways.push(Candidate { step: step.clone(), to, turn, event, after: after.settled(task) });
+    /// The ways to do a step; `place` is the one that follows a pick.
+    fn ways<'a>(&self, task: &'a Task, step: &'a Step, place: Option<&Step>, pair: Option<usize>) -> Candidates<'a> {
+        let progress = self.progress.after(&step.action, pair, task);
+        let mut ways = Vec::new();
+        let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, grip: Option<Grip>| {
+            ways.push(Candidate { step, to, turn, event, grip, progress });
         };
         let arm = &task.arm;
         let reach = match (&step.action, &self.held) {
-            (Action::Move(goal), held) => {
+            (Action::Move(goal), _) => {
                 let reach = goal_postures(arm, goal, self.q);
-                reach.configurations.iter().for_each(|&to| add(to, None, None, held.clone()));
+                reach.configurations.iter().for_each(|&to| add(to, None, None, None));
                 reach
             }
-            (Action::Pick { object, grasp, supports }, None) => {
-                let Some(lies) = self.poses[*object] else { return Candidates { all: false, ..candidates } };
+            (Action::Pick { object, grasp, .. }, None) => {
+                let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
                 let reach = postures(arm, arm.tip, lies * grasp, self.q);
-                let mut supports = supports.clone();
-                let wanted = place.and_then(|place| match &place.action {
-                    Action::Place { angle, supports: then, .. } => {
-                        supports.extend(then);
-                        *angle
-                    }
+                let wanted = place.and_then(|place| match place.action {
+                    Action::Place { angle, .. } => angle,
                     _ => None,
                 });
-                supports.sort_unstable();
-                supports.dedup();
                 let event = Some(Event::Grasp { object: *object });
-                let hold = |grip| Some(Held { object: *object, grip, supports: supports.clone() });
                 for &to in &reach.configurations {
                     match task.objects[*object].holding {
-                        Holding::Rigid => add(to, None, event, hold(Payload::rigid_grip(arm, to, &lies))),
+                        Holding::Rigid => add(to, None, event, Some(Payload::rigid_grip(arm, to, &lies))),
                         Holding::Level => {
                             let angle = lies.rotation.angle();
-                            add(to, None, event, hold(Grip::Level { angle, point: *grasp }));
+                            add(to, None, event, Some(Grip::Level { angle, point: *grasp }));
                             if let Some(wanted) = wanted.filter(|wanted| !same_angle(*wanted, angle)) {
                                 let grip = Grip::Level { angle: wanted, point: *grasp };
-                                add(to, Some([angle, wanted]), event, hold(grip));
+                                add(to, Some([angle, wanted]), event, Some(grip));
                             }
                         }
                     }
@@ -221,18 +211,38 @@ impl State {
             }
             // The loader lets picks and places alternate.
             (Action::Pick { .. }, Some(_)) | (Action::Place { .. }, None) => {
-                return Candidates { all: false, ..candidates };
+                return Candidates { step, ways, all: false };
             }
         };
         // A turn could also be made on the way.
-        let turns = candidates.ways.iter().any(|way| way.turn.is_some());
-        Candidates { all: reach.all && !turns, ..candidates }
+        let turns = ways.iter().any(|way| way.turn.is_some());
+        Candidates { step, ways, all: reach.all && !turns }
+    }
+
+    /// The state after a candidate's step, with the arm at `q`.
+    pub fn after(&self, task: &Task, candidate: &Candidate, q: Configuration) -> Self {
+        let mut poses = self.poses.clone();
+        let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
+        match candidate.event {
+            Some(Event::Grasp { object }) => {
+                Rc::make_mut(&mut poses)[object] = None;
+                let supports = supports(candidate.step, self.progress.place(task, candidate));
+                after.held = candidate.grip.map(|grip| Held { object, grip, supports });
+            }
+            Some(Event::Release { object, pose }) => {
+                Rc::make_mut(&mut poses)[object] = Some(pose);
+                (after.held, after.released) = (None, Some(object));
+            }
+            None => {}
+        }
+        Self { poses, ..after }.settled(task)
     }
 
     /// Supplies what is to be renewed before the next step.
     fn settled(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
-            objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+            let poses = Rc::make_mut(&mut self.poses);
+            objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
             self.progress.item += 1;
         }
         self
@@ -240,6 +250,14 @@ impl State {
 }
 
 impl Progress {
+    /// The place that ends the carrying that a candidate begins.
+    fn place<'a>(self, task: &'a Task, candidate: &Candidate) -> Option<&'a Step> {
+        match (&task.items[self.item], candidate.progress.half) {
+            (Item::AnyOrder(pairs), Some(pair)) => Some(&pairs[pair][1]),
+            _ => following_place(task, self.item),
+        }
+    }
+
     fn after(self, action: &Action, pair: Option<usize>, task: &Task) -> Self {
         let next = Self { item: self.item + 1, done: 0, half: None };
         let Some(pair) = pair else { return next };
@@ -262,6 +280,19 @@ pub(super) fn payload(task: &Task, held: &Held) -> Payload {
         grip: held.grip,
         supports: held.supports.clone(),
     }
+}
+
+/// What an object may touch from the pick to the place: obstacles by number, ascending.
+fn supports(pick: &Step, place: Option<&Step>) -> Vec<usize> {
+    let of = |step: &Step| match &step.action {
+        Action::Pick { supports, .. } | Action::Place { supports, .. } => supports.clone(),
+        Action::Move(_) => Vec::new(),
+    };
+    let mut both = of(pick);
+    both.extend(place.map(of).unwrap_or_default());
+    both.sort_unstable();
+    both.dedup();
+    both
 }
 
 /// The place that ends the carrying that begins with an item.

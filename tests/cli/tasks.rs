@@ -250,6 +250,8 @@ fn the_first_step_that_fails_is_named() {
         assert_eq!(result["events"].as_array().unwrap().len(), 1);
         assert!(done.stderr.contains("a.csv is not written") && place.read("a.csv") == "old", "{}", done.stderr);
         let text = place.task(steps, "").stdout;
+        assert_eq!(place.task(steps, "--quiet --picture a.svg").code, code);
+        assert!(place.read("a.svg").contains(if code == 3 { "step 2 fails: proven" } else { "step 2 fails: unknown" }));
         for part in [verdict, "why ", "1 step can be done"] {
             assert!(text.contains(part), "{part:?} is not in: {text}");
         }

@@ -68,16 +68,10 @@ impl Bitmap {
                 if corner && !through.contains(&Cell::Mixed) {
                     continue;
                 }
-                let mut at = [(cell % CELLS) as i64 + dx, (cell / CELLS) as i64 + dy];
-                let mut inside = true;
-                for k in 0..2 {
-                    if self.axes[k].2 {
-                        at[k] = at[k].rem_euclid(CELLS as i64);
-                    }
-                    inside &= (0..CELLS as i64).contains(&at[k]);
-                }
-                if inside {
-                    open.push(at[1] as usize * CELLS + at[0] as usize);
+                let at = [(cell % CELLS) as i64 + dx, (cell / CELLS) as i64 + dy];
+                let wrapped = [0, 1].map(|k| if self.axes[k].2 { at[k].rem_euclid(CELLS as i64) } else { at[k] });
+                if wrapped.iter().all(|k| (0..CELLS as i64).contains(k)) {
+                    open.push(wrapped[1] as usize * CELLS + wrapped[0] as usize);
                 }
             }
         }

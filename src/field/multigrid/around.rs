@@ -3,42 +3,6 @@
 use super::machine::{LANES, Machine, packs};
 use super::stencil::Stencil;
 
-/// A row and what is beside it.
-pub(super) struct Around<'a, T> {
-    pub middle: &'a [[T; LANES]],
-    west: &'a [[T; LANES]],
-    east: &'a [[T; LANES]],
-    above: &'a [[T; LANES]],
-    below: &'a [[T; LANES]],
-}
-
-impl<'a, T> Around<'a, T> {
-    /// From a row in the middle of its neighbours, each with the cell before and the one after.
-    #[inline(always)]
-    pub fn new([above, middle, below]: [&'a [T]; 3], count: usize) -> Self {
-        let [west, middle, east] = [packs(middle, 0, count), packs(middle, 1, count), packs(middle, 2, count)];
-        Self { middle, west, east, above: packs(above, 1, count), below: packs(below, 1, count) }
-    }
-}
-
-impl Around<'_, f32> {
-    /// Sum over the four neighbours.
-    #[inline(always)]
-    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
-        (m.pack(&self.west[k]) + m.pack(&self.east[k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
-    }
-}
-
-impl Around<'_, f64> {
-    /// `degree` times the row less the four neighbours.
-    #[inline(always)]
-    pub fn applied<M: Machine>(&self, m: M, degree: M::Double, k: usize) -> M::Double {
-        let sides = m.pack_double(&self.west[k]) + m.pack_double(&self.east[k]);
-        let around = sides + (m.pack_double(&self.above[k]) + m.pack_double(&self.below[k]));
-        degree * m.pack_double(&self.middle[k]) - around
-    }
-}
-
 /// Consecutive packs.
 type Packs<'a> = &'a [[f32; LANES]];
 

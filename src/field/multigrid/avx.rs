@@ -120,12 +120,22 @@ impl Machine for V3 {
     }
 
     #[inline(always)]
-    fn abs(self, x: Doubles) -> Doubles {
+    fn abs(self, x: Singles) -> Singles {
+        Singles(self, self.abs_f32s(x.1))
+    }
+
+    #[inline(always)]
+    fn abs_double(self, x: Doubles) -> Doubles {
         Doubles(self, x.1.map(|half| self.abs_f64s(half)))
     }
 
     #[inline(always)]
-    fn greater(self, a: Doubles, b: Doubles) -> Doubles {
+    fn greater(self, a: Singles, b: Singles) -> Singles {
+        Singles(self, self.max_f32s(a.1, b.1))
+    }
+
+    #[inline(always)]
+    fn greater_double(self, a: Doubles, b: Doubles) -> Doubles {
         Doubles(self, [self.max_f64s(a.1[0], b.1[0]), self.max_f64s(a.1[1], b.1[1])])
     }
 }

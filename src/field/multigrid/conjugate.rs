@@ -1,12 +1,18 @@
-//! The passes of conjugate gradients over their vectors, in double precision.
+//! The passes of conjugate gradients, for the even cells, and of the finest level of the preconditioner.
+//!
+//! Vectors are kept in single precision; what they are multiplied with the operator is computed in double precision from
+//! them, so that rounding stays in proportion to the residuals. The preconditioner's smoother on the finest level is one
+//! step of Jacobi's method on the system of the even cells, which is one of Gauss-Seidel's by colours on that of all.
+//! After it the residual of the odd cells is zero, and so they are neither restricted nor interpolated.
 
-use super::around::Around;
-use super::machine::{LANES, Machine, Pack, packs, packs_mut};
-use super::solve::Workspace;
-use super::stencil::FivePoint;
+use super::band::{Band, Colour};
+use super::chequer::{Chequer, Shape};
+use super::cycle::Stack;
+use super::machine::{Machine, Pack};
+use super::transfer::Corners;
 
-/// Residuals less than this part of the greatest of the start are 0 to the preconditioner: in single precision they would
-/// only become subnormal numbers, which are slow, along its way.
+/// Residuals less than this part of the greatest of the start are 0: in single precision they would only become subnormal
+/// numbers, which are slow.
 const NEGLIGIBLE: f32 = 1e-25;
 
 /// A right-hand side.
@@ -17,231 +23,345 @@ pub(super) enum Right<'a> {
     Unit(usize),
 }
 
-/// The vectors in the course of a solve. Walls are no unknowns: the direction is 0 there, and what the residual is there
-/// is never looked at.
-pub(super) struct State<'a, M> {
-    m: M,
-    operator: &'a FivePoint,
-    values: &'a mut [f64],
-    pub work: &'a mut Workspace,
-    /// The residual is given to the preconditioner times this, which makes the greatest of the start 1.
-    scale: f64,
-    /// Of the last pack of a row, see [`Frame::tail`](super::frame::Frame::tail).
-    tail: [f64; LANES],
+/// Vectors that a solve works with, kept from one solve to the next, also of other walls on a grid of the same shape.
+/// About 16 bytes a cell, 36 on a circle of rows.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    shape: Shape,
+    pub(super) stack: Stack,
+    pub(super) residual: Band<f32>,
+    /// What the preconditioner makes of the residual, and its product with the operator.
+    pub(super) advice: Band<f32>,
+    advice_image: Band<f32>,
+    direction: Band<f32>,
+    direction_image: Band<f32>,
+    /// The sum of all steps since the residual was computed last.
+    sum: Band<f32>,
+    even: Band<f32>,
+    odd: Band<f32>,
+    exact_even: Band<f64>,
+    exact_odd: Band<f64>,
+    right_even: Band<f64>,
+    right_odd: Band<f64>,
 }
 
-impl<'a, M: Machine> State<'a, M> {
-    /// Reads right-hand side and start, and sets the right-hand side of the preconditioner.
-    pub fn new(m: M, operator: &'a FivePoint, right: Right, values: &'a mut [f64], work: &'a mut Workspace) -> Self {
-        let frame = operator.frame;
-        let columns = frame.columns;
-        // The start lies in `direction`, with its frame, until the residual is known.
-        let mut from_zero = true;
-        for (i, values) in values.chunks_exact_mut(columns).enumerate() {
-            let row = frame.row(i);
-            let start = &mut work.direction[row.clone()];
-            for ((to, value), &free) in start.iter_mut().zip(values).zip(&operator.free[row.clone()]) {
-                *value = if free > 0.0 { *value } else { 0.0 };
-                from_zero &= *value == 0.0;
-                *to = *value;
-            }
-            start[columns..].fill(0.0);
-            match right {
-                Right::Given(right) => {
-                    let (cells, padding) = work.residual[row].split_at_mut(columns);
-                    cells.copy_from_slice(&right[i * columns..(i + 1) * columns]);
-                    padding.fill(0.0);
-                }
-                Right::Unit(cell) => {
-                    work.residual[row.clone()].fill(0.0);
-                    if cell / columns == i {
-                        work.residual[row][cell % columns] = 1.0;
-                    }
-                }
-            }
+/// A step along the next direction, the advice and `beta` times the last one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    pub alpha: f64,
+    pub beta: f64,
+}
+
+/// Greatest magnitudes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Greatest {
+    pub value: f64,
+    /// Of the last step, or of the residual.
+    pub change: f64,
+}
+
+impl Workspace {
+    pub(super) fn new(chequer: &Chequer, stack: Stack) -> Self {
+        Self {
+            shape: chequer.shape,
+            stack,
+            residual: chequer.band(),
+            advice: chequer.band(),
+            advice_image: chequer.band(),
+            direction: chequer.band(),
+            direction_image: chequer.band(),
+            sum: chequer.band(),
+            even: chequer.narrow_band(),
+            odd: chequer.narrow_band(),
+            exact_even: chequer.narrow_band(),
+            exact_odd: chequer.narrow_band(),
+            right_even: chequer.narrow_band(),
+            right_odd: chequer.narrow_band(),
         }
-        let mut state = Self { m, operator, values, work, scale: 1.0, tail: frame.tail() };
-        if !from_zero {
-            state.subtract_start(right);
-        }
-        let largest = state.largest_residual();
-        if largest > 0.0 {
-            state.scale = 1.0 / largest;
-        }
-        state.give_residual();
-        state
     }
 
-    /// Takes what the start, which lies in `direction`, makes up for off the residual; leaves a direction of zeros.
-    fn subtract_start(&mut self, right: Right) {
-        let (m, operator) = (self.m, self.operator);
-        let frame = operator.frame;
-        let Workspace { residual, direction, .. } = &mut *self.work;
-        frame.finish(direction);
-        if let Right::Unit(cell) = right {
-            // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell is 1.
-            let ([above, middle, below], j) = (frame.three(direction, cell / frame.columns), cell % frame.columns + 1);
-            let source = operator.degree * middle[j] - ((middle[j - 1] + middle[j + 1]) + (above[j] + below[j]));
-            if source > 0.0 {
-                self.values.iter_mut().for_each(|value| *value /= source);
-                direction.iter_mut().for_each(|value| *value /= source);
-            }
+    /// Whether it is for grids of this shape.
+    pub(super) fn is_for(&self, chequer: &Chequer) -> bool {
+        self.shape == chequer.shape
+    }
+
+    /// Forgets all steps.
+    pub(super) fn rest(&mut self) {
+        for band in [&mut self.sum, &mut self.direction, &mut self.direction_image] {
+            band.data.fill(0.0);
         }
+    }
+
+    /// Takes a step, smooths from zero and restricts; the greatest change and the greatest sum of changes.
+    pub(super) fn descend<M: Machine>(
+        &mut self,
+        m: M,
+        chequer: &Chequer,
+        corners: &Corners,
+        step: Option<Step>,
+    ) -> Greatest {
+        let count = chequer.count();
+        let inverse = m.all((1.0 / chequer.degree) as f32);
+        let into = &mut self.stack.levels[0].right;
+        let (mut change, mut most) = (m.all(0.0), m.all(0.0));
         m.run(
             #[inline(always)]
             || {
-                let (degree, count) = (m.all_double(operator.degree), frame.width / LANES);
-                for i in 0..frame.rows {
-                    let around = Around::new(frame.three(direction, i), count);
-                    let residual = packs_mut(residual, frame.row(i).start, count);
-                    for (k, residual) in residual.iter_mut().enumerate() {
-                        (m.pack_double(residual) - around.applied(m, degree, k)).store(residual, 0);
-                    }
-                }
+                chequer.pipeline(
+                    4,
+                    #[inline(always)]
+                    |stage, i| match stage {
+                        0 => {
+                            if let Some(Step { alpha, beta }) = step {
+                                let (alpha, beta) = (m.all(alpha as f32), m.all(beta as f32));
+                                let (advice, image) = (self.advice.row(i, count), self.advice_image.row(i, count));
+                                let directions = self.direction.row_mut(i, count).iter_mut();
+                                let images = self.direction_image.row_mut(i, count).iter_mut();
+                                let (sums, residuals) =
+                                    (self.sum.row_mut(i, count).iter_mut(), self.residual.row_mut(i, count));
+                                let rows =
+                                    advice.iter().zip(image).zip(directions).zip(images).zip(sums).zip(residuals);
+                                let (mut change_here, mut most_here) = (change, most);
+                                for (((((advice, image), direction), images), sum), residual) in rows {
+                                    let next = m.pack(advice) + beta * m.pack(direction);
+                                    next.store(direction, 0);
+                                    let moved = alpha * next;
+                                    let next = m.pack(image) + beta * m.pack(images);
+                                    next.store(images, 0);
+                                    let left = m.pack(residual) - alpha * next;
+                                    m.significant(left, NEGLIGIBLE).store(residual, 0);
+                                    let total = m.pack(sum) + moved;
+                                    total.store(sum, 0);
+                                    change_here = m.greater(change_here, m.abs(moved));
+                                    most_here = m.greater(most_here, m.abs(total));
+                                }
+                                (change, most) = (change_here, most_here);
+                                chequer.frame_even(&mut self.residual, i);
+                            }
+                        }
+                        1 => {
+                            odd_row(m, chequer, inverse, &self.residual, &mut self.odd, i);
+                        }
+                        2 => {
+                            let around = self.odd.around(i, Colour::Odd, count);
+                            for (k, to) in self.even.row_mut(i, count).iter_mut().enumerate() {
+                                (inverse * around.sum(m, k)).store(to, 0);
+                            }
+                            chequer.frame_even(&mut self.even, i);
+                        }
+                        _ => {
+                            if i.is_multiple_of(2) {
+                                corners.restrict(m, &self.even, i / 2, into);
+                            }
+                        }
+                    },
+                );
             },
         );
-        direction.fill(0.0);
+        let greatest = |pack: M::Single| f64::from(pack.lanes().into_iter().fold(0.0, f32::max));
+        Greatest { value: greatest(most), change: greatest(change) }
     }
 
-    /// The greatest residual of an unknown.
-    fn largest_residual(&self) -> f64 {
-        let (m, frame) = (self.m, self.operator.frame);
+    /// Interpolates and smooths; the products of the advice with the residual and with its own image.
+    pub(super) fn ascend<M: Machine>(&mut self, m: M, chequer: &Chequer, corners: &Corners) -> [f64; 2] {
+        let count = chequer.count();
+        let inverse = m.all((1.0 / chequer.degree) as f32);
+        let (degree, exact_inverse) = (m.all_double(chequer.degree), m.all_double(1.0 / chequer.degree));
+        let from = &self.stack.levels[0].solution;
+        let [mut product, mut energy] = [m.all_double(0.0); 2];
         m.run(
             #[inline(always)]
             || {
-                let (mut largest, count) = (m.all_double(0.0), frame.width / LANES);
-                for i in 0..frame.rows {
-                    let start = frame.row(i).start;
-                    let residual = packs(&self.work.residual, start, count);
-                    for (left, free) in residual.iter().zip(packs(&self.operator.free, start, count)) {
-                        largest = m.greater(largest, m.abs(m.pack_double(left) * m.double(m.pack(free))));
-                    }
-                }
-                greatest(largest)
-            },
-        )
-    }
-
-    /// Sets the right-hand side of the preconditioner.
-    fn give_residual(&mut self) {
-        let (m, frame) = (self.m, self.operator.frame);
-        let Workspace { stack, residual, .. } = &mut *self.work;
-        let right = &mut stack.levels[0].right;
-        m.run(
-            #[inline(always)]
-            || {
-                let (scale, count) = (m.all_double(self.scale), frame.width / LANES);
-                for i in 0..frame.rows {
-                    let start = frame.row(i).start;
-                    let free = packs(&self.operator.free, start, count);
-                    let (residual, to) = (packs(residual, start, count), packs_mut(right, start, count));
-                    for ((left, free), to) in residual.iter().zip(free).zip(to) {
-                        let single = m.significant(m.single(m.pack_double(left) * scale), NEGLIGIBLE);
-                        (single * m.pack(free)).store(to, 0);
-                    }
-                    frame.finish_row(right, i);
-                }
+                chequer.pipeline(
+                    5,
+                    #[inline(always)]
+                    |stage, i| match stage {
+                        0 => {
+                            corners.prolong(
+                                m,
+                                from,
+                                i,
+                                inverse,
+                                self.residual.row(i, count),
+                                self.even.row_mut(i, count),
+                            );
+                            chequer.frame_even(&mut self.even, i);
+                        }
+                        1 => {
+                            odd_row(m, chequer, inverse, &self.even, &mut self.odd, i);
+                        }
+                        2 => {
+                            let around = self.odd.around(i, Colour::Odd, count);
+                            let (residual, free) = (self.residual.row(i, count), chequer.even.row(i, count));
+                            let to = self.advice.row_mut(i, count);
+                            let mut sum = product;
+                            for (k, ((residual, free), to)) in residual.iter().zip(free).zip(to).enumerate() {
+                                let residual = m.pack(residual);
+                                let advice = (residual + around.sum(m, k)) * (inverse * m.pack(free));
+                                advice.store(to, 0);
+                                sum = sum + m.double(residual) * m.double(advice);
+                            }
+                            product = sum;
+                            chequer.frame_even(&mut self.advice, i);
+                        }
+                        3 => {
+                            let around = self.advice.around(i, Colour::Even, count);
+                            let to = self.exact_odd.row_mut(i, count);
+                            for (k, (free, to)) in chequer.odd.row(i, count).iter().zip(to).enumerate() {
+                                (around.exact_sum(m, k) * (m.double(m.pack(free)) * exact_inverse)).store(to, 0);
+                            }
+                            chequer.settle(&mut self.exact_odd, &self.advice, i);
+                        }
+                        _ => {
+                            let around = self.exact_odd.around(i, Colour::Odd, count);
+                            let (advice, free) = (self.advice.row(i, count), chequer.even.row(i, count));
+                            let to = self.advice_image.row_mut(i, count);
+                            let mut sum = energy;
+                            for (k, ((advice, free), to)) in advice.iter().zip(free).zip(to).enumerate() {
+                                let advice = m.double(m.pack(advice));
+                                let image = (degree * advice - around.sum(m, k)) * m.double(m.pack(free));
+                                m.single(image).store(to, 0);
+                                sum = sum + advice * image;
+                            }
+                            energy = sum;
+                        }
+                    },
+                );
             },
         );
+        [product, energy].map(|sums| sums.lanes().iter().sum())
     }
 
-    /// Residual times what the preconditioner made of it, from the product of the two as they are there.
-    pub fn unscaled(&self, product: f64) -> f64 {
-        product / (self.scale * self.scale)
-    }
-
-    /// Takes the next direction, `beta` times the last added; its energy, `p . A p`.
-    pub fn turn(&mut self, beta: f64) -> f64 {
-        let (m, frame, degree) = (self.m, self.operator.frame, self.operator.degree);
-        let Workspace { stack, direction, .. } = &mut *self.work;
-        let finest = &stack.levels[0].solution;
-        let tail = &self.tail;
+    /// Adds `unit` times the sum of the steps to the even cells of `values`, and computes the odd ones; with a `scale`,
+    /// the residual times it, too. The greatest value and residual (that already scaled).
+    pub(super) fn correct<M: Machine>(
+        &mut self,
+        m: M,
+        chequer: &Chequer,
+        right: Right,
+        values: &mut [f64],
+        unit: f64,
+        scale: Option<f64>,
+    ) -> Greatest {
+        let (columns, count) = (chequer.shape.columns, chequer.count());
+        let (degree, inverse) = (m.all_double(chequer.degree), m.all_double(1.0 / chequer.degree));
+        let stages = if scale.is_some() { 4 } else { 3 };
+        let scale = m.all_double(scale.unwrap_or(1.0));
+        let [mut most, mut left] = [m.all_double(0.0); 2];
+        let unit = m.all_double(unit);
         m.run(
             #[inline(always)]
             || {
-                let (inverse, beta) = (m.all_double(1.0 / self.scale), m.all_double(beta));
-                let (tail, degree, count) = (m.load_double(tail, 0), m.all_double(degree), frame.width / LANES);
-                let mut sum = m.all_double(0.0);
-                // The energy of a row as soon as the one below it is there.
-                for i in frame.ahead() {
-                    if let Some(i) = i.made {
-                        let start = frame.row(i).start;
-                        let (from, to) = (packs(finest, start, count), packs_mut(direction, start, count));
-                        for (from, to) in from.iter().zip(to) {
-                            (m.double(m.pack(from)) * inverse + beta * m.pack_double(to)).store(to, 0);
+                chequer.pipeline(
+                    stages,
+                    #[inline(always)]
+                    |stage, i| match stage {
+                        0 => {
+                            let range = i * columns..(i + 1) * columns;
+                            let [even, odd] = [&mut self.right_even, &mut self.right_odd].map(|band| band.cells_mut(i));
+                            match right {
+                                Right::Given(right) => part(&right[range.clone()], i, even, odd),
+                                Right::Unit(cell) => {
+                                    even.fill(0.0);
+                                    odd.fill(0.0);
+                                    if range.contains(&cell) {
+                                        let j = cell - range.start;
+                                        (if (i + j) % 2 == 0 { even } else { odd })[j / 2] = 1.0;
+                                    }
+                                }
+                            }
+                            // The odd ones are not needed.
+                            part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
+                            let (sum, free) = (self.sum.row(i, count), chequer.even.row(i, count));
+                            for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {
+                                let value = m.pack_double(to) + unit * m.double(m.pack(sum));
+                                let value = value * m.double(m.pack(free));
+                                value.store(to, 0);
+                            }
+                            chequer.frame_even(&mut self.exact_even, i);
                         }
-                        frame.finish_row(direction, i);
-                    }
-                    if let Some(i) = i.used {
-                        let around = Around::new(frame.three(direction, i), count);
-                        for k in 0..count - 1 {
-                            sum = sum + m.pack_double(&around.middle[k]) * around.applied(m, degree, k);
+                        1 => {
+                            let around = self.exact_even.around(i, Colour::Even, count);
+                            let (right, free) = (self.right_odd.row(i, count), chequer.odd.row(i, count));
+                            let to = self.exact_odd.row_mut(i, count);
+                            for (k, ((right, free), to)) in right.iter().zip(free).zip(to).enumerate() {
+                                let sum = m.pack_double(right) + around.sum(m, k);
+                                let value = sum * (m.double(m.pack(free)) * inverse);
+                                value.store(to, 0);
+                            }
+                            chequer.settle(&mut self.exact_odd, &self.exact_even, i);
                         }
-                        let last = m.pack_double(&around.middle[count - 1]) * around.applied(m, degree, count - 1);
-                        sum = sum + last * tail;
-                    }
-                }
-                total(sum)
+                        2 => {
+                            let mut most_here = most;
+                            for (a, b) in self.exact_even.row(i, count).iter().zip(self.exact_odd.row(i, count)) {
+                                let [a, b] = [a, b].map(|pack| m.abs_double(m.pack_double(pack)));
+                                most_here = m.greater_double(most_here, m.greater_double(a, b));
+                            }
+                            most = most_here;
+                            let [even, odd] =
+                                [&self.exact_even, &self.exact_odd].map(|band| &band.data[band.start(i)..]);
+                            merge(even, odd, i, &mut values[i * columns..(i + 1) * columns]);
+                        }
+                        _ => {
+                            let around = self.exact_odd.around(i, Colour::Odd, count);
+                            let (even, right, free) = (
+                                self.exact_even.row(i, count),
+                                self.right_even.row(i, count),
+                                chequer.even.row(i, count),
+                            );
+                            let rows = even.iter().zip(right).zip(free).zip(self.residual.row_mut(i, count));
+                            let mut left_here = left;
+                            for (k, (((even, right), free), to)) in rows.enumerate() {
+                                let here = m.pack_double(right) - degree * m.pack_double(even);
+                                let residual = (here + around.sum(m, k)) * (m.double(m.pack(free)) * scale);
+                                m.significant(m.single(residual), NEGLIGIBLE).store(to, 0);
+                                left_here = m.greater_double(left_here, m.abs_double(residual));
+                            }
+                            left = left_here;
+                            chequer.frame_even(&mut self.residual, i);
+                        }
+                    },
+                );
             },
-        )
-    }
-
-    /// Goes `alpha` along the direction, and sets the right-hand side of the preconditioner; the greatest change and the
-    /// greatest value.
-    pub fn step(&mut self, alpha: f64) -> (f64, f64) {
-        let (m, frame, degree) = (self.m, self.operator.frame, self.operator.degree);
-        let Workspace { stack, residual, direction } = &mut *self.work;
-        let values = &mut *self.values;
-        let right = &mut stack.levels[0].right;
-        let tail = &self.tail;
-        m.run(
-            #[inline(always)]
-            || {
-                let (alpha, scale, degree) = (m.all_double(alpha), m.all_double(self.scale), m.all_double(degree));
-                let (tail, count) = (m.load_double(tail, 0), frame.width / LANES);
-                let (mut change, mut most) = (m.all_double(0.0), m.all_double(0.0));
-                for (i, values) in values.chunks_exact_mut(frame.columns).enumerate() {
-                    let start = frame.row(i).start;
-                    let around = Around::new(frame.three(direction, i), count);
-                    let free = packs(&self.operator.free, start, count);
-                    let (residual, to) = (packs_mut(residual, start, count), packs_mut(right, start, count));
-                    for k in 0..count {
-                        let left = m.pack_double(&residual[k]) - alpha * around.applied(m, degree, k);
-                        left.store(&mut residual[k], 0);
-                        let single = m.significant(m.single(left * scale), NEGLIGIBLE);
-                        (single * m.pack(&free[k])).store(&mut to[k], 0);
-                    }
-                    let (whole, rest) = values.as_chunks_mut::<LANES>();
-                    for (value, direction) in whole.iter_mut().zip(around.middle) {
-                        let moved = alpha * m.pack_double(direction);
-                        let new = m.pack_double(value) + moved;
-                        new.store(value, 0);
-                        change = m.greater(change, m.abs(moved));
-                        most = m.greater(most, m.abs(new));
-                    }
-                    if !rest.is_empty() {
-                        let mut padded = [0.0; LANES];
-                        padded[..rest.len()].copy_from_slice(rest);
-                        let moved = alpha * tail * m.pack_double(&around.middle[count - 1]);
-                        let new = m.pack_double(&padded) + moved;
-                        rest.copy_from_slice(&new.lanes()[..rest.len()]);
-                        change = m.greater(change, m.abs(moved));
-                        most = m.greater(most, m.abs(new));
-                    }
-                    frame.finish_row(right, i);
-                }
-                (greatest(change), greatest(most))
-            },
-        )
+        );
+        let greatest = |pack: M::Double| pack.lanes().into_iter().fold(0.0, f64::max);
+        Greatest { value: greatest(most), change: greatest(left) }
     }
 }
 
-/// The sum of the lanes, in their order.
-fn total(pack: impl Pack<f64>) -> f64 {
-    pack.lanes().iter().sum()
+/// The smoother's values of the odd cells of row `i`.
+#[inline(always)]
+fn odd_row<M: Machine>(m: M, chequer: &Chequer, inverse: M::Single, even: &Band<f32>, odd: &mut Band<f32>, i: usize) {
+    let count = chequer.count();
+    let around = even.around(i, Colour::Even, count);
+    for (k, (free, to)) in chequer.odd.row(i, count).iter().zip(odd.row_mut(i, count)).enumerate() {
+        (around.sum(m, k) * (inverse * m.pack(free))).store(to, 0);
+    }
+    chequer.settle(odd, even, i);
 }
 
-/// The greatest lane, and 0.
-fn greatest(pack: impl Pack<f64>) -> f64 {
-    pack.lanes().into_iter().fold(0.0, f64::max)
+/// Row `i` by colours.
+#[inline(always)]
+fn part(row: &[f64], i: usize, even: &mut [f64], odd: &mut [f64]) {
+    let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };
+    let (pairs, rest) = row.as_chunks::<2>();
+    for ((pair, even), odd) in pairs.iter().zip(&mut *even).zip(odd) {
+        [*even, *odd] = *pair;
+    }
+    if let Some(&last) = rest.first() {
+        even[pairs.len()] = last;
+    }
+}
+
+/// The reverse.
+#[inline(always)]
+fn merge(even: &[f64], odd: &[f64], i: usize, row: &mut [f64]) {
+    let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };
+    let (pairs, rest) = row.as_chunks_mut::<2>();
+    for ((pair, even), odd) in pairs.iter_mut().zip(even).zip(odd) {
+        *pair = [*even, *odd];
+    }
+    if let Some(last) = rest.first_mut() {
+        *last = even[pairs.len()];
+    }
 }

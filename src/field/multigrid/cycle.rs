@@ -6,23 +6,24 @@ use super::galerkin::coarsen;
 use super::machine::{LANES, Machine};
 use super::smooth::{Smooth, Vectors};
 use super::stencil::{FivePoint, Line, Operator, Stencil};
-use super::transfer::{Rows, Transfer};
+use super::transfer::{Corners, Rows, Transfer};
 
 /// A level with at most this many cells is solved directly.
-const BOTTOM: usize = 100;
+const BOTTOM: usize = 40;
 
 /// The levels below the finest. Depends on the operator only.
 #[derive(Debug, Clone)]
 pub(super) struct Hierarchy {
+    /// From the finest level to the first of `levels`.
+    pub corners: Corners,
     /// From each level to the next.
     transfers: Vec<Transfer>,
-    /// The levels but the finest.
     levels: Vec<Stencil>,
     bottom: Envelope,
 }
 
-/// The vectors of all levels.
-#[derive(Debug, Clone)]
+/// The vectors of all levels but the finest.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Stack {
     pub levels: Vec<Vectors>,
     rows: Rows,
@@ -32,48 +33,38 @@ pub(super) struct Stack {
 impl Hierarchy {
     /// Linear in the number of cells.
     pub fn new<M: Machine>(m: M, finest: &FivePoint) -> Self {
-        let (mut transfers, mut levels) = (Vec::new(), Vec::<Stencil>::new());
-        let small = |frame: Frame| frame.rows * frame.columns <= BOTTOM;
-        if small(finest.frame) {
-            return Self { transfers, levels, bottom: envelope(m, finest) };
-        }
-        let (transfer, mut level) = coarsen(m, finest);
-        transfers.push(transfer);
-        while !small(level.frame) {
-            let (transfer, next) = coarsen(m, &level);
+        let (transfer, first) = coarsen(m, finest);
+        let (mut transfers, mut levels) = (Vec::new(), vec![first]);
+        while let Some(level) = levels.last()
+            && level.frame.rows * level.frame.columns > BOTTOM
+        {
+            let (transfer, next) = coarsen(m, level);
             transfers.push(transfer);
-            levels.push(std::mem::replace(&mut level, next));
+            levels.push(next);
         }
-        let bottom = envelope(m, &level);
-        levels.push(level);
-        Self { transfers, levels, bottom }
+        let bottom = envelope(m, &levels[levels.len() - 1]);
+        Self { corners: Corners::of(transfer), transfers, levels, bottom }
     }
 
     /// Vectors for cycles.
-    pub fn stack(&self, finest: Frame) -> Stack {
-        let frames = std::iter::once(finest).chain(self.levels.iter().map(|level| level.frame));
-        let bottom = self.levels.last().map_or(finest, |level| level.frame);
+    pub fn stack(&self) -> Stack {
+        let bottom = self.levels[self.levels.len() - 1].frame;
         Stack {
-            levels: frames.map(Vectors::new).collect(),
-            rows: Rows::new(finest.width),
+            levels: self.levels.iter().map(|level| Vectors::new(level.frame)).collect(),
+            rows: Rows::new(self.levels[0].frame.width),
             bottom: vec![0.0; bottom.rows * bottom.columns],
         }
     }
 
-    /// One V-cycle from zero for the right-hand side of the finest level, which has its frame; the product of that and
-    /// the solution.
-    pub fn cycle<M: Machine>(&self, m: M, finest: &FivePoint, stack: &mut Stack) -> f64 {
+    /// One V-cycle from zero through the levels below the finest, for the right-hand side of the first of them.
+    pub fn cycle<M: Machine>(&self, m: M, stack: &mut Stack) {
         let Stack { levels: vectors, rows, bottom } = stack;
+        let last = self.transfers.len();
         for (k, transfer) in self.transfers.iter().enumerate() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
-            let (upper, lower) = (&mut upper[k], &mut lower[0]);
-            match k.checked_sub(1) {
-                None => descend(m, finest, transfer, upper, lower, rows),
-                Some(k) => descend(m, &self.levels[k], transfer, upper, lower, rows),
-            }
+            descend(m, &self.levels[k], transfer, &mut upper[k], &mut lower[0], rows);
         }
-        let frame = self.levels.last().map_or(finest.frame, |level| level.frame);
-        let last = self.transfers.len();
+        let frame = self.levels[last].frame;
         for (i, bottom) in bottom.chunks_exact_mut(frame.columns).enumerate() {
             bottom.iter_mut().zip(&vectors[last].right[frame.row(i)]).for_each(|(to, &from)| *to = f64::from(from));
         }
@@ -83,21 +74,11 @@ impl Hierarchy {
             row.iter_mut().zip(bottom).for_each(|(to, &from)| *to = from as f32);
         }
         frame.finish(&mut vectors[last].solution);
-        let mut product = 0.0;
-        if last == 0 {
-            let cells = (0..frame.rows).flat_map(|i| frame.row(i).take(frame.columns));
-            let Vectors { right, solution, .. } = &vectors[0];
-            product = cells.map(|at| f64::from(right[at]) * f64::from(solution[at])).sum();
-        }
         for (k, transfer) in self.transfers.iter().enumerate().rev() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
             transfer.prolong(m, &lower[0].solution, rows, &mut upper[k].solution);
-            match k.checked_sub(1) {
-                None => product = finest.go_on(m, &mut upper[0]),
-                Some(level) => self.levels[level].go_on(m, &mut upper[k]),
-            }
+            self.levels[k].go_on(m, &mut upper[k]);
         }
-        product
     }
 }
 
@@ -117,13 +98,13 @@ fn descend<M: Machine, L: Smooth>(
 /// The factor of an operator.
 fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
     let Frame { rows, columns, width, .. } = operator.frame();
-    let mut entries = vec![Vec::new(); rows * columns];
+    let mut entries = Vec::with_capacity(5 * rows * columns);
     let mut line = Line::new(width + 2 + LANES);
     for i in 0..rows {
         operator.line(m, i, &mut line);
         for j in 0..columns {
             let here = i * columns + j;
-            entries[here].push((here, f64::from(line.diagonal[j + 1])));
+            entries.push((here, here, f64::from(line.diagonal[j + 1])));
             let (below, right, left) = ((i + 1) % rows, (j + 1) % columns, (j + columns - 1) % columns);
             for (coupling, row, column) in [
                 (line.east[j + 1], i, right),
@@ -135,10 +116,10 @@ fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
                     let there = row * columns + column;
                     // A cell that is its own neighbour on a tiny circle is so from both sides.
                     let twice = if there == here { 2.0 } else { 1.0 };
-                    entries[here.max(there)].push((here.min(there), -twice * f64::from(coupling)));
+                    entries.push((here.max(there), here.min(there), -twice * f64::from(coupling)));
                 }
             }
         }
     }
-    Envelope::new(&entries)
+    Envelope::new(rows * columns, &entries)
 }

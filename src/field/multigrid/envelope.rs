@@ -10,20 +10,18 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// From the rows of the lower triangle, `(column, value)` in any order, entries of one place to be added. Rows
-    /// without a positive pivot are taken out: their unknown is 0.
-    pub fn new(rows: &[Vec<(usize, f64)>]) -> Self {
-        let first: Vec<usize> =
-            rows.iter().enumerate().map(|(i, row)| row.iter().map(|entry| entry.0).min().unwrap_or(i).min(i)).collect();
+    /// From the entries of the lower triangle of a matrix of so many rows, `(row, column, value)`, in any order, those of
+    /// one place to be added. Rows without a positive pivot are taken out: their unknown is 0.
+    pub fn new(rows: usize, entries: &[(usize, usize, f64)]) -> Self {
+        let mut first: Vec<usize> = (0..rows).collect();
+        entries.iter().for_each(|&(i, j, _)| first[i] = first[i].min(j));
         let mut start = vec![0];
         for (i, &first) in first.iter().enumerate() {
             start.push(start[i] + i - first + 1);
         }
-        let mut lower = vec![0.0; start[rows.len()]];
-        for (i, row) in rows.iter().enumerate() {
-            for &(j, value) in row {
-                lower[start[i] + j - first[i]] += value;
-            }
+        let mut lower = vec![0.0; start[rows]];
+        entries.iter().for_each(|&(i, j, value)| lower[start[i] + j - first[i]] += value);
+        for i in 0..rows {
             let scale = lower[start[i + 1] - 1];
             for j in first[i]..i {
                 let from = first[i].max(first[j]);

@@ -43,12 +43,6 @@ impl Frame {
         (self.rows + 2) * self.stride
     }
 
-    /// 1 for the lanes of the last pack of a row that are cells, 0 for padding.
-    pub fn tail(&self) -> [f64; LANES] {
-        let cells = (self.columns + LANES).saturating_sub(self.width);
-        std::array::from_fn(|k| if k < cells { 1.0 } else { 0.0 })
-    }
-
     /// The cells of row `i`, padding included.
     pub fn row(&self, i: usize) -> Range<usize> {
         let start = (i + 1) * self.stride + 1;

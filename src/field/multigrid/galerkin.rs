@@ -22,6 +22,10 @@ impl Halves {
         Self { even: Line::new(len), odd: Line::new(len) }
     }
 
+    fn clear(&mut self) {
+        self.even.parts().into_iter().chain(self.odd.parts()).for_each(|part| part.fill(0.0));
+    }
+
     fn read<M: Machine>(&mut self, m: M, line: &mut Line) {
         m.run(
             #[inline(always)]
@@ -54,11 +58,18 @@ impl<'a, O: Operator> Window<'a, O> {
         let from = Seamless::new(operator);
         let line = Line::new(2 * coarse.width + 4 + LANES);
         let mut window = Self { from, line, above: halves(), middle: halves(), below: halves() };
-        if coarse.ends[0] == Ends::Joined {
-            window.from.line(m, 2 * coarse.rows - 1, &mut window.line);
-            window.below.read(m, &mut window.line);
-        }
+        window.restart(m, coarse);
         window
+    }
+
+    /// Back to before the first row.
+    fn restart<M: Machine>(&mut self, m: M, coarse: Frame) {
+        if coarse.ends[0] == Ends::Joined {
+            self.from.line(m, 2 * coarse.rows - 1, &mut self.line);
+            self.below.read(m, &mut self.line);
+        } else {
+            self.below.clear();
+        }
     }
 
     /// To the rows around row `2 i`.
@@ -91,13 +102,13 @@ pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer,
     }
     transfer.finish();
     let mut stencil = Stencil::new(coarse);
-    let mut window = Window::new(m, operator, coarse);
+    window.restart(m, coarse);
     for i in 0..coarse.rows {
         window.advance(m, i);
         center_weights(m, &window, &mut transfer, i);
     }
     transfer.finish();
-    let mut window = Window::new(m, operator, coarse);
+    window.restart(m, coarse);
     let mut between = [(); 4].map(|()| vec![0.0; coarse.width + 2]);
     for i in 0..coarse.rows {
         window.advance(m, i);

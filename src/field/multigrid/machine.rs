@@ -32,12 +32,6 @@ pub(super) trait Machine: Copy {
         self.pack(&pack)
     }
 
-    #[inline(always)]
-    fn load_double(self, from: &[f64], at: usize) -> Self::Double {
-        let mut pack = [0.0; LANES];
-        pack.copy_from_slice(&from[at..at + LANES]);
-        self.pack_double(&pack)
-    }
     /// The same number in all lanes.
     fn all(self, x: f32) -> Self::Single;
     fn all_double(self, x: f64) -> Self::Double;
@@ -47,8 +41,10 @@ pub(super) trait Machine: Copy {
     fn significant(self, x: Self::Single, negligible: f32) -> Self::Single;
     fn double(self, x: Self::Single) -> Self::Double;
     fn single(self, x: Self::Double) -> Self::Single;
-    fn abs(self, x: Self::Double) -> Self::Double;
-    fn greater(self, a: Self::Double, b: Self::Double) -> Self::Double;
+    fn abs(self, x: Self::Single) -> Self::Single;
+    fn abs_double(self, x: Self::Double) -> Self::Double;
+    fn greater(self, a: Self::Single, b: Self::Single) -> Self::Single;
+    fn greater_double(self, a: Self::Double, b: Self::Double) -> Self::Double;
 }
 
 /// `count` packs from a place on. Loops over several such slices of one length need no check of bounds.
@@ -172,12 +168,22 @@ impl Machine for Portable {
     }
 
     #[inline(always)]
-    fn abs(self, x: Plain<f64>) -> Plain<f64> {
+    fn abs(self, x: Plain<f32>) -> Plain<f32> {
+        x.map(f32::abs)
+    }
+
+    #[inline(always)]
+    fn abs_double(self, x: Plain<f64>) -> Plain<f64> {
         x.map(f64::abs)
     }
 
     #[inline(always)]
-    fn greater(self, a: Plain<f64>, b: Plain<f64>) -> Plain<f64> {
+    fn greater(self, a: Plain<f32>, b: Plain<f32>) -> Plain<f32> {
+        a.with(b, |a, b| if b > a { b } else { a })
+    }
+
+    #[inline(always)]
+    fn greater_double(self, a: Plain<f64>, b: Plain<f64>) -> Plain<f64> {
         a.with(b, |a, b| if b > a { b } else { a })
     }
 }

@@ -6,9 +6,13 @@
 //! which depends on the walls alone, serves all goals. Cells whose value is known are walls to it, and come in through the
 //! right-hand side: add the value to `b` of each free neighbour.
 //!
-//! Conjugate gradients run in double precision. The preconditioner, one V-cycle in single precision, need not be precise:
-//! it costs steps, not digits.
+//! Cells are coloured like a chessboard (`chequer`); those of one colour are eliminated, which leaves half of the unknowns.
+//! Conjugate gradients for these run in rounds: vectors are in single precision, the residual at the start of each round,
+//! the values, and the products with the operator in double precision. The preconditioner, one V-cycle in single precision,
+//! need not be precise: it costs steps, not digits.
 
+mod band;
+mod chequer;
 mod cycle;
 mod envelope;
 mod frame;
@@ -24,5 +28,6 @@ mod solve;
 mod stencil;
 mod transfer;
 
+pub use conjugate::Workspace;
 pub use frame::Ends;
-pub use solve::{Convergence, Multigrid, Workspace};
+pub use solve::{Convergence, Multigrid};

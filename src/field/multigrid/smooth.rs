@@ -4,10 +4,10 @@
 //! `0.5..2`, which coarser levels do not see. No order of cells is involved, so that whole rows are vectors, and the
 //! cycle is symmetric.
 
-use super::around::{Around, Nine};
+use super::around::Nine;
 use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
-use super::stencil::{FivePoint, Stencil};
+use super::stencil::Stencil;
 
 /// `1 / (1.25 +- 0.75 cos(pi / 4))`.
 const WEIGHTS: [f32; 2] = [0.561_731_2, 1.389_488_2];
@@ -36,96 +36,6 @@ pub(super) trait Smooth {
     fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
     /// Row `i` of the residual, padding included.
     fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
-}
-
-impl FivePoint {
-    /// One step for row `i`, its ends excluded.
-    #[inline(always)]
-    fn step<M: Machine>(&self, m: M, weight: f32, right: &[f32], from: &[f32], to: &mut [f32], i: usize) {
-        let (keep, take) = (m.all(1.0 - weight), m.all(weight / self.degree as f32));
-        let (row, count) = (self.frame.row(i), self.frame.width / LANES);
-        let around = Around::new(self.frame.three(from, i), count);
-        let [right, free] = [right, &self.free].map(|part| packs(part, row.start, count));
-        let to = packs_mut(to, row.start, count);
-        for k in 0..count {
-            let sum = around.sum(m, k) + m.pack(&right[k]);
-            (keep * m.pack(&around.middle[k]) + take * m.pack(&free[k]) * sum).store(&mut to[k], 0);
-        }
-    }
-
-    /// Two steps more, from a solution without frame; the product of right-hand side and result.
-    pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) -> f64 {
-        let Vectors { right, solution, other } = vectors;
-        self.frame.finish(solution);
-        // The second step for a row as soon as the first is done for the rows around it: by then the first no longer
-        // needs the old values of that row.
-        let product = m.run(
-            #[inline(always)]
-            || {
-                let (tail, last) = (m.pack_double(&self.frame.tail()), self.frame.width / LANES - 1);
-                let mut sum = m.all_double(0.0);
-                for i in self.frame.ahead() {
-                    if let Some(i) = i.made {
-                        self.step(m, WEIGHTS[1], right, solution, other, i);
-                        self.frame.finish_row(other, i);
-                    }
-                    if let Some(i) = i.used {
-                        self.step(m, WEIGHTS[0], right, other, solution, i);
-                        let start = self.frame.row(i).start;
-                        let [right, solution] = [&*right, &*solution].map(|part| packs(part, start, last + 1));
-                        let term = |k: usize| m.double(m.pack(&right[k])) * m.double(m.pack(&solution[k]));
-                        for k in 0..last {
-                            sum = sum + term(k);
-                        }
-                        sum = sum + term(last) * tail;
-                    }
-                }
-                sum.lanes().iter().sum()
-            },
-        );
-        self.frame.finish(solution);
-        product
-    }
-}
-
-impl Smooth for FivePoint {
-    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
-        let inverse = 1.0 / self.degree as f32;
-        let (own, next) = (m.all(OWN * inverse), m.all(AROUND * inverse * inverse));
-        m.run(
-            #[inline(always)]
-            || {
-                let count = self.frame.width / LANES;
-                for i in 0..self.frame.rows {
-                    let start = self.frame.row(i).start;
-                    let around = Around::new(self.frame.three(&vectors.right, i), count);
-                    let free = packs(&self.free, start, count);
-                    let to = packs_mut(&mut vectors.solution, start, count);
-                    for k in 0..count {
-                        let sum = own * m.pack(&around.middle[k]) + next * around.sum(m, k);
-                        (sum * m.pack(&free[k])).store(&mut to[k], 0);
-                    }
-                    self.frame.finish_row(&mut vectors.solution, i);
-                }
-            },
-        );
-    }
-
-    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
-        let degree = m.all(self.degree as f32);
-        m.run(
-            #[inline(always)]
-            || {
-                let count = self.frame.width / LANES;
-                let around = Around::new(self.frame.three(solution, i), count);
-                let (right, out) = (packs(right, self.frame.row(i).start, count), packs_mut(out, 0, count));
-                for k in 0..count {
-                    let sum = m.pack(&right[k]) + around.sum(m, k);
-                    (sum - degree * m.pack(&around.middle[k])).store(&mut out[k], 0);
-                }
-            },
-        );
-    }
 }
 
 impl Stencil {

@@ -1,6 +1,7 @@
 //! Conjugate gradients.
 
-use super::conjugate::{Right, State};
+use super::chequer::Chequer;
+use super::conjugate::{Right, Step, Workspace};
 use super::cycle::{Hierarchy, Stack};
 use super::frame::{Ends, Frame};
 use super::machine::{Machine, Portable};
@@ -27,8 +28,9 @@ macro_rules! on_this_machine {
 /// The solver for one arrangement of walls.
 #[derive(Debug, Clone)]
 pub struct Multigrid {
-    operator: FivePoint,
-    hierarchy: Hierarchy,
+    chequer: Chequer,
+    /// None without cells.
+    hierarchy: Option<Hierarchy>,
 }
 
 /// How a solve ended.
@@ -42,16 +44,14 @@ pub struct Convergence {
     pub converged: bool,
 }
 
-/// Vectors that a solve works with, kept from one solve to the next, also of other walls on a grid of the same shape. About 32 bytes a cell.
-#[derive(Debug, Clone)]
-pub struct Workspace {
-    pub(super) stack: Stack,
-    pub(super) residual: Vec<f64>,
-    pub(super) direction: Vec<f64>,
-}
-
 /// More steps than this are never needed: each gains a digit or nearly so.
 const MOST_ITERATIONS: usize = 100;
+
+/// Rounding of sums in single precision, relative to the greatest.
+const SINGLE: f64 = 1e-7;
+
+/// A round that leaves more than this part of the residual ended in rounding.
+const LEAST_PROGRESS: f64 = 0.5;
 
 /// The error after a step is estimated from the last two changes as a geometric series, whose ratio is taken to be at
 /// least this: steps that happen to change little prove little.
@@ -69,26 +69,15 @@ impl Multigrid {
     pub fn new(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> Self {
         assert_eq!(free.len(), cells[0] * cells[1], "one flag a cell");
         assert!(shift >= 0.0 && shift.is_finite(), "a shift is not negative");
-        let frame = Frame::new(cells, ends);
-        let mut operator = FivePoint { frame, degree: 4.0 + shift, free: vec![0.0; frame.len()] };
-        for (i, free) in free.chunks_exact(cells[1].max(1)).enumerate() {
-            let row = &mut operator.free[frame.row(i)];
-            row.iter_mut().zip(free).for_each(|(to, &free)| *to = f32::from(u8::from(free)));
-        }
-        frame.of_coefficients().finish(&mut operator.free);
-        if operator.is_singular() {
-            operator.degree += SHIFT;
-        }
-        let hierarchy = on_this_machine!(m => Hierarchy::new(m, &operator));
-        Self { operator, hierarchy }
+        let operator = operator(cells, ends, free, shift);
+        let hierarchy = (!free.is_empty()).then(|| on_this_machine!(m => Hierarchy::new(m, &operator)));
+        Self { chequer: Chequer::new(cells, ends, free, operator.degree), hierarchy }
     }
 
     /// A workspace for solves.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
-        let zeros = || vec![0.0; self.operator.frame.len()];
-        let stack = self.hierarchy.stack(self.operator.frame);
-        Workspace { stack, residual: zeros(), direction: zeros() }
+        Workspace::new(&self.chequer, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
     }
 
     /// Solves for the right-hand side `right`, from the start that is in `values`, which must be finite; walls are
@@ -105,53 +94,118 @@ impl Multigrid {
     }
 
     fn cells(&self) -> usize {
-        self.operator.frame.rows * self.operator.frame.columns
+        self.chequer.shape.rows * self.chequer.shape.columns
     }
 
     fn solve_for(&self, right: Right, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
         assert!(values.len() == self.cells(), "one number a cell");
-        assert!(workspace.residual.len() == self.operator.frame.len(), "a workspace of this grid");
-        if values.is_empty() {
-            return Convergence { iterations: 0, error: 0.0, converged: true };
+        assert!(workspace.is_for(&self.chequer), "a workspace of this grid");
+        match &self.hierarchy {
+            Some(hierarchy) => {
+                on_this_machine!(m => self.rounds(m, hierarchy, right, values, tolerance, workspace))
+            }
+            None => Convergence { iterations: 0, error: 0.0, converged: true },
         }
-        on_this_machine!(m => self.iterate(m, right, values, tolerance, workspace))
     }
 
-    /// The iteration, on a machine.
-    fn iterate<M: Machine>(
+    /// Rounds of conjugate gradients, each with the residual computed anew.
+    fn rounds<M: Machine>(
         &self,
         m: M,
+        hierarchy: &Hierarchy,
         right: Right,
         values: &mut [f64],
         tolerance: f64,
         workspace: &mut Workspace,
     ) -> Convergence {
-        let mut state = State::new(m, &self.operator, right, values, workspace);
+        let chequer = &self.chequer;
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
-        let (mut before, mut product) = (f64::INFINITY, 0.0);
-        while convergence.iterations < MOST_ITERATIONS {
-            if convergence.error <= tolerance {
-                convergence.converged = true;
-                break;
+        let mut scale = self.start(right, values);
+        workspace.rest();
+        let mut start = workspace.correct(m, chequer, right, values, 0.0, Some(scale));
+        let mut residual = start.change / scale;
+        loop {
+            let by = power_of_two(start.change);
+            if by != 1.0 {
+                workspace.residual.data.iter_mut().for_each(|x| *x *= by as f32);
+                scale *= by;
             }
-            let scaled = self.hierarchy.cycle(m, &self.operator, &mut state.work.stack);
-            let next = state.unscaled(scaled);
+            let error =
+                self.round(m, hierarchy, start.value * scale, tolerance, workspace, &mut convergence.iterations);
+            let greatest = workspace.correct(m, chequer, right, values, 1.0 / scale, None).value;
+            convergence.error = if greatest > 0.0 { error / scale / greatest } else { 0.0 };
+            convergence.converged = convergence.error <= tolerance;
+            if convergence.converged || convergence.iterations >= MOST_ITERATIONS {
+                return convergence;
+            }
+            workspace.rest();
+            start = workspace.correct(m, chequer, right, values, 0.0, Some(scale));
+            if start.change / scale > LEAST_PROGRESS * residual {
+                return convergence;
+            }
+            residual = start.change / scale;
+        }
+    }
+
+    /// Steps until the tolerance is met or single precision ends the progress; the error. `greatest` is the greatest
+    /// value before.
+    fn round<M: Machine>(
+        &self,
+        m: M,
+        hierarchy: &Hierarchy,
+        greatest: f64,
+        tolerance: f64,
+        workspace: &mut Workspace,
+        iterations: &mut usize,
+    ) -> f64 {
+        let (mut before, mut product, mut energy) = (f64::INFINITY, 0.0, 0.0);
+        let (mut error, mut step) = (f64::INFINITY, None);
+        loop {
+            let moved = workspace.descend(m, &self.chequer, &hierarchy.corners, step);
+            if step.is_some() {
+                *iterations += 1;
+                let ratio = (moved.change / before).max(LEAST_RATIO);
+                before = moved.change;
+                let rounding = SINGLE * moved.value;
+                error = if ratio < 1.0 { moved.change * ratio / (1.0 - ratio) + rounding } else { f64::INFINITY };
+                let enough = error <= tolerance * greatest.max(moved.value) || error <= 2.0 * rounding;
+                if enough || *iterations >= MOST_ITERATIONS {
+                    return error;
+                }
+            }
+            hierarchy.cycle(m, &mut workspace.stack);
+            let [next, image] = workspace.ascend(m, &self.chequer, &hierarchy.corners);
             if next == 0.0 {
-                convergence = Convergence { error: 0.0, converged: true, ..convergence };
-                break;
+                return if step.is_some() { error } else { 0.0 };
             }
-            let energy = state.turn(if product > 0.0 { next / product } else { 0.0 });
-            let (true, true) = (next > 0.0, energy > 0.0) else { break };
+            let beta = if product > 0.0 { next / product } else { 0.0 };
+            // Directions are conjugate: the energy of the advice is that of its part along the last direction and the rest.
+            energy = image - beta * beta * energy;
+            let (true, true) = (next > 0.0, energy > 0.0) else { return error };
             product = next;
-            let (change, greatest) = state.step(product / energy);
-            convergence.iterations += 1;
-            let ratio = (change / before).max(LEAST_RATIO);
-            before = change;
-            if ratio < 1.0 {
-                convergence.error = change / greatest * ratio / (1.0 - ratio);
+            step = Some(Step { alpha: product / energy, beta });
+        }
+    }
+
+    /// Prepares the start; the factor that makes the residual a number of single precision.
+    fn start(&self, right: Right, values: &mut [f64]) -> f64 {
+        match right {
+            Right::Given(right) => {
+                let greatest = right.iter().chain(&*values).map(|x| x.abs()).fold(0.0, f64::max);
+                power_of_two(greatest)
+            }
+            Right::Unit(cell) => {
+                // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell
+                // is 1.
+                let free = |cell: &usize| self.chequer.is_free(*cell);
+                let around: f64 = self.chequer.neighbors(cell).filter(free).map(|other| values[other]).sum();
+                let source = self.chequer.degree * values[cell] - around;
+                if free(&cell) && source > 0.0 {
+                    values.iter_mut().for_each(|value| *value /= source);
+                }
+                1.0
             }
         }
-        convergence
     }
 
     /// The field of a single goal: 1 there, harmonic elsewhere, 0 where it is cut off. `values` is start and result; a
@@ -172,9 +226,31 @@ impl Multigrid {
 /// What is put on the diagonal where nothing else keeps the problem from being singular.
 const SHIFT: f64 = 1e-6;
 
+/// The operator that is to be solved.
+fn operator(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> FivePoint {
+    let frame = Frame::new(cells, ends);
+    let mut operator = FivePoint { frame, degree: 4.0 + shift, free: vec![0.0; frame.len()] };
+    for (i, free) in free.chunks_exact(cells[1].max(1)).enumerate() {
+        let row = &mut operator.free[frame.row(i)];
+        row.iter_mut().zip(free).for_each(|(to, &free)| *to = f32::from(u8::from(free)));
+    }
+    frame.of_coefficients().finish(&mut operator.free);
+    if operator.is_singular() {
+        operator.degree += SHIFT;
+    }
+    operator
+}
+
+/// The power of 2 that makes a number about 1; 1 for 0.
+fn power_of_two(x: f64) -> f64 {
+    if x > 0.0 && x.is_finite() { (-x.log2().floor()).exp2() } else { 1.0 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::multigrid::band::Band;
+    use crate::field::multigrid::machine::LANES;
 
     #[cfg(target_arch = "x86_64")]
     #[test]
@@ -185,13 +261,14 @@ mod tests {
         let cells = [61, 83];
         let free: Vec<bool> = (0..cells[0] * cells[1]).map(|at| at * 7 % 11 != 0 && at % 29 > 2).collect();
         for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Reflecting, Ends::Joined]] {
-            let mut solver = Multigrid::new(cells, ends, &free, 0.0);
+            let solver = Multigrid::new(cells, ends, &free, 0.0);
+            let operator = operator(cells, ends, &free, 0.0);
             let [mut plain, mut vectors] = [0; 2].map(|_| vec![0.0; free.len()]);
             let goal = Right::Unit(2000);
-            solver.hierarchy = Hierarchy::new(Portable, &solver.operator);
-            let one = solver.iterate(Portable, goal, &mut plain, 1e-9, &mut solver.workspace());
-            solver.hierarchy = Hierarchy::new(fast, &solver.operator);
-            let other = solver.iterate(fast, goal, &mut vectors, 1e-9, &mut solver.workspace());
+            let hierarchy = Hierarchy::new(Portable, &operator);
+            let one = solver.rounds(Portable, &hierarchy, goal, &mut plain, 1e-9, &mut solver.workspace());
+            let hierarchy = Hierarchy::new(fast, &operator);
+            let other = solver.rounds(fast, &hierarchy, goal, &mut vectors, 1e-9, &mut solver.workspace());
             assert_eq!(one, other);
             assert_eq!(plain, vectors);
         }
@@ -204,28 +281,35 @@ mod tests {
         let free: Vec<bool> = (0..cells[0] * cells[1]).map(|at| at * 5 % 17 != 0 && at % 31 > 1).collect();
         for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Joined, Ends::Reflecting]] {
             let solver = Multigrid::new(cells, ends, &free, 0.0);
-            let frame = solver.operator.frame;
+            let chequer = &solver.chequer;
+            let count = chequer.count();
+            let hierarchy = solver.hierarchy.as_ref().expect("cells");
             let vector = |seed: usize| {
-                let mut vector = vec![0.0_f32; frame.len()];
+                let mut vector = chequer.band();
                 for i in 0..cells[0] {
-                    for j in 0..cells[1] {
-                        let random = ((i * 37 + j + seed) as f32 * 0.618_034).fract() - 0.5;
-                        vector[frame.row(i).start + j] = random * solver.operator.free[frame.row(i).start + j];
+                    for (j, (to, free)) in
+                        vector.row_mut(i, count).iter_mut().zip(chequer.even.row(i, count)).enumerate()
+                    {
+                        for k in 0..LANES {
+                            to[k] = (((i * 37 + j * LANES + k + seed) as f32 * 0.618_034).fract() - 0.5) * free[k];
+                        }
                     }
+                    chequer.frame_even(&mut vector, i);
                 }
-                frame.finish(&mut vector);
                 vector
             };
-            let cycle = |right: &[f32]| {
-                let mut stack = solver.hierarchy.stack(frame);
-                stack.levels[0].right.copy_from_slice(right);
-                solver.hierarchy.cycle(Portable, &solver.operator, &mut stack);
-                stack.levels.swap_remove(0).solution
+            let dot = |a: &Band<f32>, b: &Band<f32>| -> f64 {
+                let row = |i: usize| a.row(i, count).as_flattened().iter().zip(b.row(i, count).as_flattened());
+                (0..cells[0]).flat_map(row).map(|(&a, &b)| f64::from(a) * f64::from(b)).sum()
             };
-            let dot = |a: &[f32], b: &[f32]| -> f64 {
-                let row = |i: usize| frame.row(i).start..frame.row(i).start + cells[1];
-                let cells = (0..cells[0]).flat_map(row);
-                cells.map(|at| f64::from(a[at]) * f64::from(b[at])).sum()
+            let cycle = |residual: &Band<f32>| {
+                let mut workspace = solver.workspace();
+                workspace.residual = residual.clone();
+                workspace.descend(Portable, chequer, &hierarchy.corners, None);
+                hierarchy.cycle(Portable, &mut workspace.stack);
+                let [product, _] = workspace.ascend(Portable, chequer, &hierarchy.corners);
+                assert!((product - dot(residual, &workspace.advice)).abs() < 1e-12 * product);
+                workspace.advice
             };
             for seed in 0..8 {
                 let (x, y) = (vector(seed), vector(seed * 101 + 50));

@@ -1,7 +1,8 @@
 //! Between a level and the next coarser one.
 
+use super::band::Band;
 use super::frame::Frame;
-use super::machine::{LANES, Machine, Pack};
+use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::seam::odd_circles;
 use super::smooth::{Smooth, Vectors};
 
@@ -23,7 +24,7 @@ pub(super) struct Transfer {
 }
 
 /// Rows that a transfer works with, for all levels.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Rows {
     natural: Vec<f32>,
     even: Vec<f32>,
@@ -38,6 +39,65 @@ impl Rows {
     pub fn new(width: usize) -> Self {
         let zeros = || vec![0.0; width + 2 * LANES + 2];
         Self { natural: zeros(), even: zeros(), odd: zeros(), above: [zeros(), zeros()], below: [zeros(), zeros()] }
+    }
+}
+
+/// Of the transfer from the finest level: what it does to the even cells.
+#[derive(Debug, Clone)]
+pub(super) struct Corners {
+    pub coarse: Frame,
+    weights: [Vec<f32>; 4],
+}
+
+impl Corners {
+    pub fn of(transfer: Transfer) -> Self {
+        Self { coarse: transfer.coarse, weights: transfer.corners }
+    }
+
+    /// Row `i` of `P^T` of a residual that is there at even cells only.
+    #[inline(always)]
+    pub fn restrict<M: Machine>(&self, m: M, residual: &Band<f32>, i: usize, into: &mut [f32]) {
+        let (row, over, count) = (self.coarse.row(i).start, self.coarse.above(i), self.coarse.width / LANES);
+        let [nw, ne, sw, se] = &self.weights;
+        let [nw, ne] = [packs(nw, row, count), packs(ne, row - 1, count)];
+        let [sw, se] = [packs(sw, over, count), packs(se, over - 1, count)];
+        let [below, above] = [residual.start(2 * i + 1), residual.above(2 * i)];
+        let [below, before_below] = [below, below - 1].map(|at| packs(&residual.data, at, count));
+        let [above, before_above] = [above, above - 1].map(|at| packs(&residual.data, at, count));
+        let into = packs_mut(into, row, count);
+        for (k, (here, into)) in residual.row(2 * i, count).iter().zip(into).enumerate() {
+            let lower = m.pack(&nw[k]) * m.pack(&below[k]) + m.pack(&ne[k]) * m.pack(&before_below[k]);
+            let upper = m.pack(&sw[k]) * m.pack(&above[k]) + m.pack(&se[k]) * m.pack(&before_above[k]);
+            (m.pack(here) + (lower + upper)).store(into, 0);
+        }
+    }
+
+    /// `inverse` times the residual plus `P` of a coarse vector with its frame, in row `i`.
+    #[inline(always)]
+    pub fn prolong<M: Machine>(
+        &self,
+        m: M,
+        from: &[f32],
+        i: usize,
+        inverse: M::Single,
+        residual: &[[f32; LANES]],
+        onto: &mut [[f32; LANES]],
+    ) {
+        let (row, under, count) = (self.coarse.row(i / 2).start, self.coarse.below(i / 2), self.coarse.width / LANES);
+        let nw = packs(from, row, count);
+        if i.is_multiple_of(2) {
+            for ((from, residual), to) in nw.iter().zip(residual).zip(onto) {
+                (inverse * m.pack(residual) + m.pack(from)).store(to, 0);
+            }
+            return;
+        }
+        let [ne, sw, se] = [row + 1, under, under + 1].map(|at| packs(from, at, count));
+        let [a, b, c, d] = self.weights.each_ref().map(|part| packs(part, row, count));
+        for (k, (residual, to)) in residual.iter().zip(onto).enumerate() {
+            let upper = m.pack(&a[k]) * m.pack(&nw[k]) + m.pack(&b[k]) * m.pack(&ne[k]);
+            let lower = m.pack(&c[k]) * m.pack(&sw[k]) + m.pack(&d[k]) * m.pack(&se[k]);
+            (inverse * m.pack(residual) + (upper + lower)).store(to, 0);
+        }
     }
 }
 

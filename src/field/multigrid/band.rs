@@ -1,0 +1,105 @@
+//! Rows of cells of one colour of a chessboard, and their neighbours of the other.
+
+use super::machine::{LANES, Machine, packs, packs_mut};
+
+/// The most stages of a pipeline. The last works so many rows behind the first, less one, and needs one row more.
+pub(super) const STAGES: usize = 5;
+
+/// Rows of one colour, each with a cell before the first and one after the last, between a row above and one below. Of
+/// many rows only the last few may be kept.
+#[derive(Debug, Clone)]
+pub(super) struct Band<T> {
+    pub width: usize,
+    kept: usize,
+    pub data: Vec<T>,
+}
+
+impl<T: Copy + Default> Band<T> {
+    pub fn new(width: usize, kept: usize) -> Self {
+        Self { width, kept, data: vec![T::default(); kept * (width + LANES) + LANES] }
+    }
+
+    /// Where the row above row `i` starts.
+    #[inline(always)]
+    pub fn above(&self, i: usize) -> usize {
+        let slot = if i < self.kept { i } else { i % self.kept };
+        slot * (self.width + LANES) + LANES
+    }
+
+    #[inline(always)]
+    pub fn start(&self, i: usize) -> usize {
+        self.above(i + 1)
+    }
+
+    #[inline(always)]
+    pub fn below(&self, i: usize) -> usize {
+        self.above(i + 2)
+    }
+
+    /// Row `i`, padding included, which is `count` packs. (Given so that loops over several rows see them to be as long.)
+    #[inline(always)]
+    pub fn row(&self, i: usize, count: usize) -> &[[T; LANES]] {
+        packs(&self.data, self.start(i), count)
+    }
+
+    #[inline(always)]
+    pub fn row_mut(&mut self, i: usize, count: usize) -> &mut [[T; LANES]] {
+        let start = self.start(i);
+        packs_mut(&mut self.data, start, count)
+    }
+
+    /// Row `i` as single cells.
+    #[inline(always)]
+    pub fn cells_mut(&mut self, i: usize) -> &mut [T] {
+        let start = self.start(i);
+        &mut self.data[start..start + self.width]
+    }
+
+    /// The neighbours of the cells of the other colour in row `i`, which is of `colour`.
+    #[inline(always)]
+    pub fn around(&self, i: usize, colour: Colour, count: usize) -> Around<'_, T> {
+        let at = self.start(i);
+        let west = (colour == Colour::Odd) == i.is_multiple_of(2);
+        let packs = |at: usize| packs(&self.data, at, count);
+        let side = packs(if west { at - 1 } else { at + 1 });
+        Around { above: packs(self.above(i)), below: packs(self.below(i)), beside: [packs(at), side] }
+    }
+}
+
+/// Of a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Colour {
+    Even,
+    Odd,
+}
+
+/// The neighbours of the cells of a row.
+pub(super) struct Around<'a, T> {
+    above: &'a [[T; LANES]],
+    below: &'a [[T; LANES]],
+    beside: [&'a [[T; LANES]]; 2],
+}
+
+impl Around<'_, f32> {
+    #[inline(always)]
+    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Single {
+        (m.pack(&self.beside[0][k]) + m.pack(&self.beside[1][k])) + (m.pack(&self.above[k]) + m.pack(&self.below[k]))
+    }
+
+    /// The sum without rounding to single precision.
+    #[inline(always)]
+    pub fn exact_sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
+        let [a, b] = self.beside.map(|row| m.double(m.pack(&row[k])));
+        let [c, d] = [self.above, self.below].map(|row| m.double(m.pack(&row[k])));
+        (a + b) + (c + d)
+    }
+}
+
+impl Around<'_, f64> {
+    #[inline(always)]
+    pub fn sum<M: Machine>(&self, m: M, k: usize) -> M::Double {
+        let [a, b] = self.beside.map(|row| m.pack_double(&row[k]));
+        let [c, d] = [self.above, self.below].map(|row| m.pack_double(&row[k]));
+        (a + b) + (c + d)
+    }
+}
