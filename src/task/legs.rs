@@ -71,7 +71,7 @@ impl<'a> Legs<'a> {
         let after = from.after(task, candidate, candidate.to);
         if after.is_done(task) {
             // No motion follows that would begin there.
-            unobstructed(&from.scene_after(task, &after), candidate.to, "after it")?;
+            unobstructed(&after.standing(task, from.released), candidate.to, "after it")?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);

@@ -118,12 +118,11 @@ impl State {
         Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 
-    /// The scene of standing still in a state that follows this one: link 2 may still be within the object that it has let
-    /// go of before.
-    pub fn scene_after(&self, task: &Task, after: &Self) -> Scene {
+    /// The scene of standing still: link 2 may still be within an object that it has `left` before.
+    pub fn standing(&self, task: &Task, left: Option<usize>) -> Scene {
         let spared: Vec<usize> =
-            self.released.into_iter().chain(after.released).map(|object| task.obstacle_number(object)).collect();
-        Scene::handling(task.arm.clone(), task.obstacles(&after.poses), after.payload(task), &spared)
+            left.into_iter().chain(self.released).map(|object| task.obstacle_number(object)).collect();
+        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 
     /// What the arm carries.
