@@ -1,14 +1,15 @@
 //! The search for the fastest sequence of motions.
 
 use super::Manner;
-use super::answer::{Impossible, Leg, TaskAnswer, TaskVerdict};
+use super::answer::{Leg, TaskAnswer, TaskVerdict};
+use super::impossible::{Impossible, Refused, Tried, reasons};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::order;
 use super::outlook::Outlook;
 use super::state::{Candidate, State};
 use crate::geometry::Ordered;
-use crate::model::{Step, Task};
+use crate::model::Task;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
@@ -78,8 +79,8 @@ struct Search<'a> {
     closed: BTreeSet<Vec<i64>>,
     /// Weight of what is left.
     haste: f64,
-    /// Steps that could not be done: after how many steps, which, and why.
-    refused: Vec<(usize, usize, &'a Step, Refusal)>,
+    /// Steps that could not be done.
+    refused: Vec<Refused<'a>>,
     /// Whether what is found is the fastest of all that is looked at.
     exact: bool,
     /// Whether all there is is looked at.
@@ -164,7 +165,13 @@ impl<'a> Search<'a> {
                 let entry = self.entry(&self.nodes[index], index);
                 self.open.push(entry);
             }
-            Err(refusal) => self.refused.push((self.nodes[parent].depth, parent, candidate.step, refusal)),
+            Err(refusal) => self.refused.push(Refused {
+                depth: self.nodes[parent].depth,
+                node: parent,
+                step: candidate.step,
+                posture: Some(candidate.to),
+                refusal,
+            }),
         }
     }
 
@@ -174,9 +181,8 @@ impl<'a> Search<'a> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let reason = "no posture within the joint limits reaches its target".to_owned();
-                let refusal = Refusal { reason, proven: candidates.all };
-                self.refused.push((depth, index, candidates.step, refusal));
+                let refusal = Refusal::new("no posture within the joint limits reaches its target", candidates.all);
+                self.refused.push(Refused { depth, node: index, step: candidates.step, posture: None, refusal });
             }
             for way in candidates.ways {
                 let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
@@ -200,7 +206,7 @@ impl<'a> Search<'a> {
             {
                 legs.push(Leg {
                     step: candidate.step.clone(),
-                    scene: self.legs.scene(from, candidate),
+                    scene: self.legs.scene(from, candidate.step),
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,
@@ -224,22 +230,42 @@ impl<'a> Search<'a> {
     /// What can be done, and why no more.
     fn failure(&mut self, lower_bound: f64) -> TaskAnswer {
         // Of the places where it ends, the farthest; of these the one reached first.
-        let farthest = self.refused.iter();
-        let depth = farthest.clone().map(|(depth, ..)| *depth).max().unwrap_or(0);
-        let mut at_depth = farthest.filter(|(d, ..)| *d == depth);
-        let Some((_, index, step, _)) = at_depth.clone().next() else {
+        let depth = self.refused.iter().map(|refused| refused.depth).max().unwrap_or(0);
+        let farthest = || self.refused.iter().filter(|refused| refused.depth == depth);
+        let Some((first, from)) = farthest().find_map(|refused| Some((refused, self.state(refused.node)?.clone())))
+        else {
             unreachable!("a search ends at the goal or where steps are refused");
         };
-        let mut reasons: Vec<String> = Vec::new();
-        for (_, _, refused, refusal) in at_depth.by_ref() {
-            if refused.number == step.number && !reasons.contains(&refusal.reason) {
-                reasons.push(refusal.reason.clone());
+        let (node, step) = (first.node, first.step);
+        let same = || farthest().filter(|refused| refused.step.number == step.number);
+        let mut tried = Vec::new();
+        for refused in same() {
+            let Some(State { q, .. }) = self.state(refused.node) else { continue };
+            tried.push(Tried { from: *q, to: refused.posture, reason: &refused.refusal.reason });
+        }
+        let mut postures = Vec::new();
+        for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
+            if !postures.contains(&unreached) {
+                postures.push(unreached);
             }
         }
-        let impossible = Impossible { step: (*step).clone(), reasons };
-        let proven = self.complete && self.refused.iter().all(|(.., refusal)| refusal.proven);
+        let impossible = Impossible {
+            step: step.clone(),
+            reasons: reasons(&self.task.arm, &tried),
+            scene: self.legs.scene(&from, step),
+            from: from.q,
+            postures,
+        };
+        let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         let verdict = if proven { TaskVerdict::Infeasible(impossible) } else { TaskVerdict::Unknown(impossible) };
-        let index = *index;
-        self.answer(verdict, index, lower_bound)
+        self.answer(verdict, node, lower_bound)
+    }
+
+    /// The state that a node has reached.
+    fn state(&self, node: usize) -> Option<&State> {
+        match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
     }
 }
