@@ -8,6 +8,7 @@ mod replay;
 #[path = "random_worlds/solid.rs"]
 mod solid;
 
+use cplan::certify::recheck;
 use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
 use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
@@ -95,6 +96,28 @@ fn carrying_closes_a_passage() {
     let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
+    // What is said of the motion that fails bears checking: a gantry has one posture for a place, its coordinates.
+    let [to] = &impossible.postures[..] else { panic!("{:?}", impossible.postures) };
+    assert_eq!((impossible.from, to.posture), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
+    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
+    let clearance = impossible.scene.workspace.clearance;
+    let held = recheck(&to.proof, &impossible.scene, impossible.from, &[to.posture], clearance);
+    assert!(!to.proof.is_empty() && held.is_ok(), "{held:?}");
+}
+
+/// Two ways to take the rail, and two to reach the slot with each.
+#[test]
+fn reasons_name_the_motions_that_were_tried() {
+    let task = shipped("slot_rigid");
+    let answer = planned(&task);
+    let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    assert_eq!((impossible.postures.len(), impossible.reasons.len()), (2, 4));
+    let from = format!("from joints ({:.4}, {:.4}) rad to (", impossible.from[0], impossible.from[1]);
+    assert_eq!(impossible.reasons.iter().filter(|reason| reason.starts_with(&from)).count(), 2);
+    assert!(impossible.reasons.iter().all(|reason| reason.starts_with("from joints (")));
+    for to in &impossible.postures {
+        assert!(!impossible.scene.obstructions(to.posture).is_empty() && to.proof.is_empty(), "{to:?}");
+    }
 }
 
 /// All postures within the limits that put the tip where a step wants it, from the closed form.

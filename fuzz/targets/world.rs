@@ -1,4 +1,5 @@
-//! Any bytes as a world, for an arm with limits and for one that turns without end.
+//! Any bytes as a world, for an arm with limits and for one that turns without end. Short tasks are planned, with
+//! little effort.
 #![no_main]
 
 #[path = "files.rs"]
@@ -6,7 +7,10 @@ mod files;
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan::input::{Overrides, load};
+use cplan::input::{LoadedScene, Overrides, load, load_scene};
+use cplan::solve::{Effort, Method};
+use cplan::task::{Manner, TaskReport, plan};
+use cplan::trajectory::Drive;
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
@@ -14,9 +18,33 @@ use std::sync::LazyLock;
 
 static FILES: LazyLock<Files> = LazyLock::new(Files::new);
 
+/// Longer tasks are only loaded.
+const MOST_STEPS: usize = 4;
+
+/// The task of a world with steps: it is refused with a message, or can be planned and reported.
+fn task(scene: LoadedScene) {
+    let task = match scene.task(&Overrides::default()) {
+        Ok(loaded) => loaded.task,
+        Err(error) => return assert!(!error.to_string().is_empty()),
+    };
+    assert!(task.start.iter().all(|v| v.is_finite()));
+    if task.steps().count() > MOST_STEPS {
+        return;
+    }
+    let effort = Effort { levels: 1, cells: 16, boxes: 200, ..Effort::default() };
+    let manner = Manner { method: Method::Visibility, effort, drive: Drive::default() };
+    let answer = plan(&task, &manner, &mut |_| {});
+    assert!(answer.impossible().is_none() || !answer.impossible().unwrap().reasons.is_empty(), "no reason");
+    assert!(!TaskReport::new("visibility", &task, &answer).json().is_empty());
+}
+
 fuzz_target!(|bytes: &[u8]| {
     let world = FILES.write("world.toml", bytes);
     for robot in ["robots/planar_2r_continuous.urdf", "robots/gantry.urdf"] {
+        if let Some(scene) = load_scene(&shipped(robot), &world).ok().filter(LoadedScene::has_steps) {
+            task(scene);
+            continue;
+        }
         match load(&shipped(robot), &world, &Overrides::default()) {
             Ok(loaded) => {
                 let problem = loaded.problem;

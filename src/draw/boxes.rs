@@ -1,7 +1,7 @@
 //! Boxes of configurations: what a subdivision is made of, and what a proof consists of.
 
 use super::axes::Frame;
-use super::color::{INK, Rgb};
+use super::color::{BARRED, INK, Rgb};
 use super::figure::{Item, Rect, Style, rectangle};
 use super::legend::{Key, Sign};
 use crate::certify::StuckBox;
@@ -10,7 +10,6 @@ use crate::space::Configuration;
 const FREE: Rgb = Rgb(0xcf, 0xe8, 0xd5);
 const MIXED: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 const SIDE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
-const PROOF: Rgb = Rgb(0xc2, 0x2e, 0x2e);
 
 /// Boxes narrower than this have no sides drawn, pixels: the lines would hide all else.
 const NARROW: f64 = 2.0;
@@ -48,13 +47,13 @@ pub fn keys() -> Vec<Key> {
 pub fn proof(stuck: &[StuckBox], frame: &Frame) -> Item {
     let corners = |s: &StuckBox| [Configuration::from(s.cell.lower), Configuration::from(s.cell.upper)];
     let steps = stuck.iter().flat_map(|s| rectangle(rect(corners(s), frame))).collect();
-    Item::Outline(steps, Style::line(PROOF.mixed(INK, 0.2), 0.9).filled(PROOF).faded(0.45))
+    Item::Outline(steps, Style::line(BARRED.mixed(INK, 0.2), 0.9).filled(BARRED).faded(0.45))
 }
 
 /// Legend of a proof.
 #[must_use]
 pub fn proof_key() -> Key {
-    (Sign::Swatch(PROOF), "proof: separating boxes".to_owned())
+    (Sign::Swatch(BARRED), "proof: separating boxes".to_owned())
 }
 
 #[cfg(test)]

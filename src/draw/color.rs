@@ -39,6 +39,8 @@ pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
 pub const GREY: Rgb = Rgb(0x6b, 0x72, 0x7a);
 /// Ghost poses and roadmaps.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
+/// What bars the way, and what is out of reach.
+pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
 /// Grid lines.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
 

@@ -21,6 +21,8 @@ pub enum Sign {
     Start,
     /// Where it ends.
     Goal,
+    /// Where it would end.
+    Unreached,
     /// A line.
     Line(Pen),
     /// A surface.
@@ -104,6 +106,7 @@ fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
     match sign {
         Sign::Start => cspace::start_marker([x + SIGN - 9.0, y]),
         Sign::Goal => cspace::goal_marker([x + SIGN - 9.0, y], true),
+        Sign::Unreached => cspace::goal_marker([x + SIGN - 9.0, y], false),
         Sign::Line(pen) => {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN, y])], style)]

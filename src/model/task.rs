@@ -157,6 +157,15 @@ impl Object {
 }
 
 impl Action {
+    /// The object that is taken, if one is.
+    #[must_use]
+    pub fn picked(&self) -> Option<usize> {
+        match self {
+            Action::Pick { object, .. } => Some(*object),
+            Action::Place { .. } | Action::Move(_) => None,
+        }
+    }
+
     /// In a few words: `pick "part"`.
     #[must_use]
     pub fn describe(&self, objects: &[Object]) -> String {

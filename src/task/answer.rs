@@ -1,5 +1,6 @@
 //! What becomes of a task.
 
+use super::impossible::Impossible;
 use crate::certify::WristTurn;
 use crate::geometry::Pose;
 use crate::model::{Scene, Step};
@@ -90,15 +91,6 @@ impl Leg {
     }
 }
 
-/// Why a task cannot be done, or is not known to be possible.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Impossible {
-    /// The first step that cannot be done after as many as possible before it.
-    pub step: Step,
-    /// Why, for each posture that was tried, in words.
-    pub reasons: Vec<String>,
-}
-
 /// The answer to a task.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TaskVerdict {
@@ -128,6 +120,15 @@ pub struct TaskAnswer {
 }
 
 impl TaskAnswer {
+    /// The step that fails, if one does.
+    #[must_use]
+    pub fn impossible(&self) -> Option<&Impossible> {
+        match &self.verdict {
+            TaskVerdict::Done => None,
+            TaskVerdict::Infeasible(impossible) | TaskVerdict::Unknown(impossible) => Some(impossible),
+        }
+    }
+
     /// Seconds from the beginning to the end of the last step.
     #[must_use]
     pub fn duration(&self) -> f64 {

@@ -3,8 +3,8 @@
 use super::Manner;
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State, payload};
-use crate::certify::{WristTurn, certify, wrist_turn};
-use crate::model::{Goal, Grip, Problem, Scene, Task};
+use crate::certify::{StuckBox, WristTurn, certify, wrist_turn};
+use crate::model::{Goal, Grip, Problem, Scene, Step, Task};
 use crate::solve::{Effort, Method, Verdict, solve};
 use crate::space::{Configuration, Path};
 use crate::trajectory::Timed;
@@ -18,6 +18,15 @@ pub(super) struct Refusal {
     pub reason: String,
     /// Whether that is proven, or just what came of trying.
     pub proven: bool,
+    /// Boxes of colliding configurations that bar the way, where that is the reason.
+    pub proof: Rc<[StuckBox]>,
+}
+
+impl Refusal {
+    /// A reason without boxes.
+    pub fn new(reason: impl Into<String>, proven: bool) -> Self {
+        Self { reason: reason.into(), proven, proof: Rc::new([]) }
+    }
 }
 
 /// A motion with the turn that follows it.
@@ -60,9 +69,9 @@ impl<'a> Legs<'a> {
     }
 
     /// The scene of a motion; the same one for the same state of the world.
-    pub fn scene(&mut self, from: &State, candidate: &Candidate) -> Rc<Scene> {
-        let key = scene_key(from, candidate, |_| true);
-        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(self.task, candidate))).clone()
+    pub fn scene(&mut self, from: &State, step: &Step) -> Rc<Scene> {
+        let key = scene_key(from, step, |_| true);
+        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(self.task, step))).clone()
     }
 
     /// The motion to a candidate's target and the turn there.
@@ -76,13 +85,13 @@ impl<'a> Legs<'a> {
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
         let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
-        let key = scene_key(from, candidate, matters);
+        let key = scene_key(from, candidate.step, matters);
         let next = self.numbers.len();
         let number = *self.numbers.entry(key).or_insert(next);
         let (q, to, speed) = (from.q, candidate.to, candidate.step.speed);
         let key = (number, [q[0], q[1], to[0], to[1], speed].map(f64::to_bits));
         let manner = self.manner;
-        let plan = || planned(&from.scene(task, candidate), q, to, speed, &manner).map(Rc::new);
+        let plan = || planned(&from.scene(task, candidate.step), q, to, speed, &manner).map(Rc::new);
         let timed = self.motions.entry(key).or_insert_with(plan).clone()?;
         let turn = candidate.turn.map(|turn| self.turn(from, candidate, turn)).transpose()?;
         Ok(Motion { timed, turn })
@@ -90,7 +99,7 @@ impl<'a> Legs<'a> {
 
     /// The turn of the wrist at a candidate's target, and the seconds that it takes.
     fn turn(&self, from: &State, candidate: &Candidate, turn: [f64; 2]) -> Result<(WristTurn, f64), Refusal> {
-        let unproven = |reason: &str| Refusal { reason: reason.to_owned(), proven: false };
+        let unproven = |reason: &str| Refusal::new(reason, false);
         // The object is no obstacle to itself: it lies nowhere before it is let go of, or from when it is taken.
         let after = from.after(self.task, candidate, candidate.to);
         let with = if after.held.is_some() { &after } else { from };
@@ -118,7 +127,7 @@ impl<'a> Legs<'a> {
 /// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
 fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
-    if hits.is_empty() { Ok(()) } else { Err(Refusal { reason: format!("{when} {}", hits.join("; ")), proven: true }) }
+    if hits.is_empty() { Ok(()) } else { Err(Refusal::new(format!("{when} {}", hits.join("; ")), true)) }
 }
 
 /// A motion from one configuration to another.
@@ -147,22 +156,19 @@ fn planned(
                 Verdict::Infeasible(proof) => {
                     let boxes = proof.stuck().len();
                     let reason = format!("there is no way: {boxes} boxes of colliding configurations bar it (proven)");
-                    return Err(Refusal { reason, proven: true });
+                    return Err(Refusal { proof: proof.stuck().into(), ..Refusal::new(reason, true) });
                 }
-                Verdict::Unknown(reason) => return Err(Refusal { reason, proven: false }),
+                Verdict::Unknown(reason) => return Err(Refusal::new(reason, false)),
             }
         }
     };
-    manner.drive.along(scene, &path, speed).map_err(|error| Refusal { reason: error.to_string(), proven: false })
+    manner.drive.along(scene, &path, speed).map_err(|error| Refusal::new(error.to_string(), false))
 }
 
 /// What the scene of a motion depends on, of the objects that matter.
-fn scene_key(from: &State, candidate: &Candidate, matters: impl Fn(usize) -> bool) -> SceneKey {
+fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> SceneKey {
     let mut key = Vec::new();
-    let picked = match candidate.event {
-        Some(super::Event::Grasp { object }) => Some(object),
-        _ => None,
-    };
+    let picked = step.action.picked();
     for (object, pose) in from.poses.iter().enumerate().filter(|(object, _)| matters(*object)) {
         let spared = from.released == Some(object) || picked == Some(object);
         key.extend([object as u64, u64::from(spared)]);

@@ -11,7 +11,9 @@
 //! orders), are the heuristic; at the start they bound the whole task from below.
 
 mod answer;
+mod failed_step;
 mod files;
+mod impossible;
 mod legs;
 mod least_time;
 mod order;
@@ -23,9 +25,11 @@ mod sequence;
 mod state;
 mod step_report;
 
-pub use answer::{Event, Impossible, Leg, TaskAnswer, TaskVerdict};
+pub use answer::{Event, Leg, TaskAnswer, TaskVerdict};
+pub use failed_step::{FailedStep, PostureReport};
+pub use impossible::{Impossible, Unreached};
 pub use least_time::rest_to_rest;
-pub use report::{Choice, FailedStep, TaskReport};
+pub use report::{Choice, TaskReport};
 pub use search::plan;
 pub use sequence::Sequence;
 pub use step_report::{ActionName, EventName, EventReport, StepReport, TurnReport};

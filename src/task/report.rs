@@ -1,8 +1,10 @@
 //! What became of a task, as JSON.
 
-use super::answer::{Impossible, TaskAnswer, TaskVerdict};
+use super::answer::{TaskAnswer, TaskVerdict};
+use super::failed_step::FailedStep;
+use super::impossible::Impossible;
 use super::sequence::Sequence;
-use super::step_report::{ActionName, EventReport, StepReport, finite};
+use super::step_report::{EventReport, StepReport, finite};
 use crate::model::{Joint, Task};
 use crate::trajectory::{SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
 use serde::Serialize;
@@ -16,23 +18,6 @@ pub enum Choice {
     Fastest,
     /// Not all were looked at.
     Good,
-}
-
-/// A step that cannot be done, or is not known to be possible.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FailedStep {
-    /// Its number in the world file, from 1.
-    pub step: usize,
-    /// Which repetition of it this is, from 1.
-    pub cycle: usize,
-    /// What it does, ...
-    pub action: ActionName,
-    /// ... and the same in a few words.
-    pub description: String,
-    /// Where it stands in the world file: file, line and column.
-    pub place: String,
-    /// Why, for each posture that was tried.
-    pub reasons: Vec<String>,
 }
 
 /// The whole motion with the step that each of its samples belongs to.
@@ -245,19 +230,6 @@ impl TaskReport {
     #[must_use]
     pub fn json(&self) -> String {
         line_a_field(self)
-    }
-}
-
-impl FailedStep {
-    fn new(task: &Task, Impossible { step, reasons }: &Impossible) -> Self {
-        Self {
-            step: step.number,
-            cycle: step.cycle,
-            action: (&step.action).into(),
-            description: step.action.describe(&task.objects),
-            place: step.place.clone(),
-            reasons: reasons.clone(),
-        }
     }
 }
 

@@ -1,14 +1,15 @@
 //! The search for the fastest sequence of motions.
 
 use super::Manner;
-use super::answer::{Impossible, Leg, TaskAnswer, TaskVerdict};
+use super::answer::{Leg, TaskAnswer, TaskVerdict};
+use super::impossible::{Impossible, Refused, Tried, reasons};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::order;
 use super::outlook::Outlook;
 use super::state::{Candidate, State};
 use crate::geometry::Ordered;
-use crate::model::{Step, Task};
+use crate::model::Task;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
@@ -16,6 +17,9 @@ use std::collections::{BTreeSet, BinaryHeap};
 /// worth. Beyond, what is left counts more than what is done, so that it goes straight for the end.
 const MOST_MOTIONS: usize = 2_000;
 const MOST_EXPANDED: usize = 100_000;
+
+/// States for each step of a task, beside these: long tasks have more of them.
+const EXPANDED_PER_STEP: usize = 16;
 
 /// By how much more what is left counts then.
 const HASTE: f64 = 4.0;
@@ -84,8 +88,8 @@ struct Search<'a> {
     closed: BTreeSet<Vec<i64>>,
     /// Weight of what is left.
     haste: f64,
-    /// Steps that could not be done: after how many steps, which, and why.
-    refused: Vec<(usize, usize, &'a Step, Refusal)>,
+    /// Steps that could not be done.
+    refused: Vec<Refused<'a>>,
     /// Whether what is found is the fastest of all that is looked at.
     exact: bool,
     /// Whether all there is is looked at.
@@ -97,18 +101,17 @@ impl<'a> Search<'a> {
     fn run(&mut self, start: State, lower_bound: f64, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
         self.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
         let mut told = 0;
+        let budget = MOST_EXPANDED + EXPANDED_PER_STEP * self.task.steps().count();
         while let Some(Reverse((_, _, index))) = self.open.pop() {
             if self.legs.planned() >= told + NEWS {
                 told = self.legs.planned();
                 progress(&format!("{told} motions planned, {} states seen", self.expanded));
             }
-            let (most, expanded) = match self.haste > 1.0 {
-                true => (PATIENCE * MOST_MOTIONS, PATIENCE * MOST_EXPANDED),
-                false => (MOST_MOTIONS, MOST_EXPANDED),
-            };
-            if self.legs.planned() > most || self.expanded > expanded {
+            let patience = if self.haste > 1.0 { PATIENCE } else { 1 };
+            if self.legs.planned() > patience * MOST_MOTIONS || self.expanded > patience * budget {
                 (self.exact, self.complete) = (false, false);
                 if self.haste > 1.0 {
+                    self.give_up();
                     break;
                 }
                 self.hurry();
@@ -150,6 +153,20 @@ impl<'a> Search<'a> {
         self.open = open.into_iter().map(|Reverse((_, _, index))| self.entry(&self.nodes[index], index)).collect();
     }
 
+    /// Leaves off: what comes after the farthest state reached could not be done in time.
+    fn give_up(&mut self) {
+        let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
+        let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
+        let next = farthest.zip(farthest.and_then(|node| self.state(node)?.candidates(self.task).into_iter().next()));
+        if let Some((node, candidates)) = next {
+            let (motions, states) = (self.legs.planned(), self.expanded);
+            let reason = format!("given up after {motions} motions and {states} states of the world");
+            let refusal = Refusal::new(reason, false);
+            let depth = self.nodes[node].depth;
+            self.refused.push(Refused { depth, node, step: candidates.step, posture: None, refusal });
+        }
+    }
+
     /// Plans the motion to a node.
     fn settle(&mut self, index: usize) {
         let (Some(parent), Stage::Pending(candidate)) = (self.nodes[index].parent, &self.nodes[index].stage) else {
@@ -168,7 +185,13 @@ impl<'a> Search<'a> {
                 let entry = self.entry(&self.nodes[index], index);
                 self.open.push(entry);
             }
-            Err(refusal) => self.refused.push((self.nodes[parent].depth, parent, candidate.step, refusal)),
+            Err(refusal) => self.refused.push(Refused {
+                depth: self.nodes[parent].depth,
+                node: parent,
+                step: candidate.step,
+                posture: Some(candidate.to),
+                refusal,
+            }),
         }
     }
 
@@ -178,9 +201,8 @@ impl<'a> Search<'a> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let reason = "no posture within the joint limits reaches its target".to_owned();
-                let refusal = Refusal { reason, proven: candidates.all };
-                self.refused.push((depth, index, candidates.step, refusal));
+                let refusal = Refusal::new("no posture within the joint limits reaches its target", candidates.all);
+                self.refused.push(Refused { depth, node: index, step: candidates.step, posture: None, refusal });
             }
             for way in candidates.ways {
                 let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
@@ -204,7 +226,7 @@ impl<'a> Search<'a> {
             {
                 legs.push(Leg {
                     step: candidate.step.clone(),
-                    scene: self.legs.scene(from, candidate),
+                    scene: self.legs.scene(from, candidate.step),
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,
@@ -228,22 +250,42 @@ impl<'a> Search<'a> {
     /// What can be done, and why no more.
     fn failure(&mut self, lower_bound: f64) -> TaskAnswer {
         // Of the places where it ends, the farthest; of these the one reached first.
-        let farthest = self.refused.iter();
-        let depth = farthest.clone().map(|(depth, ..)| *depth).max().unwrap_or(0);
-        let mut at_depth = farthest.filter(|(d, ..)| *d == depth);
-        let Some((_, index, step, _)) = at_depth.clone().next() else {
+        let depth = self.refused.iter().map(|refused| refused.depth).max().unwrap_or(0);
+        let farthest = || self.refused.iter().filter(|refused| refused.depth == depth);
+        let Some((first, from)) = farthest().find_map(|refused| Some((refused, self.state(refused.node)?.clone())))
+        else {
             unreachable!("a search ends at the goal or where steps are refused");
         };
-        let mut reasons: Vec<String> = Vec::new();
-        for (_, _, refused, refusal) in at_depth.by_ref() {
-            if refused.number == step.number && !reasons.contains(&refusal.reason) {
-                reasons.push(refusal.reason.clone());
+        let (node, step) = (first.node, first.step);
+        let same = || farthest().filter(|refused| refused.step.number == step.number);
+        let mut tried = Vec::new();
+        for refused in same() {
+            let Some(State { q, .. }) = self.state(refused.node) else { continue };
+            tried.push(Tried { from: *q, to: refused.posture, reason: &refused.refusal.reason });
+        }
+        let mut postures = Vec::new();
+        for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
+            if !postures.contains(&unreached) {
+                postures.push(unreached);
             }
         }
-        let impossible = Impossible { step: (*step).clone(), reasons };
-        let proven = self.complete && self.refused.iter().all(|(.., refusal)| refusal.proven);
+        let impossible = Impossible {
+            step: step.clone(),
+            reasons: reasons(&self.task.arm, &tried),
+            scene: self.legs.scene(&from, step),
+            from: from.q,
+            postures,
+        };
+        let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         let verdict = if proven { TaskVerdict::Infeasible(impossible) } else { TaskVerdict::Unknown(impossible) };
-        let index = *index;
-        self.answer(verdict, index, lower_bound)
+        self.answer(verdict, node, lower_bound)
+    }
+
+    /// The state that a node has reached.
+    fn state(&self, node: usize) -> Option<&State> {
+        match &self.nodes[node].stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
     }
 }

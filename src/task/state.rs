@@ -107,14 +107,10 @@ impl State {
         key
     }
 
-    /// The scene of the motion to a candidate's target.
-    pub fn scene(&self, task: &Task, candidate: &Candidate) -> Scene {
-        let picked = match candidate.event {
-            Some(Event::Grasp { object }) => Some(object),
-            _ => None,
-        };
-        let spared: Vec<usize> =
-            self.released.into_iter().chain(picked).map(|object| task.obstacle_number(object)).collect();
+    /// The scene of the motion to a step's target.
+    pub fn scene(&self, task: &Task, step: &Step) -> Scene {
+        let spared = self.released.into_iter().chain(step.action.picked());
+        let spared: Vec<usize> = spared.map(|object| task.obstacle_number(object)).collect();
         Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
     }
 

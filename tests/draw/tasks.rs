@@ -316,22 +316,66 @@ fn a_step_that_fails_is_named() {
     let objects = || vec![object("part", false, Holding::Rigid, [1.2, -0.5])];
     let far = [turn_to(1.2, 0.6), pick(0), place(-5.0, 0.0)];
     let farther = [Action::Move(Goal::Tip(Point::new(-7.0, 0.0)))];
-    for (name, steps, step, reason) in [
-        ("task_failed", &far[..], "step 3 fails: impossible, proven", "step 3, place at (-5, 0) m: "),
-        (
-            "task_failed_at_once",
-            &farther[..],
-            "step 1 fails: impossible, proven",
-            "step 1, move the tip to (-7, 0) m: ",
-        ),
+    let (first, third) = ("step 1 fails: impossible, proven", "step 3 fails: impossible, proven");
+    for (name, steps, step, reason, panels) in [
+        ("task_failed", &far[..], third, "step 3, place at (-5, 0) m: no posture", 3),
+        ("task_failed_at_once", &farther[..], first, "step 1, move the tip to (-7, 0) m: no posture", 2),
     ] {
         let task = task(objects(), fixed(), steps, 1);
         let text = drawn(name, &task, &answer(&task));
         let words = words(&text);
         assert!(words.contains(step) && words.contains(reason), "{words}");
-        // What was done, or where the arm is.
-        assert_eq!(frames(&text).len(), 2);
+        // The workspace, what was done if anything, and where the arm stands then.
+        assert_eq!(frames(&text).len(), panels);
     }
+}
+
+/// Hollow diamonds: how often the sign stands in the picture, that of the legend included.
+fn hollow_diamonds(text: &str) -> usize {
+    let tree = roxmltree::Document::parse(text).unwrap();
+    let white = tree.descendants().filter(|n| n.has_tag_name("path") && n.attribute("fill") == Some("#ffffff"));
+    let outlines = white.filter_map(|n| n.attribute("d")).filter(|outline| !outline.contains('A'));
+    // Four lines, whose ends lie 14 pixels apart across and along.
+    let is_diamond = |outline: &&str| {
+        let corners = corners(outline);
+        let size = |k: usize| {
+            let values = || corners.iter().map(|c| c[k]);
+            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+        };
+        corners.len() == 4 && (size(0) - 14.0).abs() < 0.05 && (size(1) - 14.0).abs() < 0.05
+    };
+    outlines.filter(is_diamond).count()
+}
+
+/// With the object in the hand neither posture at its place can be taken.
+#[test]
+fn the_motion_that_fails_is_drawn() {
+    let held = |holding| vec![object("part", false, holding, [1.2, -0.5])];
+    let mut obstacles = fixed();
+    obstacles.push(polygon("block", &[(-1.2, 0.35), (-1.1, 0.35), (-1.1, 0.45), (-1.2, 0.45)]));
+    let blocked = task(held(Holding::Level), obstacles, &[pick(0), place(-1.1, 0.4)], 1);
+    let answer = answer(&blocked);
+    let TaskVerdict::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    assert_eq!((why.step.number, why.postures.len()), (2, 2));
+    assert_eq!(why.from, answer.legs[0].timed.curve.curve().path().goal());
+    assert_eq!(why.scene.payload().map(|payload| payload.object.as_str()), Some("part"));
+    for to in &why.postures {
+        let tip = blocked.arm.tip_at(to.posture);
+        assert!((tip - Point::new(-1.1, 0.4)).norm() < 1e-9, "{tip}");
+        assert!(to.reason.contains("block") && !why.scene.obstructions(to.posture).is_empty(), "{to:?}");
+        let [a, b] = [0, 1].map(|k| (to.posture[k] * 1e4).round() / 1e4);
+        assert!(why.reasons.iter().any(|reason| reason.contains(&format!("({a}, {b}) rad"))), "{:?}", why.reasons);
+    }
+    let text = drawn("task_blocked", &blocked, &answer);
+    let words = words(&text);
+    assert!(words.lines().any(|line| line.trim() == "2 fails: carrying \"part\""), "{words}");
+    assert!(words.contains("not reached") && !words.contains("separating boxes"), "{words}");
+    let frames = frames(&text);
+    assert_eq!((frames.len(), hollow_diamonds(&text)), (3, 3));
+    // The object is in the hand in both postures, which are drawn in the colour of what is barred.
+    let part = color_of(&text, "part");
+    assert_eq!(frames[0].iter().filter(|m| m.stroke == part && m.union).count(), 2);
+    assert!(frames[2].iter().all(|m| m.stroke != part));
 }
 
 /// A picture of one motion with a payload: drawn by its own pieces, and no obstacle where it was taken away.

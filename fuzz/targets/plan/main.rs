@@ -8,7 +8,7 @@ use cplan::certify::{CertifiedPath, certify};
 use cplan::geometry::Convex;
 use cplan::model::{Motion, Problem, Scene};
 use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::space::{Configuration, Metric, Path};
+use cplan::space::{Configuration, Path};
 use draft::Draft;
 use libfuzzer_sys::fuzz_target;
 use parry2d_f64::math::{Pose, Vector};
@@ -21,7 +21,10 @@ const PARRY: f64 = 1e-6;
 /// Samples of a straight piece.
 const SAMPLES: u32 = 200;
 
-const EFFORT: Effort = Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, metric: Metric::Euclidean, gap: None };
+/// Little, so that many scenes are tried.
+fn effort() -> Effort {
+    Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, bounded: false, ..Effort::default() }
+}
 
 /// A shape's core, turned by an angle and moved; none where parry's constructor refuses a sliver.
 fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
@@ -99,7 +102,7 @@ fuzz_target!(|draft: Draft| {
     let chosen = Method::ALL[usize::from(draft.method) % Method::ALL.len()];
     let (mut found, mut infeasible) = (false, false);
     for method in [chosen, Method::Subdivision] {
-        match solve(&problem, method, &EFFORT, &mut |_| {}).verdict {
+        match solve(&problem, method, &effort(), &mut |_| {}).verdict {
             Verdict::Found(path) => {
                 check_path(&problem, &path);
                 found = true;

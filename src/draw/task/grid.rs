@@ -10,6 +10,8 @@ use crate::model::Arm;
 
 /// Between columns, for the values at their ends, and between rows, for the titles; pixels.
 const GAP: [f64; 2] = [40.0, 36.0];
+/// Greatest height of two panels one below the other, pixels.
+const STACKED: f64 = 640.0;
 /// Ratio of height to width of a panel whose axes have different scales.
 const PROPORTION: f64 = 0.8;
 
@@ -28,14 +30,16 @@ impl Grid {
     /// As many columns as keep the panels legible in this width.
     #[must_use]
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
-        let columns = match count {
-            0..=1 => 1,
-            2..=6 => 2,
-            _ => 3,
-        };
-        let room = (width - GAP[0] * (columns - 1) as f64) / columns as f64;
-        let side = if columns == 1 { room.min(530.0) } else { room };
         let proportion = chart::one_scale(arm).unwrap_or(PROPORTION).clamp(0.5, 1.2);
+        let room = |columns: usize| (width - GAP[0] * (columns - 1) as f64) / columns as f64;
+        // Two low ones are wider one below the other.
+        let below = ((STACKED - GAP[1]) / 2.0 / proportion).min(room(1));
+        let (columns, side) = match count {
+            0..=1 => (1, room(1).min(530.0)),
+            2 if below > room(2) => (1, below),
+            2..=6 => (2, room(2)),
+            _ => (3, room(3)),
+        };
         Self { count, columns, size: [side, side * proportion], width }
     }
 

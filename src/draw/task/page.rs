@@ -4,13 +4,14 @@ use super::grid::Grid;
 use super::panel::Panel;
 use super::states::{payload_states, rounds};
 use super::{TaskPicture, motion_pen, steps, workspace};
-use crate::draw::color::{self, GREY, INK, PALE, Rgb};
+use crate::draw::color::{self, BARRED, GREY, INK, PALE, Rgb};
 use crate::draw::figure::{Anchor, Figure, Pen, Rect};
 use crate::draw::legend::{self, Key, Sign};
 use crate::draw::page::{HEIGHT, MARGIN, WIDTH, label, titles};
-use crate::draw::preferences;
+use crate::draw::{boxes, preferences};
 
-/// More payload states than this are not shown: the page would be longer than anyone reads.
+/// More payload states than this are not shown, but for the one in which a step fails: the page would be longer than
+/// anyone reads.
 const MOST: usize = 24;
 /// More obstacles than this are not named.
 const NAMED: usize = 16;
@@ -30,6 +31,7 @@ pub fn compose(picture: &TaskPicture) -> Figure {
     let rounds = rounds(&answer.legs);
     let mut panels: Vec<Panel> = states.iter().take(MOST).filter_map(|state| Panel::new(state, task, rounds)).collect();
     let left_out = states.len() - panels.len();
+    panels.extend(answer.impossible().map(|fails| Panel::failing(fails, task)));
     if panels.is_empty() {
         panels.push(Panel::at_start(task));
     }
@@ -91,6 +93,11 @@ fn keys(picture: &TaskPicture) -> Vec<Key> {
     if legs.iter().any(|leg| leg.event.is_some()) {
         keys.push((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned()));
     }
+    let unreached = || picture.answer.impossible().into_iter().flat_map(|fails| &fails.postures);
+    keys.extend(unreached().next().map(|_| (Sign::Unreached, "not reached".to_owned())));
+    let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
+    keys.extend(unreached().next().map(|_| (Sign::Line(pen), "the arm there".to_owned())));
+    keys.extend(unreached().any(|unreached| !unreached.proof.is_empty()).then(boxes::proof_key));
     keys.extend(preferences::keys(&task.workspace.preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let names = task.workspace.obstacles.iter().map(|o| &o.name).chain(task.objects.iter().map(|o| &o.name));

@@ -7,10 +7,10 @@ use crate::draw::color::{self, INK, Rgb};
 use crate::draw::cspace::{blocked, goal_marker, start_marker};
 use crate::draw::figure::{Anchor, Item, Rect, Style, shortened};
 use crate::draw::shapes::DASH;
-use crate::draw::{page, preferences};
+use crate::draw::{boxes, page, preferences};
 use crate::model::{Scene, Task};
 use crate::space::Configuration;
-use crate::task::Leg;
+use crate::task::{Impossible, Leg};
 
 /// A world with a payload, and the motions in it.
 #[derive(Debug, Clone)]
@@ -25,6 +25,8 @@ pub struct Panel<'a> {
     pub motions: Vec<&'a Leg>,
     /// Where the arm is at first.
     pub start: Configuration,
+    /// The step that fails here, if one does.
+    pub fails: Option<&'a Impossible>,
 }
 
 impl<'a> Panel<'a> {
@@ -32,16 +34,21 @@ impl<'a> Panel<'a> {
     #[must_use]
     pub fn new(state: &PayloadState<'a>, task: &Task, rounds: usize) -> Option<Self> {
         let first = state.motions.first()?;
-        let (workspace, payload) = (&first.scene.workspace, first.scene.payload());
-        let scene = Scene::handling(task.arm.clone(), workspace.clone(), payload.cloned(), &[]);
-        let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
-        let spared = |obstacle: &usize| {
-            let all = pairs(&scene, *obstacle);
-            state.motions.iter().any(|leg| pairs(&leg.scene, *obstacle) < all)
-        };
-        let spared = (0..workspace.obstacles.len()).filter(spared).collect();
+        let scenes: Vec<&Scene> = state.motions.iter().map(|leg| &*leg.scene).collect();
+        let (scene, spared) = unspared(task, &first.scene, &scenes);
         let start = first.timed.curve.curve().path().start();
-        Some(Self { title: state.title(rounds), scene, spared, motions: state.motions.clone(), start })
+        Some(Self { title: state.title(rounds), scene, spared, motions: state.motions.clone(), start, fails: None })
+    }
+
+    /// The panel of the motion that fails: where the arm stands and where it cannot go.
+    #[must_use]
+    pub fn failing(fails: &'a Impossible, task: &Task) -> Self {
+        let (scene, spared) = unspared(task, &fails.scene, &[&*fails.scene]);
+        let payload = describe(scene.payload().map(|payload| payload.object.as_str()));
+        let (number, cycle) = (fails.step.number, fails.step.cycle);
+        let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
+        let title = format!("{number} fails: {payload}{round}");
+        Self { title, scene, spared, motions: Vec::new(), start: fails.from, fails: Some(fails) }
     }
 
     /// The panel of the world as it is at first, without motions.
@@ -49,7 +56,7 @@ impl<'a> Panel<'a> {
     pub fn at_start(task: &Task) -> Self {
         let poses: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
         let scene = Scene::new(task.arm.clone(), task.obstacles(&poses));
-        Self { title: describe(None), scene, spared: Vec::new(), motions: Vec::new(), start: task.start }
+        Self { title: describe(None), scene, spared: Vec::new(), motions: Vec::new(), start: task.start, fails: None }
     }
 
     /// Draws it, without values and titles of the axes.
@@ -62,13 +69,20 @@ impl<'a> Panel<'a> {
         let curves: Vec<_> = self.motions.iter().map(|leg| leg.timed.curve.curve().outline()).collect();
         let pens = self.motions.iter().map(|leg| motion_pen(picture.task, leg));
         inside.extend(page::lines(curves.iter().map(|path| chart.outline(path)).zip(pens)));
+        let unreached = || self.fails.iter().flat_map(|fails| &fails.postures);
+        let proofs = unreached().filter(|unreached| !unreached.proof.is_empty());
+        inside.extend(proofs.map(|unreached| boxes::proof(&unreached.proof, frame)));
         let mut items = vec![Item::Clip(frame.rect, inside)];
         items.extend(frame.sides(chart.seams()));
         items.extend(curves.iter().flat_map(|path| goal_marker(chart.place(path.goal()), true)));
+        items.extend(unreached().flat_map(|unreached| goal_marker(chart.place(unreached.posture), false)));
         items.extend(start_marker(chart.place(self.start)));
         let mut numbers = Vec::new();
         for (leg, path) in self.motions.iter().zip(&curves) {
             tags::add(&mut numbers, chart.place(path.goal()), leg.step.number);
+        }
+        if let Some(fails) = self.fails {
+            unreached().for_each(|to| tags::add(&mut numbers, chart.place(to.posture), fails.step.number));
         }
         if numbers.len() > 1 {
             items.extend(tags::items(&numbers, frame.rect, &[], &[]));
@@ -98,6 +112,19 @@ impl<'a> Panel<'a> {
         }
         items
     }
+}
+
+/// World and payload of a scene with link 2 free of nothing, and the obstacles that it may reach into in some of these
+/// scenes, which differ in nothing else.
+fn unspared(task: &Task, scene: &Scene, scenes: &[&Scene]) -> (Scene, Vec<usize>) {
+    let all = Scene::handling(task.arm.clone(), scene.workspace.clone(), scene.payload().cloned(), &[]);
+    let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
+    let spared = |obstacle: &usize| {
+        let most = pairs(&all, *obstacle);
+        scenes.iter().any(|scene| pairs(scene, *obstacle) < most)
+    };
+    let spared = (0..all.workspace.obstacles.len()).filter(spared).collect();
+    (all, spared)
 }
 
 /// How the C-obstacle of an obstacle is drawn that link 2 may reach into.

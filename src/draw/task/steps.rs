@@ -2,17 +2,18 @@
 
 use super::TaskPicture;
 use super::states::rounds;
-use crate::draw::color::{GREY, INK, Rgb};
+use crate::draw::color::{BARRED, GREY, INK, Rgb};
 use crate::draw::figure::{Anchor, Item, Rect, shortened, text_width};
 use crate::draw::page::label;
-use crate::task::{Impossible, TaskVerdict};
+use crate::task::TaskVerdict;
 
 /// Height of a row, pixels.
 const ROW: f64 = 19.0;
 const SIZE: f64 = 13.0;
 /// More rows than this are not shown.
 const MOST: usize = 26;
-const FAILED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+/// More lines than this on why a step fails are not shown.
+const MOST_REASONS: usize = 4;
 
 /// A row: the step's number, what it does, and when it is over.
 struct Row {
@@ -22,24 +23,27 @@ struct Row {
     color: Rgb,
 }
 
-/// The step that fails, if one does.
-fn failing<'a>(picture: &TaskPicture<'a>) -> Option<&'a Impossible> {
-    match &picture.answer.verdict {
-        TaskVerdict::Done => None,
-        TaskVerdict::Infeasible(impossible) | TaskVerdict::Unknown(impossible) => Some(impossible),
-    }
-}
-
 /// The lines of the title and the status.
 #[must_use]
 pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let mut lines = picture.title.clone();
-    let Some(impossible) = failing(picture) else { return (lines, picture.status.clone()) };
+    let Some(impossible) = picture.answer.impossible() else { return (lines, picture.status.clone()) };
     let step = &impossible.step;
     let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
     let status = format!("step {}{round} fails: {}", step.number, picture.status);
     let what = step.action.describe(&picture.task.objects);
-    lines.push(format!("step {}, {what}: {}", step.number, impossible.reasons.join("; or ")));
+    let heading = format!("step {}, {what}:", step.number);
+    let reasons = &impossible.reasons;
+    if let [reason] = &reasons[..] {
+        lines.push(format!("{heading} {reason}"));
+        return (lines, status);
+    }
+    lines.push(heading);
+    let shown = if reasons.len() > MOST_REASONS { MOST_REASONS - 1 } else { reasons.len() };
+    lines.extend(reasons[..shown].iter().cloned());
+    if shown < reasons.len() {
+        lines.push(format!("and {} further reasons", reasons.len() - shown));
+    }
     (lines, status)
 }
 
@@ -57,13 +61,14 @@ fn rows(picture: &TaskPicture) -> Vec<Row> {
         rows.truncate(MOST);
         rows.push(Row { number: String::new(), text, time: String::new(), color: GREY });
     }
-    if let Some(Impossible { step, .. }) = failing(picture) {
+    if let Some(impossible) = picture.answer.impossible() {
         let time = match picture.answer.verdict {
             TaskVerdict::Infeasible(_) => "impossible",
             _ => "unknown",
         };
+        let step = &impossible.step;
         let (number, text) = (step.number.to_string(), step.action.describe(objects));
-        rows.push(Row { number, text, time: time.to_owned(), color: FAILED });
+        rows.push(Row { number, text, time: time.to_owned(), color: BARRED });
     }
     rows
 }

@@ -2,9 +2,9 @@
 
 use super::states::PayloadState;
 use super::{TaskPicture, motion_pen, object_color, tags};
-use crate::draw::color::{self, INK, WHITE};
+use crate::draw::color::{self, BARRED, INK, WHITE};
 use crate::draw::figure::{Item, Rect, Spot, Step, Style};
-use crate::draw::posture::{self, GOAL, START};
+use crate::draw::posture::{self, GOAL, START, UNREACHED};
 use crate::draw::workspace::{framed, ground, tip_trace};
 use crate::draw::{extent, page, preferences, shapes};
 use crate::geometry::Pose;
@@ -33,6 +33,9 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     inside.extend(at_first.map(|(i, obstacle)| shapes::solid(&frame, obstacle, color::obstacle(i))));
     inside.extend(placed.iter().map(|(k, object)| shapes::dashed(&frame, object, object_color(task, *k))));
     inside.extend(preferences::in_workspace(&task.workspace.preferences, &frame));
+    let fails = picture.answer.impossible();
+    let unreached = || fails.into_iter().flat_map(|fails| fails.postures.iter().map(move |to| (fails, to.posture)));
+    inside.extend(unreached().flat_map(|(fails, q)| posture::items(&frame, &fails.scene, q, &UNREACHED)));
     inside.extend(posture::items(&frame, &overview, task.start, &START));
     if let Some(last) = legs.last() {
         // What was let go of at the end lies there.
@@ -51,6 +54,12 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     }
     let dot = Style::line(WHITE, 1.2).filled(INK);
     inside.extend(numbers.iter().map(|tag| Item::Disc(tag.at, 3.6, dot)));
+    for (fails, q) in unreached() {
+        let tip = arm.tip_at(q);
+        let spot = frame.at(tip.x, tip.y);
+        inside.push(Item::Disc(spot, 3.6, Style::line(BARRED, 1.4).filled(WHITE)));
+        tags::add(&mut numbers, spot, fails.step.number);
+    }
     let shapes: Vec<Rect> = overview.workspace.obstacles.iter().map(|o| extent::on_page(&frame, o)).collect();
     inside.extend(tags::items(&numbers, frame.rect, &shapes, &spots));
     inside.extend(extent::hidden_note(&frame, &overview.workspace.obstacles));

@@ -1,0 +1,51 @@
+//! Plans a task of picks and places, and prints when what happens.
+//!
+//! ```text
+//! cargo run --release --example pick_and_place -- robots/scara.urdf workspaces/tasks/table_mission.toml
+//! ```
+
+use cplan::input::{self, Overrides};
+use cplan::solve::{Effort, Method};
+use cplan::task::{Event, Manner, Sequence, TaskVerdict, plan};
+use cplan::trajectory::Drive;
+use std::error::Error;
+use std::path::PathBuf;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut args = std::env::args().skip(1).map(PathBuf::from);
+    let urdf = args.next().unwrap_or_else(|| "robots/scara.urdf".into());
+    let world = args.next().unwrap_or_else(|| "workspaces/tasks/table_mission.toml".into());
+    let task = input::load_scene(&urdf, &world)?.task(&Overrides::default())?.task;
+
+    // Postures, grips and turns of the wrist are chosen together, for the least time of the whole.
+    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() };
+    let answer = plan(&task, &manner, &mut |text| eprintln!("{text}"));
+
+    // Of a task that cannot be done: the steps before the one that fails.
+    for leg in &answer.legs {
+        let step = &leg.step;
+        let (number, what) = (step.number, step.action.describe(&task.objects));
+        println!("{:7.3} s to {:7.3} s  step {number}, {what}; {:.4} m free", leg.begin, leg.end(), leg.clearance());
+        let object = |object: usize| &task.objects[object].name;
+        match leg.event.zip(leg.event_time()) {
+            Some((Event::Grasp { object: k }, time)) => println!("{time:7.3} s             \"{}\" is taken", object(k)),
+            Some((Event::Release { object: k, pose }, time)) => {
+                let at = pose.translation.vector;
+                println!("{time:7.3} s             \"{}\" is left at ({:.3}, {:.3}) m", object(k), at.x, at.y);
+            }
+            None => {}
+        }
+    }
+    match &answer.verdict {
+        TaskVerdict::Done => {
+            // All motions as one trajectory, with the arm standing still where steps end.
+            if let Some(Sequence { trajectory, .. }) = Sequence::of(&answer.legs) {
+                println!("{} samples, {:.3} s in all", trajectory.time.len(), trajectory.duration());
+            }
+            println!("no sequence of motions takes less than {:.3} s: proven", answer.lower_bound);
+        }
+        TaskVerdict::Infeasible(why) => println!("step {} cannot be done: {:?}", why.step.number, why.reasons),
+        TaskVerdict::Unknown(why) => println!("step {}: unknown whether it can be done", why.step.number),
+    }
+    Ok(())
+}
