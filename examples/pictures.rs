@@ -1,16 +1,49 @@
-//! Redraws the pictures of the documentation: each planner on one workspace, and one workspace without a path.
+//! Redraws the pictures of the documentation: each planner on one workspace, one workspace without a path, and two tasks.
 //!
 //! ```text
 //! cargo run --release --example pictures
 //! ```
 
-use cplan::cspace::c_obstacles;
-use cplan::draw::{Picture, svg};
+use cplan::cspace::{CObstacle, c_obstacles};
+use cplan::draw::{Picture, TaskPicture, svg, task_svg};
 use cplan::input::{self, Overrides};
+use cplan::model::Scene;
 use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::trajectory::write_whole;
+use cplan::task::{Manner, TaskVerdict, plan};
+use cplan::trajectory::{Drive, write_whole};
 use std::error::Error;
 use std::path::Path;
+
+/// C-obstacles, within less than a pixel.
+fn contours(scene: &Scene) -> Vec<CObstacle> {
+    let tolerance = 1e-3 * scene.arm.reach();
+    c_obstacles(scene, tolerance, tolerance)
+}
+
+/// Draws a shipped task.
+fn draw_task(robot: &str, world: &str, file: &Path) -> Result<(), Box<dyn Error>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let urdf = root.join("robots").join(robot).with_extension("urdf");
+    let world = root.join("workspaces/tasks").join(world).with_extension("toml");
+    let task = input::load_scene(&urdf, &world)?.task(&Overrides::default())?.task;
+    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() };
+    let answer = plan(&task, &manner, &mut |_| {});
+    let status = match &answer.verdict {
+        TaskVerdict::Done => "done, certified",
+        TaskVerdict::Infeasible(_) => "impossible, proven",
+        TaskVerdict::Unknown(_) => "unknown",
+    };
+    let picture = TaskPicture {
+        title: vec![format!("{}: {}", task.workspace.name, task.arm.name), format!("{:.3} s", answer.duration())],
+        status: status.into(),
+        task: &task,
+        answer: &answer,
+        c_obstacles: contours,
+    };
+    write_whole(file, task_svg(&picture).as_bytes())?;
+    println!("{}", file.display());
+    Ok(())
+}
 
 /// Draws what `method` answers to a shipped workspace.
 fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box<dyn Error>> {
@@ -33,8 +66,6 @@ fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box
         }
         Verdict::Unknown(reason) => ("unknown", reason.clone(), None),
     };
-    // Within less than a pixel.
-    let tolerance = 1e-3 * scene.arm.reach();
     let picture = Picture {
         title: vec![format!("{}: {}", scene.workspace.name, scene.arm.name), detail],
         status: status.into(),
@@ -44,7 +75,7 @@ fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box
         paths: path.map(|path| (method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),
-        c_obstacles: &c_obstacles(scene, tolerance, tolerance),
+        c_obstacles: &contours(scene),
     };
     write_whole(file, svg(&picture).as_bytes())?;
     println!("{}", file.display());
@@ -57,5 +88,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for method in Method::ALL {
         draw("planar_2r", "workbench", method, &docs.join(format!("{method}.svg")))?;
     }
-    draw("planar_2r_continuous", "no_path", Method::Wavefront, &docs.join("no_path.svg"))
+    draw("planar_2r_continuous", "no_path", Method::Wavefront, &docs.join("no_path.svg"))?;
+    draw_task("rrbot_vertical", "tower", &docs.join("tower.svg"))?;
+    draw_task("gantry", "board_and_gate", &docs.join("board_and_gate.svg"))
 }
