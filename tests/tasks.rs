@@ -161,3 +161,20 @@ fn the_greedy_choice_of_postures_is_slower() {
     let ours = planned(&task).duration();
     assert!(greedy >= 1.2 * ours, "greedy {greedy} s, ours {ours} s");
 }
+
+/// Cycles after which the world is the same are planned once, also where a rigid payload's orientation comes from the arm's.
+#[test]
+fn identical_cycles_are_planned_once() {
+    let once = planned(&shipped("feeder"));
+    assert_eq!(once.legs.len(), 300);
+    assert!(once.motions < 40, "{} motions", once.motions);
+    let mut task = shipped("elbow_choice");
+    let first: Vec<Step> = task.steps().cloned().collect();
+    let home = Step { action: Action::Move(Goal::Joints(task.start)), number: 3, ..first[0].clone() };
+    let cycle = |cycle| first.iter().chain([&home]).map(move |step| Item::Step(Step { cycle, ..step.clone() }));
+    task.items = (1..=50).flat_map(cycle).collect();
+    let answer = planned(&task);
+    assert_eq!(answer.verdict, TaskVerdict::Done);
+    assert_eq!(answer.legs.len(), 150);
+    assert!(answer.motions < 60, "{} motions", answer.motions);
+}

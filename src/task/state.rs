@@ -70,6 +70,10 @@ const SAME_ANGLE: f64 = 1e-9;
 /// Poses and configurations are told apart to this, metres and radians: rounding of those that are the same.
 const GRAIN: f64 = 1e-9;
 
+/// Orientations in which rigid payloads are let go of are rounded to this, radians: far below all tolerances, and far above the
+/// rounding of doubles, so that repeated cycles come back to the same world, bit by bit, and are planned once.
+const FINEST_TURN: f64 = 1e-12;
+
 impl State {
     pub fn at_start(task: &Task) -> Self {
         let state = Self {
@@ -189,6 +193,7 @@ impl State {
                         let reach = postures(arm, origin, *at, self.q);
                         for &to in &reach.configurations {
                             let turned = (arm.pose(1, to) * in_link).rotation.angle();
+                            let turned = (turned / FINEST_TURN).round() * FINEST_TURN;
                             let pose = Isometry2::new(at.coords, turned);
                             add(to, None, Some(Event::Release { object, pose }), None);
                         }
