@@ -1,6 +1,6 @@
 //! A sequence of things to do.
 
-use super::{Arm, Goal, Heights, Obstacle, Shape, Workspace};
+use super::{Arm, Goal, Grip, Heights, Obstacle, Payload, Shape, Workspace};
 use crate::geometry::{Convex, Point, Pose};
 use crate::space::Configuration;
 
@@ -147,6 +147,13 @@ impl Object {
             None => (Shape::Pieces, Vec::new()),
         };
         Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+    }
+
+    /// The object as a payload that may touch `supports`.
+    #[must_use]
+    pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
+        let (object, pieces) = (self.name.clone(), self.pieces.clone());
+        Payload { object, pieces, heights: self.carried_heights(), grip, supports }
     }
 
     /// Its extent along the plane's normal while it is carried.

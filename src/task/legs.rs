@@ -2,7 +2,7 @@
 
 use super::Manner;
 use super::least_time::rest_to_rest;
-use super::state::{Candidate, Held, State, payload};
+use super::state::{Candidate, Held, State};
 use crate::certify::{StuckBox, WristTurn, certify, wrist_turn};
 use crate::model::{Goal, Grip, Problem, Scene, Step, Task};
 use crate::solve::{Effort, Method, Verdict, solve};
@@ -71,7 +71,7 @@ impl<'a> Legs<'a> {
     /// The scene of a motion; the same one for the same state of the world.
     pub fn scene(&mut self, from: &State, step: &Step) -> Rc<Scene> {
         let key = scene_key(from, step, |_| true);
-        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(self.task, step))).clone()
+        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(self.task, step.action.picked()))).clone()
     }
 
     /// The motion to a candidate's target and the turn there.
@@ -80,7 +80,7 @@ impl<'a> Legs<'a> {
         let after = from.after(task, candidate, candidate.to);
         if after.is_done(task) {
             // No motion follows that would begin there.
-            unobstructed(&after.standing(task, from.released), candidate.to, "after it")?;
+            unobstructed(&after.scene(task, from.released), candidate.to, "after it")?;
         }
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
@@ -91,7 +91,7 @@ impl<'a> Legs<'a> {
         let (q, to, speed) = (from.q, candidate.to, candidate.step.speed);
         let key = (number, [q[0], q[1], to[0], to[1], speed].map(f64::to_bits));
         let manner = self.manner;
-        let plan = || planned(&from.scene(task, candidate.step), q, to, speed, &manner).map(Rc::new);
+        let plan = || planned(&from.scene(task, candidate.step.action.picked()), q, to, speed, &manner).map(Rc::new);
         let timed = self.motions.entry(key).or_insert_with(plan).clone()?;
         let turn = candidate.turn.map(|turn| self.turn(from, candidate, turn)).transpose()?;
         Ok(Motion { timed, turn })
@@ -110,7 +110,7 @@ impl<'a> Legs<'a> {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let (arm, workspace) = (&self.task.arm, self.task.obstacles(&with.poses));
-        let found = wrist_turn(arm, &workspace, &payload(self.task, held), *point, candidate.to, turn);
+        let found = wrist_turn(arm, &workspace, &held.payload(self.task), *point, candidate.to, turn);
         let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
         let seconds = rest_to_rest((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
         Ok((way, seconds))

@@ -111,23 +111,13 @@ impl State {
         key
     }
 
-    /// The scene of the motion to a step's target.
-    pub fn scene(&self, task: &Task, step: &Step) -> Scene {
-        let spared = self.released.into_iter().chain(step.action.picked());
-        let spared: Vec<usize> = spared.map(|object| task.obstacle_number(object)).collect();
-        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
-    }
-
-    /// The scene of standing still: link 2 may still be within an object that it has `left` before.
-    pub fn standing(&self, task: &Task, left: Option<usize>) -> Scene {
+    /// The scene as it is. Link 2 is free to meet the object just let go of, and another one: that which it goes to, or which
+    /// it let go of before.
+    pub fn scene(&self, task: &Task, spared: Option<usize>) -> Scene {
         let spared: Vec<usize> =
-            left.into_iter().chain(self.released).map(|object| task.obstacle_number(object)).collect();
-        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), self.payload(task), &spared)
-    }
-
-    /// What the arm carries.
-    pub fn payload(&self, task: &Task) -> Option<Payload> {
-        self.held.as_ref().map(|held| payload(task, held))
+            self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
+        let payload = self.held.as_ref().map(|held| held.payload(task));
+        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
     }
 
     /// The ways to do each of the steps that can be next.
@@ -271,15 +261,10 @@ impl Progress {
     }
 }
 
-/// What the arm carries, from how it is held.
-pub(super) fn payload(task: &Task, held: &Held) -> Payload {
-    let object = &task.objects[held.object];
-    Payload {
-        object: object.name.clone(),
-        pieces: object.pieces.clone(),
-        heights: object.carried_heights(),
-        grip: held.grip,
-        supports: held.supports.clone(),
+impl Held {
+    /// What the arm carries.
+    pub fn payload(&self, task: &Task) -> Payload {
+        task.objects[self.object].carried(self.grip, self.supports.clone())
     }
 }
 

@@ -85,9 +85,8 @@ fn a_maze_of_201_x_201_cells() {
     is_solved(201, &generate::maze(201, 0), 201 * 201 - 1);
 }
 
-/// `cargo test --release --test cli -- --ignored`
+/// Half a million walls.
 #[test]
-#[ignore = "reads a world of half a million walls: half a minute without optimisation"]
 fn a_maze_of_2001_x_2001_cells() {
     is_solved(2001, &generate::maze(2001, 0), 2001 * 2001 - 1);
 }

@@ -56,14 +56,8 @@ impl State {
             Holding::Rigid => Payload::rigid_grip(arm, q, &lies),
             Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: lies.inverse() * tip },
         };
-        let carried = &task.objects[object];
-        let payload = Payload {
-            object: carried.name.clone(),
-            pieces: carried.pieces.clone(),
-            heights: carried.carried_heights(),
-            grip,
-            supports: supports.iter().chain(then).copied().collect(),
-        };
+        let supports = supports.iter().chain(then).copied().collect();
+        let payload = task.objects[object].carried(grip, supports);
         self.held = Some((object, payload));
         let off = (tip - lies * grasp).norm();
         (off > AT).then_some(Fault::Tip { off })
