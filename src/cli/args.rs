@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use super::demo::DemoArgs;
 use super::field_args::FieldArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
@@ -56,6 +57,8 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
+    /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.svg.
+    Demo(DemoArgs),
 }
 
 /// The two files.

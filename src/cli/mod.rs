@@ -3,9 +3,11 @@
 mod args;
 mod check;
 mod compare;
+mod demo;
 mod failure;
 mod field_args;
 mod field_report;
+mod fresh;
 mod inspect;
 mod inspect_text;
 mod motion;
@@ -42,13 +44,14 @@ const UNKNOWN: u8 = 4;
 /// Runs the program with the process's arguments. A wrong command line ends it with exit code 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
-    let done = match (&cli.command, &cli.files) {
+    let mut cli = Cli::parse();
+    let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
+        (Some(Command::Demo(args)), _) => demo::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

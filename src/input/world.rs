@@ -15,7 +15,7 @@ use crate::space::Configuration;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use toml::Spanned;
 
 pub(super) type Number = Spanned<f64>;
@@ -50,7 +50,7 @@ impl World {
                 preferences: Vec::new(),
             },
             objects: Vec::new(),
-            source: Source { path: "".into(), text: String::new() },
+            source: Source::in_memory("", ""),
             robot: RobotTable::default(),
             start: None,
             goal: None,
@@ -128,12 +128,11 @@ pub(super) struct GoalTable {
 /// that large.
 pub(super) const LARGEST: f64 = 1e6;
 
-/// Reads a world file.
+/// Reads a world.
 ///
 /// # Errors
 /// On malformed TOML, unknown keys and invalid values, with line, column and a caret.
-pub(super) fn read(path: &Path) -> Result<World, InputError> {
-    let source = Source::read(path)?;
+pub(super) fn read(source: Source) -> Result<World, InputError> {
     if source.text.trim_start().starts_with('<') {
         let defect = source.defect("this is XML, not a world file (TOML)");
         return Err(defect.cure("give the URDF first and the world file second").into());
@@ -161,7 +160,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
     let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
-    let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
+    let stem = source.path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
@@ -268,7 +267,9 @@ impl Reader<'_> {
 
     /// The path of a file that the world names, relative to itself.
     pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
-        let path = self.source.path.with_file_name(name.get_ref());
+        let anchor = self.source.anchor();
+        let anchor = anchor.map_err(|why| self.source.defect_at(name.span(), format!("{what}: {why}")))?;
+        let path = anchor.with_file_name(name.get_ref());
         if path.is_file() {
             return Ok(path);
         }
