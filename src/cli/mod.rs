@@ -3,17 +3,21 @@
 mod args;
 mod check;
 mod compare;
+mod completions;
 mod demo;
 mod failure;
 mod field_args;
 mod field_report;
 mod fresh;
+mod init;
 mod inspect;
 mod inspect_text;
+mod man;
 mod motion;
 mod output;
 mod plan;
 mod recheck;
+mod schema;
 mod search_args;
 mod step_lines;
 mod summary;
@@ -52,6 +56,10 @@ pub fn run() -> ExitCode {
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
         (Some(Command::Demo(args)), _) => demo::run(args),
+        (Some(Command::Init(args)), _) => init::run(args),
+        (Some(Command::Completions(args)), _) => completions::run(args),
+        (Some(Command::Man(args)), _) => man::run(args),
+        (Some(Command::Schema), _) => schema::run(),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

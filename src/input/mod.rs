@@ -25,6 +25,7 @@ mod preference;
 mod preference_map;
 mod problem;
 mod requirement;
+mod schema;
 mod sequence;
 mod source;
 mod step;
@@ -45,6 +46,7 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
+pub use schema::world_schema;
 pub use source::{Position, Source};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};

@@ -4,6 +4,7 @@ use super::error::{Defect, InputError};
 use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
+use super::schema::{HeldAs, NotNegative, Positive, Two};
 use super::sequence::{Sequence, write_out};
 use super::source::Source;
 use super::step::{StepReader, StepTable, TaskTable};
@@ -12,6 +13,7 @@ use super::wrist::WristTable;
 use crate::geometry::Point;
 use crate::model::{Goal, Heights, Holding, Object, Workspace, Wrist};
 use crate::space::Configuration;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -67,60 +69,106 @@ impl World {
     }
 }
 
-/// `[robot]`.
-#[derive(Debug, Clone, Default, Deserialize)]
+/// What the URDF leaves open, and what goes over it. All keys are optional.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "robot")]
 pub(super) struct RobotTable {
+    /// The two joints that move, in any order; needed only if the URDF has more than two that can.
+    #[schemars(with = "Option<[String; 2]>")]
     pub joints: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Link whose origin is the tip; by default the end of the chain.
+    #[schemars(with = "Option<String>")]
     pub tip: Option<Spanned<String>>,
+    /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
     pub fixed: PerJoint<Number>,
+    /// Least and greatest value of a joint, by name, rad or m, in place of the URDF's.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Two>")]
     pub limits: PerJoint<Numbers>,
+    /// Top speed of a joint, by name, rad/s or m/s, in place of the URDF's.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub velocity: PerJoint<Number>,
+    /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub acceleration: PerJoint<Number>,
+    /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub jerk: PerJoint<Number>,
-    /// Radius of the capsule that stands in for a link without geometry, metres.
+    /// Radius of the capsule that stands in for a link without geometry, m.
+    #[schemars(with = "Option<Positive>")]
     pub bar: Option<Number>,
+    /// The wrist that keeps or turns what is carried with payload "level".
     wrist: Option<WristTable>,
-    /// How objects are held that do not say it.
+    /// How objects are held that do not say it; by default "rigid".
+    #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
 }
 
-#[derive(Deserialize)]
+/// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are
+/// in metres, angles in radians, coordinates in the arm's plane.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct WorldFile {
+#[schemars(rename = "cplan world", extend("dependencies" = {
+    "task": ["step"], "step": { "not": { "required": ["goal"] } }
+}))]
+pub(super) struct WorldFile {
+    /// Title of summaries and pictures; by default the file's name.
     name: Option<String>,
+    /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
+    #[schemars(with = "Option<NotNegative>")]
     clearance: Option<Number>,
     #[serde(default)]
     robot: RobotTable,
     start: Option<StartTable>,
+    #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<GoalTable>>,
     map: Option<MapTable>,
+    /// What the arm must not touch.
     #[serde(default)]
+    #[schemars(with = "Vec<ObstacleTable>")]
     obstacle: Vec<Spanned<ObstacleTable>>,
+    /// Regions that field planners prefer or avoid; other planners do not look at them.
     #[serde(default)]
+    #[schemars(with = "Vec<PreferenceTable>")]
     preference: Vec<Spanned<PreferenceTable>>,
+    /// What steps pick and place.
     #[serde(default)]
+    #[schemars(with = "Vec<ObjectTable>")]
     object: Vec<Spanned<ObjectTable>>,
+    /// What the arm is to do, one after the other, in place of a goal.
     #[serde(default)]
+    #[schemars(with = "Vec<StepTable>")]
     step: Vec<Spanned<StepTable>>,
+    #[schemars(with = "Option<TaskTable>")]
     task: Option<Spanned<TaskTable>>,
 }
 
-#[derive(Deserialize)]
+/// Where the arm is at first.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "start")]
 struct StartTable {
+    /// Values of both joints, base to tip, rad or m.
+    #[schemars(with = "Two")]
     joints: Numbers,
 }
 
-#[derive(Deserialize)]
+/// Where the arm is to go: joint values, or a place for the tip in whatever posture is best.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
 pub(super) struct GoalTable {
+    /// Values of both joints, base to tip, rad or m.
+    #[schemars(with = "Option<Two>")]
     joints: Option<Numbers>,
+    /// Coordinates of the tip, m.
+    #[schemars(with = "Option<Two>")]
     tip: Option<Numbers>,
 }
 
