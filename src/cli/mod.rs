@@ -11,6 +11,7 @@ mod inspect_text;
 mod motion;
 mod output;
 mod plan;
+mod planned;
 mod recheck;
 mod search_args;
 mod step_lines;
