@@ -16,6 +16,7 @@ mod man;
 mod motion;
 mod output;
 mod plan;
+mod planned;
 mod recheck;
 mod schema;
 mod search_args;

@@ -5,6 +5,7 @@ use super::failure::Failure;
 use super::field_report::field_report;
 use super::motion::MotionArgs;
 use super::output::{self, Sink};
+use super::planned::Planned;
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN, task};
 use crate::certify::{CertifiedCurve, ProofBox};
@@ -73,19 +74,18 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     if args.timings {
         report.timings = clock.milliseconds();
     }
+    let planned = Planned { problem, answer: &answer, curve: curve.as_ref(), report: &report, field: field.as_ref() };
     for sink in &sinks {
         match sink {
             Sink::Result(format, path) => output::write_result(*format, path, &report)?,
-            Sink::Picture(format, path) => {
-                output::write_picture(*format, path, problem, &answer, curve.as_ref(), &report)?
-            }
+            Sink::Picture(format, path) => planned.save(*format, path)?,
         }
     }
     clock.stage("write");
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, curve.as_ref(), &report, field.as_ref(), &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &planned, &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,
