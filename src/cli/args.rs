@@ -60,7 +60,7 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
-    /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.svg.
+    /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
     Demo(DemoArgs),
     /// Write a commented world and a robot to start from.
     Init(InitArgs),
