@@ -30,7 +30,7 @@ Examples:
   cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
-  cplan inspect robots/scara.urdf --picture scara.svg
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
@@ -260,6 +260,12 @@ pub struct PlanArgs {
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --picture paths.svg
+
+Exit codes: that of the best answer: 0 found, 3 proven that there is no path, 4 unknown; 1 bad input or I/O, 2 wrong
+command line.")]
 pub struct CompareArgs {
     #[command(flatten)]
     pub files: Files,
@@ -322,7 +328,7 @@ pub struct CheckArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cplan inspect robots/scara.urdf
+  cplan inspect robots/planar_2r.urdf
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
 
 Exit codes: 0 the robot can be planned with, 1 it cannot (the report is printed all the same), or I/O, 2 wrong command line.")]

@@ -16,7 +16,9 @@ Examples:
   cplan completions powershell >> $PROFILE
   cplan completions elvish >> ~/.config/elvish/rc.elv
 
-For zsh the folder has to be in its path of functions: fpath+=~/.zfunc before compinit in ~/.zshrc. A new shell knows them.")]
+For zsh the folder has to be in its path of functions: fpath+=~/.zfunc before compinit in ~/.zshrc. A new shell knows them.
+
+Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct CompletionsArgs {
     /// The shell.
     #[arg(value_name = "SHELL")]

@@ -17,7 +17,9 @@ Examples:
   cplan man > cplan.1
   cplan man man1
 
-man ./cplan.1 shows a page; pages in ~/.local/share/man/man1 are found by name, such as man cplan-check.")]
+man ./cplan.1 shows a page; pages in ~/.local/share/man/man1 are found by name, such as man cplan-check.
+
+Exit codes: 0 the pages are written, 1 I/O, 2 wrong command line.")]
 pub struct ManArgs {
     /// Folder for the pages of all commands, which replace those that are there; without it the main page is printed.
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]

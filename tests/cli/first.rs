@@ -120,12 +120,12 @@ fn keys_that_are_commented_out_are_valid() {
             }
             place.write(&format!("{kind}/changed.toml"), changed.join("\n"));
             let [robot, changed] = ["arm.urdf", "changed.toml"].map(|file| format!("{kind}/{file}"));
-            let done = place.run(&[robot, changed], "--quiet --planner harmonic --field bvp --epsilon 0.1");
+            let done = place.run(&[robot, changed], "--quiet");
             assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{kind}, line {}: {}", i + 1, lines[i]);
             tried += 1;
             i = end;
         }
-        assert!(tried >= 11, "{kind}: only {tried} keys were found");
+        assert!(tried >= 10, "{kind}: only {tried} keys were found");
     }
 }
 
