@@ -204,6 +204,7 @@ class View {
     };
     this.plots = Plots.mount(parts.plots, this);
     for (const panel of Object.values(this.panels)) this.listen(panel);
+    this.mark();
     this.recolor();
   }
 
