@@ -126,8 +126,12 @@ def test_pointing_into_the_configuration_space_puts_the_arm_there(program, show_
     text = seen.page.locator(".probe").inner_text()
     assert "touches" in text and 'link "forearm" and "shelf"' in text
     assert pixels(seen, "workspace") != before
-    seen.shoot("contact")
+    seen.page.mouse.down()
+    seen.page.mouse.up()
     seen.page.mouse.move(5, 5)
+    assert "touches" in seen.page.locator(".probe").inner_text(), "a click holds it"
+    seen.shoot("contact")
+    seen.page.keyboard.press("Escape")
     assert seen.page.locator(".probe").inner_text() == ""
 
 
