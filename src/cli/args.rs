@@ -1,6 +1,10 @@
 //! The command line's words.
 
+use super::completions::CompletionsArgs;
+use super::demo::DemoArgs;
 use super::field_args::FieldArgs;
+use super::init::InitArgs;
+use super::man::ManArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
 use super::variant::Variant;
@@ -56,6 +60,16 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
+    /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
+    Demo(DemoArgs),
+    /// Write a commented world and a robot to start from.
+    Init(InitArgs),
+    /// Print what a shell needs to complete commands, options and their values.
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write those of all commands.
+    Man(ManArgs),
+    /// Print the JSON schema of world files, for editors.
+    Schema,
 }
 
 /// The two files.

@@ -9,7 +9,7 @@ use super::planned::Planned;
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN, task};
 use crate::certify::{CertifiedCurve, ProofBox};
-use crate::input;
+use crate::input::{self, InputError, LoadedScene};
 use crate::model::{Problem, Scene};
 use crate::plan::{FieldPlanner, Size, Wavefront};
 use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
@@ -21,6 +21,14 @@ use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
 /// # Errors
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
+    answer(args, || input::load_scene(&files.urdf, &files.world))
+}
+
+/// The same for a scene from anywhere. Nothing is loaded if the command line is wrong.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
     let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
     if let Some(conflict) = conflict {
@@ -28,7 +36,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
-    let loaded = input::load_scene(&files.urdf, &files.world)?;
+    let loaded = load()?;
     if loaded.has_steps() {
         return task::run(loaded, args, field, &sinks, clock);
     }
