@@ -70,3 +70,35 @@ pub fn run() -> ExitCode {
         failure.exit_code()
     }))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All examples of all helps are command lines; `tests/cli/help.rs` runs those that end soon.
+    #[test]
+    fn examples_are_command_lines() {
+        let mut command = Cli::command();
+        command.build();
+        let helps = std::iter::once(&command).chain(command.get_subcommands());
+        let text: String = helps.filter_map(|c| c.get_after_help()).map(|help| format!("{help}\n")).collect();
+        let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
+        assert!(examples.len() > 30, "{examples:?}");
+        for example in examples {
+            // Words in quotes are one; what follows `>` is the shell's.
+            let quoted = example.split('"').enumerate();
+            let parts = quoted.flat_map(|(i, part)| match i % 2 {
+                1 => vec![part],
+                _ => part.split_whitespace().collect(),
+            });
+            let words: Vec<&str> = parts.take_while(|word| ![">", ">>", "|"].contains(word)).collect();
+            let parsed = Cli::try_parse_from(words);
+            assert!(parsed.is_ok(), "{example}: {}", parsed.err().map_or(String::new(), |e| e.to_string()));
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}
