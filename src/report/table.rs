@@ -94,3 +94,13 @@ impl Table {
 fn shown(row: &[Option<String>]) -> Vec<&str> {
     row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
 }
+
+/// A number with so many decimals; none where it is not finite.
+pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
+    value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
+}
+
+/// A text field of a CSV file.
+pub(super) fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
