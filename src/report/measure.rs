@@ -70,13 +70,22 @@ impl Measure {
     /// A value as tables show it: in the unit of the heading.
     #[must_use]
     pub fn shown(self, value: f64) -> String {
-        let (scale, decimals) = match self {
-            Measure::OverOptimum => (1.0, 4),
-            Measure::Duration => (1.0, 3),
-            Measure::Memory => (1.0 / f64::from(1 << 20), 2),
-            _ => (1e3, 3),
+        let decimals = match self {
+            Measure::OverOptimum => 4,
+            Measure::Memory => 2,
+            _ => 3,
         };
-        format!("{:.decimals$}", value * scale)
+        format!("{:.decimals$}", value * self.scale())
+    }
+
+    /// By what SI units are multiplied to get the unit of the heading.
+    #[must_use]
+    pub fn scale(self) -> f64 {
+        match self {
+            Measure::OverOptimum | Measure::Duration => 1.0,
+            Measure::Memory => 1.0 / f64::from(1 << 20),
+            _ => 1e3,
+        }
     }
 
     /// A run's value, SI units and bytes; none where it has none.

@@ -3,11 +3,14 @@
 //! ```text
 //! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)
 //!                                      |                                   |
-//!                        table, Markdown, CSV, JSON        the same, with distributions and words
+//!                        table, Markdown, CSV, JSON        the same, with distributions and words;
+//!                                                          a page with charts; a log for Planner Arena
 //! ```
 
+mod arena;
 mod comparison;
 mod measure;
+mod page;
 mod row;
 mod sign;
 mod spread;
@@ -18,6 +21,7 @@ mod words;
 
 pub use comparison::Comparison;
 pub use measure::Measure;
+pub use page::{Overlay, Page, Picture, Spot};
 pub use row::{Family, Outcome, Row};
 pub use sign::sign_test;
 pub use spread::Spread;

@@ -142,7 +142,7 @@ impl Study {
     }
 
     /// What planners have to add, what was left out, and contradictions, which nobody may overlook, last.
-    fn footnotes(&self) -> impl Iterator<Item = String> + '_ {
+    pub(super) fn footnotes(&self) -> impl Iterator<Item = String> + '_ {
         let of = |c: &'_ Comparison| -> Vec<String> {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()
         };

@@ -21,6 +21,18 @@ impl Column {
     pub fn new(name: &str, align: Align) -> Self {
         Self { name: name.to_owned(), align }
     }
+
+    /// What stands above it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// To which side its cells are moved.
+    #[must_use]
+    pub fn align(&self) -> Align {
+        self.align
+    }
 }
 
 /// Columns and rows of cells; a missing cell is shown as `-`.

@@ -2,10 +2,12 @@
 
 mod args;
 mod cases;
+mod drawings;
 mod pairs;
 mod progress;
 mod runner;
 mod sink;
+mod started;
 
 pub use args::CompareArgs;
 
@@ -13,10 +15,8 @@ use super::failure::Failure;
 use super::memory::MemoryMeter;
 use super::output::{self, Sink};
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
-use crate::draw::Picture;
-use crate::report::{Comparison, Outcome, Study};
-use crate::solve::Method;
-use crate::space::Path;
+use crate::report::{Comparison, Page, Study};
+use crate::solve::{Effort, Method};
 use crate::trajectory::write_whole_set;
 use cases::{Case, Cases};
 use progress::Progress;
@@ -42,27 +42,32 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     let jobs = usize::from(args.jobs);
     let meter = runner::meter(meter, jobs, args.quiet);
     let runner = Runner { entries: &entries, motion: &args.motion, jobs, meter, progress: &progress };
-    let Compared { comparisons, paths, elapsed: _ } = runner.run(&cases).map_err(|(name, error)| match error {
+    let started = started::now();
+    let mut done = runner.run(&cases).map_err(|(name, error)| match error {
         error if args.is_single() => Failure::Trajectory(error),
         error => Failure::Option(format!("{name}: {error}")),
     })?;
-    let study =
-        Study { title: cases.title.clone(), sampling: cases.sampling, comparisons, left_out: cases.left_out.clone() };
+    let study = Study {
+        title: cases.title.clone(),
+        sampling: cases.sampling,
+        comparisons: std::mem::take(&mut done.comparisons),
+        left_out: cases.left_out.clone(),
+    };
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
-            draw(&cases.cases[0], comparison, &paths[0], *format, path)?;
+            drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;
         }
     }
+    let results = Results { args, cases: &cases, study: &study, done: &done, started };
     let written: Result<Vec<_>, Failure> =
-        sinks.iter().map(|sink| Ok((sink.path.clone(), content(args, &study, sink.format)?))).collect();
+        sinks.iter().map(|sink| Ok((sink.path.clone(), results.content(sink.format)?))).collect();
     write_whole_set(&written?)?;
-    let shown = match (args.json, args.csv, args.markdown) {
-        (true, ..) => content(args, &study, ReportFormat::Json)?,
-        (_, true, _) => content(args, &study, ReportFormat::Csv)?,
-        (.., true) => content(args, &study, ReportFormat::Markdown)?,
-        _ => text(args, &study),
-    };
-    output::print(&shown)?;
+    output::print(&match (args.json, args.csv, args.markdown) {
+        (true, ..) => results.content(ReportFormat::Json)?,
+        (_, true, _) => results.content(ReportFormat::Csv)?,
+        (.., true) => results.content(ReportFormat::Markdown)?,
+        _ => results.single().map_or_else(|| study.to_text(), Comparison::to_text),
+    })?;
     let alarms = study.alarms();
     alarms.iter().for_each(|alarm| output::say(&format!("error: {alarm}")));
     Ok(if !alarms.is_empty() {
@@ -84,7 +89,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
 /// Options of a planner that need something of a world which it lacks.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     // Bounds are measured by themselves, for all planners alike.
-    let effort = crate::solve::Effort { bounded: false, ..args.effort.effort() };
+    let effort = Effort { bounded: false, ..args.effort.effort() };
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let of = |case: &Case| {
         let plain = methods.iter().map(|&method| Entry { label: method.to_string(), method, effort });
@@ -101,52 +106,37 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     cases.cases.iter().map(of).collect()
 }
 
-/// The tables for a terminal.
-fn text(args: &CompareArgs, study: &Study) -> String {
-    match &study.comparisons[..] {
-        [comparison] if args.is_single() => comparison.to_text(),
-        _ => study.to_text(),
+/// All that there is to write.
+struct Results<'a> {
+    args: &'a CompareArgs,
+    cases: &'a Cases,
+    study: &'a Study,
+    done: &'a Compared,
+    started: String,
+}
+
+impl Results<'_> {
+    /// The only problem, if one was asked for.
+    fn single(&self) -> Option<&Comparison> {
+        self.study.comparisons.first().filter(|_| self.args.is_single())
     }
-}
 
-/// A file's content.
-fn content(args: &CompareArgs, study: &Study, format: ReportFormat) -> Result<String, Failure> {
-    let single = match &study.comparisons[..] {
-        [comparison] if args.is_single() => Some(comparison),
-        _ => None,
-    };
-    Ok(match format {
-        ReportFormat::Markdown => single.map_or_else(|| study.to_markdown(), Comparison::to_markdown),
-        ReportFormat::Csv => single.map_or_else(|| study.to_csv(), Comparison::to_csv),
-        ReportFormat::Json => {
-            let json = single.map_or_else(|| study.to_json(), Comparison::to_json);
-            serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))? + "\n"
-        }
-    })
-}
-
-fn draw(
-    case: &Case,
-    comparison: &Comparison,
-    paths: &[Option<Path>],
-    format: output::PictureFormat,
-    file: &std::path::Path,
-) -> Result<(), Failure> {
-    let problem = case.problem();
-    let contours = output::contours(&problem.scene);
-    let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
-    let paths: Vec<_> = named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect();
-    let found = comparison.rows.iter().filter(|row| row.outcome == Outcome::Found).count();
-    let picture = Picture {
-        title: vec![output::title(&problem), format!("lengths in {}", comparison.length_unit)],
-        status: format!("{found} of {} found a certified path", comparison.rows.len()),
-        scene: &problem.scene,
-        start: problem.start,
-        goals: &problem.goals,
-        paths,
-        trace: None,
-        proof: &[],
-        c_obstacles: &contours,
-    };
-    output::save_picture(format, file, &picture)
+    /// A file's content.
+    fn content(&self, format: ReportFormat) -> Result<String, Failure> {
+        let (single, study) = (self.single(), self.study);
+        Ok(match format {
+            ReportFormat::Markdown => single.map_or_else(|| study.to_markdown(), Comparison::to_markdown),
+            ReportFormat::Csv => single.map_or_else(|| study.to_csv(), Comparison::to_csv),
+            ReportFormat::Json => {
+                let json = single.map_or_else(|| study.to_json(), Comparison::to_json);
+                serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))? + "\n"
+            }
+            ReportFormat::Html => {
+                let overlays = drawings::overlays(self.cases, study, self.done);
+                let pictures = drawings::pictures(self.cases, study, self.done);
+                Page { study, overlays: &overlays, pictures: &pictures }.html()
+            }
+            ReportFormat::Arena => study.to_arena_log(&self.started, self.done.elapsed.as_secs_f64()),
+        })
+    }
 }

@@ -13,6 +13,10 @@ pub enum ReportFormat {
     Csv,
     /// All there is.
     Json,
+    /// A page with charts and paths.
+    Html,
+    /// A benchmark log for OMPL's Planner Arena.
+    Arena,
 }
 
 /// A file to write.
@@ -46,6 +50,8 @@ fn format(path: &Path) -> Result<ReportFormat, Failure> {
         Some("md") => Ok(ReportFormat::Markdown),
         Some("csv") => Ok(ReportFormat::Csv),
         Some("json") => Ok(ReportFormat::Json),
+        Some("html" | "htm") => Ok(ReportFormat::Html),
+        Some("log") => Ok(ReportFormat::Arena),
         _ => {
             let message = "a comparison's name must end in .md, .csv, .json, .html or .log";
             Err(Failure::Usage(format!("{}: {message}", path.display())))

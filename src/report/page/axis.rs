@@ -34,7 +34,8 @@ impl Axis {
 
     /// Where a value lies: 0 at the lower end, 1 at the upper.
     pub fn place(&self, value: f64) -> f64 {
-        let [value, lower, upper] = [value, self.lower, self.upper].map(|v| if self.is_logarithmic { v.ln() } else { v });
+        let [value, lower, upper] =
+            [value, self.lower, self.upper].map(|v| if self.is_logarithmic { v.ln() } else { v });
         ((value - lower) / (upper - lower)).clamp(0.0, 1.0)
     }
 

@@ -52,7 +52,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
             escaped(&shortened(name))
         );
         if let Some(spread) = Spread::of(values.iter().copied()) {
-            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, escaped(&described(name, &spread)));
+            svg +=
+                &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, escaped(&described(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }
@@ -67,7 +68,13 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
     let mut svg = String::new();
     if values.len() > 1 {
         let [y, top, bottom] = [middle, middle - 4.0, middle + 4.0].map(number);
-        svg += &format!("<path class=\"whisker\" d=\"M{0} {y}H{1}M{2} {y}H{3}", number(min), number(low), number(high), number(max));
+        svg += &format!(
+            "<path class=\"whisker\" d=\"M{0} {y}H{1}M{2} {y}H{3}",
+            number(min),
+            number(low),
+            number(high),
+            number(max)
+        );
         svg += &format!("M{0} {top}V{bottom}M{1} {top}V{bottom}\"/>", number(min), number(max));
         svg += &format!(
             "<rect class=\"box\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"16\"/>",
@@ -81,10 +88,19 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
         // Beside each other by a fixed pattern, so that equal values do not hide each other.
         let aside = if values.len() > 1 { ((k * 7) % 11) as f64 - 5.0 } else { 0.0 };
         let radius = if values.len() > 1 { "1.6" } else { "4" };
-        svg += &format!("<circle class=\"dot\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>", number(x(*value)), number(middle + aside));
+        svg += &format!(
+            "<circle class=\"dot\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>",
+            number(x(*value)),
+            number(middle + aside)
+        );
     }
     if values.len() > 1 {
-        svg += &format!("<path class=\"median\" d=\"M{} {}V{}\"/>", number(median), number(middle - 9.0), number(middle + 9.0));
+        svg += &format!(
+            "<path class=\"median\" d=\"M{} {}V{}\"/>",
+            number(median),
+            number(middle - 9.0),
+            number(middle + 9.0)
+        );
     }
     svg
 }

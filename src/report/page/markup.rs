@@ -33,8 +33,21 @@ pub fn image_source(svg: &str) -> String {
     for byte in svg.bytes() {
         match byte {
             // What a URI in double quotes may hold as it is; blanks and slashes are fine in data.
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b'~' | b' ' | b'/' | b':' | b'=' | b',' | b';'
-            | b'(' | b')' => source.push(char::from(byte)),
+            b'A'..=b'Z'
+            | b'a'..=b'z'
+            | b'0'..=b'9'
+            | b'-'
+            | b'_'
+            | b'.'
+            | b'~'
+            | b' '
+            | b'/'
+            | b':'
+            | b'='
+            | b','
+            | b';'
+            | b'('
+            | b')' => source.push(char::from(byte)),
             _ => source.push_str(&format!("%{byte:02X}")),
         }
     }
@@ -44,7 +57,8 @@ pub fn image_source(svg: &str) -> String {
 /// A table with its first column as headings of the rows.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
-    let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), escaped(c.name())));
+    let head =
+        table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), escaped(c.name())));
     let row = |cells: &Vec<Option<String>>| {
         let cell = |(k, cell): (usize, &Option<String>)| {
             let text = escaped(cell.as_deref().unwrap_or("\u{2013}"));

@@ -26,7 +26,12 @@ pub fn bars(study: &Study) -> String {
     for (i, name) in planners.iter().enumerate() {
         let top = LINE * i as f64 + 4.0;
         let short: String = name.chars().take(15).collect();
-        svg += &format!("<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n", LEFT - 10.0, number(top + 15.0), escaped(&short));
+        svg += &format!(
+            "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
+            LEFT - 10.0,
+            number(top + 15.0),
+            escaped(&short)
+        );
         let mut left = LEFT;
         for (outcome, count) in Outcome::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
             let width = (WIDTH - LEFT) * count as f64 / all;
@@ -55,7 +60,8 @@ pub fn key() -> String {
         Outcome::Infeasible => "no path, proven",
         Outcome::Unknown => "neither, at the finest resolution tried",
     };
-    let entry = |outcome| format!("<li><span class=\"o-{outcome} sign\">{}</span> {}</li>", sign(outcome), meaning(outcome));
+    let entry =
+        |outcome| format!("<li><span class=\"o-{outcome} sign\">{}</span> {}</li>", sign(outcome), meaning(outcome));
     format!("<ul class=\"key\">{}</ul>\n", Outcome::ALL.map(entry).concat())
 }
 
@@ -69,7 +75,8 @@ fn sign(outcome: Outcome) -> char {
 
 /// A line a problem, a column a planner: sign and figure, and colours that add nothing to them.
 pub fn matrix(study: &Study) -> String {
-    let head: String = study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", escaped(name))).collect();
+    let head: String =
+        study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", escaped(name))).collect();
     let cell = |c: &Comparison, row: &Row| {
         let outcome = row.outcome;
         let figure = c.over_optimum(row).map_or_else(String::new, |v| format!(" {}", Measure::OverOptimum.shown(v)));

@@ -34,7 +34,8 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
         let whole = number(SIZE + EDGE);
-        html += &format!("<figure><figcaption>{} <small>{}</small></figcaption>\n", escaped(name), counted(paths.len()));
+        html +=
+            &format!("<figure><figcaption>{} <small>{}</small></figcaption>\n", escaped(name), counted(paths.len()));
         html += &format!(
             "<svg class=\"chart\" viewBox=\"0 0 {whole} {whole}\" role=\"img\" aria-label=\"Paths of {}\">\n",
             escaped(name)
@@ -42,13 +43,21 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         html += &format!("<svg x=\"{EDGE}\" y=\"0\" width=\"{SIZE}\" height=\"{SIZE}\">\n");
         html += &format!("<rect class=\"free\" width=\"{SIZE}\" height=\"{SIZE}\"/>\n");
         if i == 0 {
-            html += &format!("<path id=\"blocked{id}\" class=\"blocked\" d=\"{}\"/>\n", lines(overlay, &overlay.blocked, true));
+            html += &format!(
+                "<path id=\"blocked{id}\" class=\"blocked\" d=\"{}\"/>\n",
+                lines(overlay, &overlay.blocked, true)
+            );
         } else {
             html += &format!("<use href=\"#blocked{id}\"/>\n");
         }
-        html += &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
+        html +=
+            &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
         let middle = number(EDGE + SIZE / 2.0);
-        html += &format!("<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>", number(SIZE + 14.0), escaped(&overlay.joints[0]));
+        html += &format!(
+            "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
+            number(SIZE + 14.0),
+            escaped(&overlay.joints[0])
+        );
         html += &format!(
             "<text class=\"tick\" transform=\"translate(13 {}) rotate(-90)\">{}</text>\n</svg></figure>\n",
             number(SIZE / 2.0),
