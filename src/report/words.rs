@@ -71,12 +71,12 @@ fn outcomes(study: &Study) -> String {
         .iter()
         .enumerate()
         .filter_map(|(i, name)| Some((name, study.tally(i)[2])).filter(|(_, n)| *n > 0))
-        .map(|(name, n)| format!("{name} {n}"))
+        .map(|(name, n)| format!("{name} left {n} open"))
         .collect();
     if unknown.is_empty() {
         text += " Every planner settled every one.";
     } else {
-        text += &format!(" Left open: by {}.", unknown.join(", by "));
+        text += &format!(" Of them, {}.", unknown.join(", "));
     }
     text
 }
@@ -151,7 +151,7 @@ fn aspect(
     let word = better[usize::from(sides.len() > 2)];
     let claim = match winner {
         Some(winner) => format!("{} {word}.", capitalised(&sides[winner].name)),
-        None => format!("Which side {word} these problems do not settle."),
+        None => format!("These problems do not settle which side {word}."),
     };
     // Against the winner, or against the first.
     let one = winner.unwrap_or(0);
@@ -209,7 +209,7 @@ mod tests {
         let words = words(&study(all));
         assert_eq!(
             words[0],
-            "10 problems: 10 with a certified path, 0 proven to have none, 0 open. Left open: by wavefront 1."
+            "10 problems: 10 with a certified path, 0 proven to have none, 0 open. Of them, wavefront left 1 open."
         );
         assert_eq!(
             words[1],
@@ -232,7 +232,7 @@ mod tests {
         let five: Vec<Comparison> = (0..5).map(|_| problem([Some(1.0), Some(1.1)], [1.0, 1.0])).collect();
         let words = words(&study(five));
         assert!(
-            words[2].starts_with("Which side found the shorter paths these problems do not settle."),
+            words[2].starts_with("These problems do not settle which side found the shorter paths."),
             "{}",
             words[2]
         );

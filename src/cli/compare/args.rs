@@ -7,8 +7,8 @@ use crate::solve::Method;
 use clap::{ArgGroup, Args};
 use std::path::PathBuf;
 
-/// Pairs at the most: beyond, a run lasts for days.
-const MOST_QUERIES: i64 = 1_000_000;
+/// Pairs at the most: their results still fit into memory.
+const MOST_QUERIES: i64 = 100_000;
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]

@@ -30,6 +30,8 @@ pub struct Cases {
 pub struct Case {
     /// For tables.
     pub name: String,
+    /// Which of the worlds it is in, from 0.
+    pub world: usize,
     /// With the world's own start and goal, or with any where they are drawn.
     base: Arc<Problem>,
     /// Start and goal that were drawn.
@@ -91,9 +93,9 @@ impl Cases {
         }
         let sampling = args.queries.map(|queries| Sampling { queries: queries as usize, seed: args.seed });
         let mut cases = Vec::new();
-        for (name, problem) in bases {
+        for (world, (name, problem)) in bases.into_iter().enumerate() {
             let name = if args.is_single() { output::title(&problem) } else { name };
-            cases.extend(drawn(name, Arc::new(problem), sampling)?);
+            cases.extend(drawn(name, world, Arc::new(problem), sampling)?);
         }
         let title = match sampling {
             Some(Sampling { queries, seed }) if args.suite.is_some() => {
@@ -136,8 +138,8 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>,
 }
 
 /// The problem, or as many random ones in its scene.
-fn drawn(name: String, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, Failure> {
-    let Some(Sampling { queries, seed }) = sampling else { return Ok(vec![Case { name, base, query: None }]) };
+fn drawn(name: String, world: usize, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, Failure> {
+    let Some(Sampling { queries, seed }) = sampling else { return Ok(vec![Case { name, world, base, query: None }]) };
     let Some(pairs) = free_pairs(&base.scene, queries, seed) else {
         return Err(Failure::Option(format!(
             "--queries: {name} has hardly a configuration that keeps the clearance of {} m; a smaller --clearance or \
@@ -146,6 +148,7 @@ fn drawn(name: String, base: Arc<Problem>, sampling: Option<Sampling>) -> Result
         )));
     };
     let width = queries.to_string().len();
-    let case = |(i, pair)| Case { name: format!("{name} #{:0width$}", i + 1), base: base.clone(), query: Some(pair) };
+    let case =
+        |(i, pair)| Case { name: format!("{name} #{:0width$}", i + 1), world, base: base.clone(), query: Some(pair) };
     Ok(pairs.into_iter().enumerate().map(case).collect())
 }

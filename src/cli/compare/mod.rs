@@ -37,7 +37,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     if !args.quiet {
         cases.left_out.iter().for_each(|line| output::say(&format!("note: {line}")));
     }
-    let total = entries.iter().map(Vec::len).sum();
+    let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
     let progress = Progress::new(total, args.is_single(), args.quiet);
     let jobs = usize::from(args.jobs);
     let meter = runner::meter(meter, jobs, args.quiet);
@@ -83,7 +83,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     })
 }
 
-/// The planners for each case.
+/// The planners for each world.
 ///
 /// # Errors
 /// Options of a planner that need something of a world which it lacks.
@@ -103,7 +103,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         }
         Ok(entries)
     };
-    cases.cases.iter().map(of).collect()
+    cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
 }
 
 /// All that there is to write.

@@ -37,7 +37,7 @@ pub struct Compared {
 
 /// How to run.
 pub struct Runner<'a> {
-    /// For each case its planners, the same number for all.
+    /// For each world its planners, the same number for all.
     pub entries: &'a [Vec<Entry>],
     /// How to drive along paths.
     pub motion: &'a MotionArgs,
@@ -66,15 +66,20 @@ impl Runner<'_> {
     pub fn run(&self, cases: &Cases) -> Result<Compared, (String, TimingError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
-        let runs = self
-            .all(cases.cases.len() * width, |i| self.one(&cases.cases[i / width], &self.entries[i / width][i % width]));
+        // Each problem begins with another planner: the first one pays for what the others find in the caches.
+        let runs = self.all(cases.cases.len() * width, |i| {
+            let (number, turn) = (i / width, i % width);
+            let case = &cases.cases[number];
+            self.one(case, &self.entries[case.world][(number + turn) % width])
+        });
         let mut runs = runs.into_iter();
         let mut comparisons = Vec::new();
         let mut paths = Vec::new();
-        for case in &cases.cases {
+        for (number, case) in cases.cases.iter().enumerate() {
             let of_case: Result<Vec<_>, _> = runs.by_ref().take(width).collect();
-            let (rows, found): (Vec<Row>, Vec<Option<Path>>) =
-                of_case.map_err(|error| (case.name.clone(), error))?.into_iter().unzip();
+            let mut of_case = of_case.map_err(|error| (case.name.clone(), error))?;
+            of_case.rotate_right(number % width);
+            let (rows, found): (Vec<Row>, Vec<Option<Path>>) = of_case.into_iter().unzip();
             comparisons.push(Comparison {
                 problem: case.name.clone(),
                 length_unit: length_unit(case.base()),
@@ -85,8 +90,9 @@ impl Runner<'_> {
             paths.push(found);
         }
         let bounds = self.all(cases.cases.len(), |i| {
-            let effort = self.entries[i].first()?.effort;
-            lower_bound(&cases.cases[i].problem(), &effort, paths[i].iter().flatten())
+            let case = &cases.cases[i];
+            let effort = self.entries[case.world].first()?.effort;
+            lower_bound(&case.problem(), &effort, paths[i].iter().flatten())
         });
         for (comparison, bound) in comparisons.iter_mut().zip(bounds) {
             comparison.bound = bound;

@@ -55,7 +55,7 @@ impl Page<'_> {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", escaped(&alarm));
         }
-        let sentences: String = words(study).iter().map(|w| format!("<p>{}</p>\n", escaped(w))).collect();
+        let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
         html += &section("In words", &sentences);
         html += &section("Outcomes", &self.outcomes());
         html += &section("Distributions", &self.charts());
@@ -75,7 +75,7 @@ impl Page<'_> {
     fn outcomes(&self) -> String {
         let mut html = outcomes::key();
         if self.study.comparisons.len() > 1 {
-            html += &format!("<div class=\"card\">{}</div>\n", outcomes::bars(self.study));
+            html += &format!("<div class=\"card narrow\">{}</div>\n", outcomes::bars(self.study));
         }
         let matrix = outcomes::matrix(self.study);
         if self.study.comparisons.len() > UNFOLDED {
@@ -153,6 +153,14 @@ const HOW: &str = "Every run is a whole one, from the problem to a certificate o
                    along the motion; its time keeps the joints' limits. Memory is what a run allocates at the same time, at the \
                    most. Times and memory are of the machine that made this page; all other numbers are the same \
                    everywhere, up to the rounding of its sine and cosine.";
+
+/// A paragraph whose first sentence, what the others bear out, stands out.
+fn paragraph(text: &str) -> String {
+    match text.split_once(". ") {
+        Some((claim, figures)) => format!("<p><strong>{}.</strong> {}</p>\n", escaped(claim), escaped(figures)),
+        None => format!("<p>{}</p>\n", escaped(text)),
+    }
+}
 
 fn section(heading: &str, content: &str) -> String {
     format!("<section>\n<h2>{}</h2>\n{content}</section>\n", escaped(heading))

@@ -48,7 +48,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
                 lines(overlay, &overlay.blocked, true)
             );
         } else {
-            html += &format!("<use href=\"#blocked{id}\"/>\n");
+            html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
         html +=
             &format!("<path class=\"way p{}\" d=\"{}\"/>\n</svg>\n", i % super::COLORS, lines(overlay, paths, false));
