@@ -61,48 +61,27 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     Some(svg + "</svg>\n")
 }
 
-/// Whiskers from the least to the greatest, the box between the quartiles, the median across it, and all runs as dots.
+/// Whiskers from the least to the greatest, the box between the quartiles, the median across it, and runs as dots. Of a
+/// single run, a dot.
 fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) -> String {
-    let [min, low, median, high, max] =
-        [spread.min, spread.lower_quartile, spread.median, spread.upper_quartile, spread.max].map(x);
-    let mut svg = String::new();
-    if values.len() > 1 {
-        let [y, top, bottom] = [middle, middle - 4.0, middle + 4.0].map(number);
-        svg += &format!(
-            "<path class=\"whisker\" d=\"M{0} {y}H{1}M{2} {y}H{3}",
-            number(min),
-            number(low),
-            number(high),
-            number(max)
-        );
-        svg += &format!("M{0} {top}V{bottom}M{1} {top}V{bottom}\"/>", number(min), number(max));
-        svg += &format!(
-            "<rect class=\"box\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"16\"/>",
-            number(low),
-            number(middle - 8.0),
-            number((high - low).max(1.0))
-        );
+    if let [only] = values {
+        return format!("<circle class=\"only\" cx=\"{}\" cy=\"{}\" r=\"4.5\"/>", number(x(*only)), number(middle));
     }
+    let [min, low, median, high, max, _] = spread.numbers().map(x);
+    let [y, top, bottom] = [middle, middle - 4.0, middle + 4.0].map(number);
+    let width = number((high - low).max(1.0));
+    let [min, low, high, max] = [min, low, high, max].map(number);
+    let mut svg = format!("<path class=\"whisker\" d=\"M{min} {y}H{low}M{high} {y}H{max}");
+    svg += &format!("M{min} {top}V{bottom}M{max} {top}V{bottom}\"/>");
+    svg += &format!("<rect class=\"box\" x=\"{low}\" y=\"{}\" width=\"{width}\" height=\"16\"/>", number(middle - 8.0));
     let stride = values.len().div_ceil(DOTS).max(1);
     for (k, value) in values.iter().enumerate().step_by(stride) {
         // Beside each other by a fixed pattern, so that equal values do not hide each other.
-        let aside = if values.len() > 1 { ((k * 7) % 11) as f64 - 5.0 } else { 0.0 };
-        let radius = if values.len() > 1 { "1.6" } else { "4" };
-        svg += &format!(
-            "<circle class=\"dot\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>",
-            number(x(*value)),
-            number(middle + aside)
-        );
+        let y = number(middle + ((k * 7) % 11) as f64 - 5.0);
+        svg += &format!("<circle class=\"dot\" cx=\"{}\" cy=\"{y}\" r=\"1.6\"/>", number(x(*value)));
     }
-    if values.len() > 1 {
-        svg += &format!(
-            "<path class=\"median\" d=\"M{} {}V{}\"/>",
-            number(median),
-            number(middle - 9.0),
-            number(middle + 9.0)
-        );
-    }
-    svg
+    let [top, bottom] = [middle - 9.0, middle + 9.0].map(number);
+    svg + &format!("<path class=\"median\" d=\"M{} {top}V{bottom}\"/>", number(median))
 }
 
 /// What the chart shows, for who hovers over it or has it read out.

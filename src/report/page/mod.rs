@@ -128,12 +128,11 @@ impl Page<'_> {
     }
 
     fn tables(&self) -> String {
-        let mut html = String::new();
-        if let [only] = &self.study.comparisons[..] {
-            html += &table(&only.table());
-        }
-        let tables = self.study.tables().into_iter().map(|(heading, content)| folded(&heading, &table(&content)));
-        html += &tables.collect::<String>();
+        // Of a single problem there are no distributions.
+        let mut html = match &self.study.comparisons[..] {
+            [only] => table(&only.table()),
+            _ => self.study.tables().into_iter().map(|(heading, rows)| folded(&heading, &table(&rows))).collect(),
+        };
         let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", escaped(&note))).collect();
         if !notes.is_empty() {
             html += &format!("<h3>Notes</h3>\n<ul class=\"notes\">\n{notes}</ul>\n");
