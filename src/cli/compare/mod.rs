@@ -70,17 +70,18 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     })?;
     let alarms = study.alarms();
     alarms.iter().for_each(|alarm| output::say(&format!("error: {alarm}")));
-    Ok(if !alarms.is_empty() {
-        BAD_INPUT
-    } else if !args.is_single() {
-        DONE
-    } else {
-        match study.settled() {
-            [0, 0, _] => UNKNOWN,
-            [0, ..] => INFEASIBLE,
-            _ => DONE,
-        }
-    })
+    Ok(exit_code(&study, args.is_single()))
+}
+
+/// A contradiction is a failure; otherwise the code is that of a single problem's best answer.
+fn exit_code(study: &Study, is_single: bool) -> u8 {
+    match study.settled() {
+        _ if !study.alarms().is_empty() => BAD_INPUT,
+        _ if !is_single => DONE,
+        [0, 0, _] => UNKNOWN,
+        [0, ..] => INFEASIBLE,
+        _ => DONE,
+    }
 }
 
 /// The planners for each world.
@@ -138,5 +139,35 @@ impl Results<'_> {
             }
             ReportFormat::Arena => study.to_arena_log(&self.started, self.done.elapsed.as_secs_f64()),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Family, Outcome, Row};
+
+    fn study(outcomes: &[&[Outcome]]) -> Study {
+        let comparison = |outcomes: &&[Outcome]| Comparison {
+            problem: "p".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: None,
+            rows: outcomes.iter().map(|outcome| Row::new("planner", Family::Field, *outcome)).collect(),
+        };
+        let comparisons = outcomes.iter().map(comparison).collect();
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+    }
+
+    #[test]
+    fn the_exit_code_is_the_best_answers_and_1_for_contradictions() {
+        use Outcome::{Found, Infeasible, Unknown};
+        let single = |outcomes: &[Outcome]| exit_code(&study(&[outcomes]), true);
+        assert_eq!([single(&[Unknown, Found]), single(&[Found])], [DONE; 2]);
+        assert_eq!([single(&[Unknown, Infeasible]), single(&[Unknown])], [INFEASIBLE, UNKNOWN]);
+        assert_eq!(single(&[Found, Unknown, Infeasible]), BAD_INPUT);
+        assert_eq!(exit_code(&study(&[&[Unknown], &[Infeasible]]), false), DONE);
+        assert_eq!(exit_code(&study(&[&[Found, Found], &[Infeasible, Found]]), false), BAD_INPUT);
+        assert_eq!(study(&[&[Found, Found], &[Infeasible, Found]]).alarms().len(), 1);
     }
 }

@@ -41,8 +41,12 @@ impl Axis {
 
     /// Round values within the axis, ascending, and how they are written.
     pub fn ticks(&self) -> Vec<(f64, String)> {
-        let values = if self.is_logarithmic { self.factors() } else { self.steps() };
-        values.into_iter().map(|v| (v, written(v))).collect()
+        if self.is_logarithmic {
+            self.factors().into_iter().map(|v| (v, written(v, v))).collect()
+        } else {
+            let step = self.step();
+            self.multiples(step).into_iter().map(|v| (v, written(v, step))).collect()
+        }
     }
 
     /// Powers of ten, with 2 and 5 times them, or 3 times, where there is room.
@@ -60,31 +64,35 @@ impl Axis {
         })
     }
 
-    /// Multiples of a round number.
-    fn steps(&self) -> Vec<f64> {
+    /// A round number of which a few multiples lie within the axis.
+    fn step(&self) -> f64 {
         let least = (self.upper - self.lower) / (TICKS - 1) as f64;
         let power = 10_f64.powf(least.log10().floor());
         let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|step| *step >= least);
-        let step = step.unwrap_or(10.0 * power);
+        step.unwrap_or(10.0 * power)
+    }
+
+    fn multiples(&self, step: f64) -> Vec<f64> {
         let first = (self.lower / step).ceil();
-        // Multiples, not sums: those would gather roundings.
+        // Not sums: those would gather roundings.
         let multiples = (0..=2 * TICKS).map(|i| (first + i as f64) * step);
         multiples.take_while(|v| *v <= self.upper + 1e-9 * step).collect()
     }
 }
 
-/// A round number in few characters.
-fn written(value: f64) -> String {
+/// A round number with as many digits as tell it from its neighbours, which are `apart` from it.
+fn written(value: f64, apart: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let magnitude = value.abs().log10().floor();
-    if !(-4.0..6.0).contains(&magnitude) {
-        return format!("{value:.0e}");
+    // Powers of ten, safe from the rounding of logarithms.
+    let power = |v: f64| (v.abs().log10() + 1e-9).floor();
+    let (magnitude, last) = (power(value), power(apart));
+    if (-4.0..6.0).contains(&magnitude) {
+        format!("{value:.*}", (-last).clamp(0.0, 12.0) as usize)
+    } else {
+        format!("{value:.*e}", (magnitude - last).clamp(0.0, 12.0) as usize)
     }
-    let decimals = (3.0 - magnitude).clamp(0.0, 7.0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -103,6 +111,7 @@ mod tests {
         assert_eq!(shown(&[2.0, 30.0], None), ["2", "5", "10", "20"]);
         assert_eq!(shown(&[0.001, 2e6], None), ["0.001", "0.1", "10", "1000", "100000"]);
         assert_eq!(shown(&[0.0, 9.0], None), ["0", "2", "4", "6", "8"]);
+        assert_eq!(shown(&[8.07e8], None), ["7.5e8", "8.0e8", "8.5e8"]);
     }
 
     #[test]

@@ -96,3 +96,55 @@ fn shortened(name: &str) -> String {
         _ => name.to_owned(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Comparison, Family, Outcome, Row};
+
+    /// A study of one planner with these durations.
+    fn study(durations: &[f64]) -> Study {
+        let comparison = |duration: &f64| Comparison {
+            problem: "p".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: None,
+            rows: vec![Row { duration: Some(*duration), ..Row::new("<planner>", Family::Field, Outcome::Found) }],
+        };
+        let comparisons = durations.iter().map(comparison).collect();
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+    }
+
+    fn attribute(svg: &str, class: &str, name: &str) -> String {
+        let document = roxmltree::Document::parse(svg).unwrap();
+        let node = document.descendants().find(|node| node.attribute("class") == Some(class)).unwrap();
+        node.attribute(name).unwrap().to_owned()
+    }
+
+    #[test]
+    fn boxes_stand_where_the_axis_has_their_values() {
+        let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
+        // From 0.84 to 5.16: the values and a twenty-fifth of their range on either side.
+        let x = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * (value - 0.84) / 4.32;
+        assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));
+        let width: f64 = attribute(&svg, "box", "width").parse().unwrap();
+        assert!((width - (x(4.0) - x(2.0))).abs() < 0.01);
+        assert!(attribute(&svg, "median", "d").starts_with(&format!("M{} ", number(x(3.0)))));
+        let whisker = attribute(&svg, "whisker", "d");
+        assert!(
+            whisker.starts_with(&format!("M{} ", number(x(1.0)))) && whisker.contains(&format!("H{}M", number(x(5.0))))
+        );
+        assert_eq!(svg.matches("class=\"dot\"").count(), 5);
+        assert!(svg.contains("&lt;planner&gt;: 5 runs, median 3.0000"));
+    }
+
+    #[test]
+    fn single_runs_are_dots_and_no_runs_no_chart() {
+        let svg = chart(&study(&[2.0]), Measure::Duration).unwrap();
+        assert!(svg.contains("class=\"only\"") && !svg.contains("class=\"box\""));
+        assert_eq!(chart(&study(&[2.0]), Measure::Clearance), None);
+        assert_eq!(chart(&study(&[]), Measure::Duration), None);
+        let many: Vec<f64> = (0..1000).map(f64::from).collect();
+        assert_eq!(chart(&study(&many), Measure::Duration).unwrap().matches("class=\"dot\"").count(), DOTS);
+    }
+}
