@@ -110,7 +110,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         let defect = source.defect("the manifest lists no problem");
         return Err(defect.cure("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
     }
-    let name = file.name.unwrap_or_else(|| stem(&manifest.with_file_name("")));
+    let name = file.name.unwrap_or_else(|| folder_name(&manifest.with_file_name("")));
     read(name, pairs)
 }
 
@@ -134,7 +134,7 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
         return Err(whole("there is no world in it".into()).cure("give a folder with world files (.toml)").into());
     }
     let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: urdf.to_owned(), world }).collect();
-    read(stem(folder), pairs)
+    read(folder_name(folder), pairs)
 }
 
 /// Reads all files; all that is wrong is told at once.
@@ -188,16 +188,46 @@ impl Suite {
     }
 }
 
-/// A file's or folder's name without its extension.
+/// A file's name without its extension.
 fn stem(path: &Path) -> String {
-    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    whole.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// A folder's own name, even if it is given as `..` or, in front of a bare file name, as nothing.
+fn folder_name(folder: &Path) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or_else(|| whole.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
 /// `name`; with the robot, and then a number, where it is taken.
 fn distinct(name: &str, robot: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let with_robot = format!("{name}, {robot}");
-    let numbered = (2..).map(|number| format!("{with_robot}, {number}"));
-    let all = [name.to_owned(), with_robot.clone()].into_iter().chain(numbered);
-    all.into_iter().find(|name| !is_taken(name)).unwrap_or(with_robot)
+    let numbered = (2_usize..).map(|number| format!("{with_robot}, {number}"));
+    let mut all = [name.to_owned(), with_robot.clone()].into_iter().chain(numbered);
+    all.find(|name| !is_taken(name)).unwrap_or(with_robot)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_made_distinct() {
+        let mut names: Vec<String> = Vec::new();
+        for robot in ["a", "a", "b", "a"] {
+            let name = distinct("shelf", robot, |name| names.iter().any(|known| known == name));
+            names.push(name);
+        }
+        assert_eq!(names, ["shelf", "shelf, a", "shelf, b", "shelf, a, 2"]);
+    }
+
+    #[test]
+    fn folders_have_names_however_they_are_given() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("lab.v2")).unwrap();
+        assert_eq!(folder_name(&folder.path().join("lab.v2")), "lab.v2");
+        assert_eq!(folder_name(&folder.path().join("lab.v2/../lab.v2/.")), "lab.v2");
+        assert!(!folder_name(Path::new("")).is_empty());
+    }
 }

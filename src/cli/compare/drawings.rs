@@ -38,14 +38,23 @@ pub fn save(
     output::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
 }
 
-/// The page's pictures: workspace and configuration space of the first problems.
+/// The page's pictures: workspace and configuration space of each problem; of random queries, those on which the planners'
+/// lengths differ most.
 pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Picture> {
-    let most = if cases.sampling.is_some() { DRAWN_QUERIES } else { DRAWN_WORLDS };
-    let all = cases.cases.iter().zip(&study.comparisons).zip(&done.paths).take(most);
-    let drawn = all.map(|((case, comparison), paths)| {
+    let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
+    if cases.sampling.is_some() {
+        let longest = |i: &usize| {
+            let comparison = &study.comparisons[*i];
+            comparison.rows.iter().filter_map(|row| comparison.ratio(row)).fold(0.0, f64::max)
+        };
+        chosen.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
+        chosen.truncate(DRAWN_QUERIES);
+    }
+    let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
+        let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
         let problem = case.problem();
         let contours = output::contours(&problem.scene);
-        let svg = draw::svg(&picture(&problem, comparison, paths, &contours));
+        let svg = draw::svg(&picture(&problem, comparison, &done.paths[i], &contours));
         report::Picture { title: case.name.clone(), svg }
     });
     drawn.collect()
@@ -68,7 +77,10 @@ fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay 
     let axes = scene.arm.topology().axes;
     Overlay {
         title: output::title_of(scene),
-        joints: scene.arm.joints.each_ref().map(|joint| format!("{} [{}]", joint.name, joint.unit())),
+        joints: scene.arm.joints.each_ref().map(|joint| {
+            let around = if joint.axis.is_circle() { ", wraps around" } else { "" };
+            format!("{} [{}{around}]", joint.name, joint.unit())
+        }),
         window: axes.map(|axis| axis.domain()),
         circles: axes.map(|axis| axis.is_circle()),
         blocked: blocked(scene),

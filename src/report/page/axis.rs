@@ -106,7 +106,7 @@ mod tests {
             let axis = Axis::over(values.iter().copied(), base).unwrap();
             axis.ticks().into_iter().map(|(_, text)| text).collect()
         };
-        assert_eq!(shown(&[1.0, 1.37], Some(1.0)), ["1", "1.1", "1.2", "1.3"]);
+        assert_eq!(shown(&[1.0, 1.37], Some(1.0)), ["1.0", "1.1", "1.2", "1.3"]);
         assert_eq!(shown(&[0.3, 70.0], None), ["0.3", "1", "3", "10", "30"]);
         assert_eq!(shown(&[2.0, 30.0], None), ["2", "5", "10", "20"]);
         assert_eq!(shown(&[0.001, 2e6], None), ["0.001", "0.1", "10", "1000", "100000"]);
