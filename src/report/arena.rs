@@ -126,8 +126,15 @@ mod tests {
     struct Log {
         experiment: String,
         seed: u64,
-        /// Name, names and types of the properties, values of each run.
-        planners: Vec<(String, Vec<(String, String)>, Vec<Vec<Option<f64>>>)>,
+        planners: Vec<Planner>,
+    }
+
+    struct Planner {
+        name: String,
+        /// Names and types.
+        properties: Vec<(String, String)>,
+        /// Values, in the order of the properties.
+        runs: Vec<Vec<Option<f64>>>,
     }
 
     /// A reader of the grammar in OMPL's documentation, strict where `ompl_benchmark_statistics.py` is.
@@ -177,7 +184,7 @@ mod tests {
             Log { experiment, seed, planners }
         }
 
-        fn planner(&mut self, runs: usize) -> (String, Vec<(String, String)>, Vec<Vec<Option<f64>>>) {
+        fn planner(&mut self, runs: usize) -> Planner {
             let name = self.line().to_owned();
             for _ in 0..self.count(" common properties") {
                 assert!(self.line().contains(" = "));
@@ -198,7 +205,7 @@ mod tests {
             };
             let runs = (0..runs).map(|_| run(self.line())).collect();
             assert_eq!(self.line(), ".");
-            (name, properties, runs)
+            Planner { name, properties, runs }
         }
     }
 
@@ -228,7 +235,7 @@ mod tests {
         let text = study("shelf: planar_2r", "shelf", "visibility").to_arena_log("2026-01-02 03:04:05 UTC", 0.5);
         let log = Reader::log(&text);
         assert_eq!((log.experiment.as_str(), log.seed), ("shelf:_planar_2r", u64::MAX));
-        let (name, properties, runs) = &log.planners[0];
+        let Planner { name, properties, runs } = &log.planners[0];
         assert_eq!((name.as_str(), runs.len()), ("visibility", 2));
         let value = |run: usize, name: &str| runs[run][properties.iter().position(|p| p.0 == name).unwrap()];
         let names = ["time", "memory", "status", "solved", "solution_length", "solution_segments", "problem"];
@@ -242,7 +249,7 @@ mod tests {
     fn no_name_breaks_the_format() {
         for odd in ["|>>>", "<<<|\n|>>>\n", ".", "a\nb; c", "", "  ", "7 planners\n7"] {
             let log = Reader::log(&study(odd, odd, odd).to_arena_log(odd, 0.0)).planners;
-            assert_eq!((log.len(), log[0].2.len()), (1, 2), "{odd:?}");
+            assert_eq!((log.len(), log[0].runs.len()), (1, 2), "{odd:?}");
         }
     }
 

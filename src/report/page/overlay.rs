@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn lines_across_a_seam_come_in_again() {
         let line = vec![[0.5, 1.0], [1.5, 1.0]];
-        assert_eq!(lines(&overlay([false; 2]), &[line.clone()], false), "M165.0 165.0L275.0 165.0");
+        assert_eq!(lines(&overlay([false; 2]), std::slice::from_ref(&line), false), "M165.0 165.0L275.0 165.0");
         let twice = lines(&overlay([true, false]), &[line], false);
         assert_eq!(twice, "M-55.0 165.0L55.0 165.0M165.0 165.0L275.0 165.0");
         let around = lines(&overlay([true, true]), &[vec![[-3.0, 0.5], [3.0, 0.5]]], false);
