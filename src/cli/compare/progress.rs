@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 const INTERVAL: Duration = Duration::from_secs(10);
 
 /// Characters of the bar.
-const BAR: usize = 24;
+const BAR: usize = 16;
 
 /// Characters of a line: narrower than any terminal, since a line that is broken cannot be taken back.
 const WIDTH: usize = 78;
@@ -83,8 +83,8 @@ impl Progress {
         let mut state = self.state();
         state.done += 1;
         match self.manner {
-            Manner::Silent | Manner::Told => {}
-            Manner::Bar => self.draw(&state),
+            // The next run draws the bar.
+            Manner::Silent | Manner::Told | Manner::Bar => {}
             Manner::Lines if state.shown.elapsed() >= INTERVAL => {
                 state.shown = Instant::now();
                 output::say(&line(state.done, self.total, self.started.elapsed()));
@@ -117,22 +117,25 @@ fn put(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
+/// Runs a second, and seconds that are left at that rate, if it can be told.
+fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<f64>) {
+    let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
+    (rate, (done > 0 && done < total).then(|| ((total - done) as f64 / rate).ceil()))
+}
+
 /// `37 of 1000 runs, 12.3 a second, 78 s left`.
 fn line(done: usize, total: usize, elapsed: Duration) -> String {
-    let seconds = elapsed.as_secs_f64();
-    let rate = done as f64 / seconds.max(1e-3);
-    let left = if done == 0 || done >= total {
-        String::new()
-    } else {
-        format!(", {:.0} s left", ((total - done) as f64 / rate).ceil())
-    };
+    let (rate, left) = rate(done, total, elapsed);
+    let left = left.map_or_else(String::new, |left| format!(", {left:.0} s left"));
     format!("{done} of {total} runs, {rate:.1} a second{left}")
 }
 
-/// A bar, the same numbers, and what runs now, as far as there is room; as wide each time.
+/// A bar, the same numbers in short, and what runs now, as far as there is room; as wide each time.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR * done).checked_div(total).unwrap_or(BAR).min(BAR);
-    let text = format!("[{}{}] {}  {now}", "#".repeat(full), ".".repeat(BAR - full), line(done, total, elapsed));
+    let (rate, left) = rate(done, total, elapsed);
+    let left = left.map_or_else(String::new, |left| format!(" {left:.0} s left"));
+    let text = format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR - full));
     let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(WIDTH).collect();
     format!("{cut:WIDTH$}")
 }
@@ -144,7 +147,7 @@ mod tests {
     #[test]
     fn bars_are_as_wide_as_the_line_and_fill_up() {
         let second = Duration::from_secs(1);
-        for (done, full) in [(0, 0), (5, 12), (10, 24)] {
+        for (done, full) in [(0, 0), (5, 8), (10, 16)] {
             let bar = bar(done, 10, second, "a planner with a very long name on a problem with a very long name");
             assert_eq!((bar.chars().count(), bar.matches('#').count()), (WIDTH, full), "{bar}");
         }
@@ -155,6 +158,8 @@ mod tests {
     fn lines_tell_the_rate_and_what_is_left() {
         assert_eq!(line(20, 100, Duration::from_secs(4)), "20 of 100 runs, 5.0 a second, 16 s left");
         assert_eq!(line(100, 100, Duration::from_secs(4)), "100 of 100 runs, 25.0 a second");
+        let bar = bar(20, 100, Duration::from_secs(4), "visibility on shelf");
+        assert_eq!(bar.trim_end(), "[###.............] 20/100 5.0/s 16 s left  visibility on shelf");
         assert_eq!(line(0, 9, Duration::ZERO), "0 of 9 runs, 0.0 a second");
     }
 }

@@ -1,7 +1,7 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{escaped, number};
+use super::markup::{escaped, number, shortened};
 use crate::report::{Measure, Spread, Study};
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
@@ -18,8 +18,6 @@ const TOP: f64 = 6.0;
 const BOTTOM: f64 = 26.0;
 /// Runs that are shown as dots, too; more make a grey surface.
 const DOTS: usize = 250;
-/// Characters of a name that fit in front of its line.
-const NAME: usize = 15;
 
 /// The chart of one measure; none where no run has a value.
 pub fn chart(study: &Study, measure: Measure) -> Option<String> {
@@ -88,13 +86,6 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
 fn described(name: &str, spread: &Spread) -> String {
     let [min, low, median, high, max, _] = spread.numbers().map(|v| format!("{v:.4}"));
     format!("{name}: {} runs, median {median}, quartiles {low} and {high}, least {min}, greatest {max}", spread.n)
-}
-
-fn shortened(name: &str) -> String {
-    match name.chars().count() {
-        n if n > NAME => name.chars().take(NAME - 1).chain(['\u{2026}']).collect(),
-        _ => name.to_owned(),
-    }
 }
 
 #[cfg(test)]

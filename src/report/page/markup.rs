@@ -20,6 +20,17 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
+/// Characters of a planner's name that fit in front of its line in a chart.
+const NAME: usize = 15;
+
+/// A name that fits in front of a line.
+pub fn shortened(name: &str) -> String {
+    match name.chars().count() {
+        n if n > NAME => name.chars().take(NAME - 1).chain(['\u{2026}']).collect(),
+        _ => name.to_owned(),
+    }
+}
+
 /// A coordinate: two decimals at the most.
 pub fn number(value: f64) -> String {
     let text = format!("{value:.2}");

@@ -1,6 +1,6 @@
 //! What became of each problem: bars, and a matrix.
 
-use super::markup::{escaped, number};
+use super::markup::{escaped, number, shortened};
 use crate::report::{Comparison, Measure, Outcome, Row, Study};
 
 /// Width of the bars, pixels.
@@ -9,11 +9,11 @@ const WIDTH: f64 = 460.0;
 const LEFT: f64 = 104.0;
 /// Height of a planner's line.
 const LINE: f64 = 28.0;
-/// Pixels that a number needs.
-const DIGITS: f64 = 22.0;
+/// Pixels that a number and a sign need.
+const DIGITS: f64 = 44.0;
 
-/// A bar a planner, of the problems that it solved, proved to have no path, and left open. Pieces differ in shade and
-/// pattern of their class, and carry their number.
+/// A bar a planner, of the problems that it solved, proved to have no path, and left open. Pieces carry their sign, and
+/// their number where there is room.
 pub fn bars(study: &Study) -> String {
     let planners = study.planners();
     let height = LINE * planners.len() as f64 + 4.0;
@@ -25,12 +25,11 @@ pub fn bars(study: &Study) -> String {
     let all = study.comparisons.len().max(1) as f64;
     for (i, name) in planners.iter().enumerate() {
         let top = LINE * i as f64 + 4.0;
-        let short: String = name.chars().take(15).collect();
         svg += &format!(
             "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
             LEFT - 10.0,
             number(top + 15.0),
-            escaped(&short)
+            escaped(&shortened(name))
         );
         let mut left = LEFT;
         for (outcome, count) in Outcome::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
@@ -42,9 +41,11 @@ pub fn bars(study: &Study) -> String {
                 number(top),
                 number((width - 1.0).max(0.5))
             );
-            if width > DIGITS {
+            let sign = sign(outcome);
+            let text = if width > DIGITS { format!("{sign} {count}") } else { sign.to_string() };
+            if width > DIGITS / 4.0 {
                 let middle = number(left + width / 2.0);
-                svg += &format!("<text class=\"count\" x=\"{middle}\" y=\"{}\">{count}</text>", number(top + 14.5));
+                svg += &format!("<text class=\"count\" x=\"{middle}\" y=\"{}\">{text}</text>", number(top + 14.5));
             }
             svg += "</g>\n";
             left += width;
