@@ -1,6 +1,6 @@
-// One run of one planner of OMPL on the arm's torus. Prints a JSON object.
+// Runs of one planner of OMPL on the arm's torus, one after the other in this process. Prints a JSON array, an object a run.
 //
-// usage: ompl_peer SCENE PLANNER SEED LIMIT_SECONDS first|anytime
+// usage: ompl_peer SCENE PLANNER SEED LIMIT_SECONDS first|anytime RUNS
 //
 // "first" stops at the first solution, "anytime" improves it until the limit.
 #include "scene.hpp"
@@ -118,7 +118,7 @@ void run(const Scene &scene, const std::string &name, double limit, bool first) 
             std::cout << (k ? ", [" : "[") << angle(states[k], 0) << ", " << angle(states[k], 1) << ']';
         std::cout << ']';
     }
-    std::cout << "}\n";
+    std::cout << "}";
 }
 
 } // namespace
@@ -130,11 +130,16 @@ int main(int count, char **words) {
             std::cout << OMPL_MAJOR_VERSION << "." << OMPL_MINOR_VERSION << "." << OMPL_PATCH_VERSION << '\n';
             return 0;
         }
-        if (arguments.size() != 5)
-            throw std::runtime_error("usage: ompl_peer SCENE PLANNER SEED LIMIT_SECONDS first|anytime, or version");
+        if (arguments.size() != 6)
+            throw std::runtime_error("usage: ompl_peer SCENE PLANNER SEED LIMIT_SECONDS first|anytime RUNS, or version");
         ompl::msg::noOutputHandler();
         ompl::RNG::setSeed(std::stoul(arguments[2]));
-        run(Scene(arguments[0]), arguments[1], std::stod(arguments[3]), arguments[4] == "first");
+        const Scene scene(arguments[0]);
+        for (int index = 0, runs = std::stoi(arguments[5]); index < runs; ++index) {
+            std::cout << (index ? ",\n" : "[");
+            run(scene, arguments[1], std::stod(arguments[3]), arguments[4] == "first");
+        }
+        std::cout << "]\n";
         return 0;
     } catch (const std::exception &error) {
         std::cerr << error.what() << '\n';

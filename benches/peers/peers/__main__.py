@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from . import cspaces, document, fields, machine, paths, problem, roadmaps, selftest
+from . import cspaces, document, fields, machine, minkowski, paths, problem, roadmaps, selftest
 from .settings import NotRunError, Settings, say
 from .table import Table
 
@@ -20,7 +20,10 @@ def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="benches/peers/run", description="cplan beside its peers, in one run")
     parser.add_argument("--quick", action="store_true", help="fewer repetitions: a few minutes at the most")
     parser.add_argument(
-        "--only", choices=["paths", "cspaces", "roadmaps", "fields"], action="append", help="these parts only"
+        "--only",
+        choices=["paths", "cspaces", "roadmaps", "fields", "minkowski"],
+        action="append",
+        help="these parts only",
     )
     parser.add_argument("--write", action="store_true", help="put the tables into docs/peers.md")
     parser.add_argument("--cplan", required=True, help=argparse.SUPPRESS)
@@ -51,6 +54,7 @@ def main() -> int:
         "cspaces": lambda: cspaces.tables(settings),
         "roadmaps": lambda: roadmaps.tables(settings),
         "fields": lambda: fields.tables(settings),
+        "minkowski": lambda: minkowski.tables(settings),
     }
     tables: list[Table] = []
     for name, part in parts.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 import time
@@ -80,7 +81,8 @@ def _told(report: dict[str, Any], process_ms: float) -> Answer:
 def _timed(command: list[str], limit: float) -> Answer:
     start = time.perf_counter()
     report = called(command, limit + GRACE)
-    return _told(report, (time.perf_counter() - start) * 1e3)
+    process_ms = (time.perf_counter() - start) * 1e3
+    return _told(report[0] if isinstance(report, list) else report, process_ms)
 
 
 @dataclass(frozen=True)
@@ -94,9 +96,18 @@ class Ompl:
     peer: str = "OMPL, C++"
 
     def ask(self, problem: Problem, seed: int, limit: float) -> Answer:
+        return _timed(self._command(problem, seed, limit, 1), limit)
+
+    def warm(self, problem: Problem, seed: int, limit: float, runs: int) -> list[Answer]:
+        """Several answers of one process: those after the first find its code and tables in the caches."""
+        self.settings.demand(self.peer)
+        reports = called(self._command(problem, seed, limit, runs), runs * limit + GRACE)
+        return [_told(report, math.nan) for report in reports]
+
+    def _command(self, problem: Problem, seed: int, limit: float, runs: int) -> list[str]:
         scene = self.settings.work / f"{problem.name}.scene"
         program = str(self.settings.work / "ompl_peer")
-        return _timed([program, str(scene), self.planner, str(seed), str(limit), self.until], limit)
+        return [program, str(scene), self.planner, str(seed), str(limit), self.until, str(runs)]
 
 
 @dataclass(frozen=True)

@@ -23,15 +23,24 @@ def markdown(machine: list[str], versions: list[str], tested: list[str], tables:
 
 
 def _summary(leads: list[Lead]) -> str:
-    """Who is faster at what, worst first."""
-    behind = sorted((lead for lead in leads if lead.ratio < 1), key=lambda lead: lead.ratio)
-    ahead = sorted((lead for lead in leads if lead.ratio >= 1), key=lambda lead: lead.ratio)
-    lines = ["### Where a peer is faster", "", "By medians of this run; a ratio is the peer's time over cplan's.", ""]
-    lines += [f"- {lead.what}: {lead.peer} takes {times(lead.ratio)} the time of {lead.cplan}." for lead in behind]
-    lines += [] if behind else ["- Nowhere in this run."]
-    lines += ["", "### Where cplan is faster", ""]
-    lines += [f"- {lead.what}: {lead.peer} takes {times(lead.ratio)} the time of {lead.cplan}." for lead in ahead]
+    """Who is faster at what."""
+    lines = ["### Where a peer is faster", "", "By medians of this run: the peer's time over cplan's.", ""]
+    lines += _grouped([lead for lead in leads if lead.ratio < 1]) or ["Nowhere in this run."]
+    lines += ["", "### Where cplan is faster", "", "The same.", ""]
+    lines += _grouped([lead for lead in leads if lead.ratio >= 1]) or ["Nowhere in this run."]
     return "\n".join(lines) + "\n"
+
+
+def _grouped(leads: list[Lead]) -> list[str]:
+    """A line for each thing that was compared, with all peers, the fastest first."""
+    groups: dict[tuple[str, str], list[Lead]] = {}
+    for lead in sorted(leads, key=lambda lead: lead.ratio):
+        groups.setdefault((lead.what, lead.cplan), []).append(lead)
+    ranked = sorted(groups.items(), key=lambda group: group[1][0].ratio)
+    return [
+        f"- {what} ({cplan}): " + ", ".join(f"{lead.peer} {times(lead.ratio)}" for lead in group) + "."
+        for (what, cplan), group in ranked
+    ]
 
 
 def write(results: str) -> None:

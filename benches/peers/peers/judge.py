@@ -104,3 +104,20 @@ def _divided(pieces: np.ndarray, size: float) -> np.ndarray:
     width = 1 / counts[index]
     start, way = pieces[index, 0], pieces[index, 1] - pieces[index, 0]
     return np.stack([start + at[:, None] * way, start + (at + width)[:, None] * way], axis=1)
+
+
+class Verdicts:
+    """Judgements, each path judged once."""
+
+    def __init__(self, problems: dict[str, Problem]) -> None:
+        self._judges = {name: Judge(problem) for name, problem in problems.items()}
+        self._known: dict[tuple[str, bytes], bool] = {}
+
+    def valid(self, problem: str, path: np.ndarray | None) -> bool:
+        """Whether there is a path and it is one."""
+        if path is None:
+            return False
+        key = (problem, path.tobytes())
+        if key not in self._known:
+            self._known[key] = self._judges[problem].judge(path).valid
+        return self._known[key]

@@ -12,6 +12,9 @@ from .figures import median, short, spread, times
 from .settings import NotRunError, Settings, say
 from .table import Lead, Table
 
+POLYANYA = ("polyanya", "polyanya merged")
+"""A mesh of triangles, and one whose triangles are merged to polygons."""
+
 
 def tables(settings: Settings) -> list[Table]:
     """One table, by number of corners."""
@@ -21,7 +24,7 @@ def tables(settings: Settings) -> list[Table]:
         "milliseconds, query in microseconds: medians (quartiles over the rounds, of the mean of 32 queries). cplan "
         "triangulates, and searches cones of sight; its visibility graph is not needed for a query. pyvisgraph "
         "builds the graph.",
-        ["corners", "program", "build ms", "whole visibility graph ms", "query us", "longest difference in length"],
+        ["corners", "program", "build ms", "whole visibility graph ms", "query us", "greatest difference in length"],
     )
     sizes = [(100, settings.choose(20, 5), True), (1000, settings.choose(10, 3), not settings.quick)]
     sizes.append((20_000, settings.choose(5, 1), False))
@@ -35,18 +38,16 @@ def _size(settings: Settings, table: Table, corners: int, rounds: int, slow: boo
     file = settings.work / "polygons.json"
     report = settings.rust("roadmap", str(corners), str(rounds), str(file))
     clock, count = report["times"], report["queries"]
-    query = {who: [ms * 1e3 / count for ms in clock[f"{who} queries"]] for who in ("cplan", "polyanya")}
+    query = {who: [ms * 1e3 / count for ms in clock[f"{who} queries"]] for who in ("cplan", *POLYANYA)}
     whole = [a + b for a, b in zip(clock["cplan build"], clock["cplan all arcs"], strict=True)]
     name = f"{corners:,}".replace(",", " ")
-    rows = [
-        [name, "cplan", spread(clock["cplan build"]), spread(whole), spread(query["cplan"]), "-"],
-        [name, "polyanya", spread(clock["polyanya build"]), "-", spread(query["polyanya"]),
-         _difference(report["cplan"], report["polyanya"])],
-    ]  # fmt: skip
-    leads = [("build", "polyanya build", "cplan build"), ("query", "polyanya queries", "cplan queries")]
-    for what, peer, ours in leads:
-        ratio = median(clock[peer]) / median(clock[ours])
-        table.leads.append(Lead(f"{what} among {name} corners", "polyanya", "cplan", ratio))
+    rows = [[name, "cplan", spread(clock["cplan build"]), spread(whole), spread(query["cplan"]), "-"]]
+    for who in POLYANYA:
+        difference = _difference(report["cplan"], report[who])
+        rows.append([name, who, spread(clock[f"{who} build"]), "-", spread(query[who]), difference])
+        for what, stage in (("building", "build"), ("a query", "queries")):
+            ratio = median(clock[f"{who} {stage}"]) / median(clock[f"cplan {stage}"])
+            table.leads.append(Lead(f"{what} among {name} corners", who, "cplan", ratio))
     if slow:
         try:
             build, each, lengths = _pyvisgraph(json.loads(file.read_text()))

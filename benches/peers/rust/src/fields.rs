@@ -1,6 +1,10 @@
 //! Distances and harmonic fields on a grid: cplan's solvers; the cells and the results go into files, for peers in other
 //! languages and for the comparison with them.
 
+#[path = "../../../../tests/common/mazes.rs"]
+#[allow(dead_code, reason = "only the maze is needed here")]
+mod mazes;
+
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
 use cplan::cspace::{Grid, Proves, grid_from_rows};
@@ -25,6 +29,11 @@ pub fn boxes(cells: usize) -> Grid {
         }
     }
     rectangle(cells, blocked)
+}
+
+/// A maze without loops, corridors one cell wide.
+pub fn maze(cells: usize) -> Grid {
+    rectangle(cells, mazes::maze(cells, 0))
 }
 
 /// The arm's configuration space, cut open at half a turn: none of the peers here knows a torus.
@@ -52,11 +61,11 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
         let ways = times.time("dijkstra", || Search::new(&packed, Neighborhood::Eight, Order::Dijkstra, &[goal], all));
         let solver = times.time("multigrid setup", || Multigrid::new(grid.cells, ends, &free, 0.0));
         let mut workspace = solver.workspace();
-        // The first solve touches fresh memory, as everybody's first does; the second is a goal more.
-        values.fill(0.0);
-        times.time("multigrid solve", || solver.goal(goal, &mut values, ERROR, &mut workspace));
-        let mut again = vec![0.0; free.len()];
-        times.time("multigrid again", || solver.goal(goal, &mut again, ERROR, &mut workspace));
+        // The first solve touches the workspace's fresh memory, as everybody's first does; the second is a goal more.
+        for stage in ["multigrid solve", "multigrid again"] {
+            values.fill(0.0);
+            times.time(stage, || solver.goal(goal, &mut values, ERROR, &mut workspace));
+        }
         let field = times.time("harmonic", || {
             let lattice = Lattice::new(&grid);
             let component = Component::new(&lattice, &lattice.wave(&[goal]));

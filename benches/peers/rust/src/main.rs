@@ -6,6 +6,7 @@ mod answers;
 mod brute_force;
 mod cspaces;
 mod fields;
+mod minkowski;
 mod roadmaps;
 mod rounds;
 mod scenes;
@@ -17,7 +18,8 @@ use std::process::ExitCode;
 const USAGE: &str = "usage: cplan-peers answers URDF WORLD ROUNDS
        cplan-peers cspace URDF WORLD CELLS ROUNDS
        cplan-peers roadmap CORNERS ROUNDS POLYGONS_OUT
-       cplan-peers field boxes|WORLD CELLS ROUNDS DIRECTORY [URDF]
+       cplan-peers minkowski CORNERS ROUNDS
+       cplan-peers field boxes|maze|WORLD CELLS ROUNDS DIRECTORY [URDF]
        cplan-peers oxmpl URDF WORLD PLANNER SEED LIMIT_SECONDS
        cplan-peers collides URDF WORLD < configurations, two numbers a line";
 
@@ -32,6 +34,10 @@ fn run(arguments: &[&str]) -> Result<serde_json::Value> {
         ["field", "boxes", cells, rounds, directory] => {
             fields::run(fields::boxes(cells.parse()?), rounds.parse()?, directory)
         }
+        ["field", "maze", cells, rounds, directory] => {
+            fields::run(fields::maze(cells.parse()?), rounds.parse()?, directory)
+        }
+        ["minkowski", corners, rounds] => minkowski::run(corners.parse()?, rounds.parse()?),
         ["field", world, cells, rounds, directory, urdf] => {
             fields::run(fields::of_arm(urdf, world, cells.parse()?)?, rounds.parse()?, directory)
         }

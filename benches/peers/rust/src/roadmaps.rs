@@ -37,14 +37,16 @@ fn single(p: Point) -> Vec2 {
     vec2(p.x as f32, p.y as f32)
 }
 
-/// polyanya's mesh; neighbouring triangles are merged as its documentation advises.
-fn mesh(regions: &Regions) -> Mesh {
+/// polyanya's mesh: of triangles, or with neighbouring ones merged to polygons, as its documentation advises.
+fn mesh(regions: &Regions, is_merged: bool) -> Mesh {
     let free = &regions.free[0];
     let outer: Vec<Vec2> = free.outer.iter().copied().map(single).collect();
     let mut triangulation = Triangulation::from_outer_edges(&outer);
     triangulation.add_obstacles(free.holes.iter().map(|hole| hole.iter().copied().map(single).collect::<Vec<_>>()));
     let mut mesh = triangulation.as_navmesh();
-    mesh.merge_polygons();
+    if is_merged {
+        mesh.merge_polygons();
+    }
     mesh.bake();
     mesh
 }
@@ -70,14 +72,16 @@ pub fn run(corners: usize, rounds: usize, file: &str) -> Result<Value> {
     let regions = star_crowd(&mut Random(1), corners / 10);
     let queries = queries(&regions);
     let mut times = Rounds::default();
-    let (mut ours, mut theirs, mut arcs) = (Vec::new(), Vec::new(), 0);
+    let (mut ours, mut theirs, mut arcs) = (Vec::new(), [Vec::new(), Vec::new()], 0);
     for _ in 0..rounds {
         let map = times.time("cplan build", || Visibility::default().build(&regions));
         arcs = times.time("cplan all arcs", || map.arcs()).len();
         ours = times.time("cplan queries", || queries.iter().map(|q| cplan_length(&regions, &map, q)).collect());
-        let mesh = times.time("polyanya build", || mesh(&regions));
-        theirs =
-            times.time("polyanya queries", || queries.iter().map(|q| polyanya_length(&mesh, q)).collect::<Vec<_>>());
+        for (k, name) in ["polyanya", "polyanya merged"].into_iter().enumerate() {
+            let mesh = times.time(&format!("{name} build"), || mesh(&regions, k == 1));
+            let lengths = || queries.iter().map(|query| polyanya_length(&mesh, query)).collect::<Vec<_>>();
+            theirs[k] = times.time(&format!("{name} queries"), lengths);
+        }
     }
     let holes: Vec<Vec<[f64; 2]>> =
         regions.free[0].holes.iter().map(|hole| hole.iter().map(|p| [p.x, p.y]).collect()).collect();
@@ -88,6 +92,7 @@ pub fn run(corners: usize, rounds: usize, file: &str) -> Result<Value> {
         "queries": QUERIES,
         "arcs": arcs,
         "cplan": ours,
-        "polyanya": theirs,
+        "polyanya": theirs[0],
+        "polyanya merged": theirs[1],
     }))
 }
