@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 import time
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 
@@ -65,6 +66,9 @@ def main() -> int:
             tables += part()
         except NotRunError as error:
             tables.append(Table(name, f"Not run: {error}.", []))
+        except Exception as error:  # What goes wrong with one peer must not lose the others.
+            traceback.print_exc()
+            tables.append(Table(name, f"Not run to the end: {type(error).__name__}, {error}.", []))
     seconds = time.monotonic() - start
     versions = machine.versions(settings.cplan, settings.work)
     results = document.markdown(where, versions, tested, tables, seconds)

@@ -39,9 +39,15 @@ class Answer:
 class Contender(Protocol):
     """Something that answers problems."""
 
-    name: str
-    peer: str
-    """What `run` calls it where it cannot be had."""
+    @property
+    def name(self) -> str:
+        """In the tables."""
+        ...
+
+    @property
+    def peer(self) -> str:
+        """What `run` calls it where it cannot be had."""
+        ...
 
     def ask(self, problem: Problem, seed: int, limit: float) -> Answer:
         """One answer. Raises `NotRunError`."""
@@ -62,7 +68,10 @@ class Cplan:
         output.unlink(missing_ok=True)
         command = [self.settings.cplan, *problem.files, "--quiet", "--timings", "--output", str(output), *self.options]
         start = time.perf_counter()
-        run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        try:
+            run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+        except subprocess.TimeoutExpired as error:
+            raise NotRunError("no answer within a minute") from error
         process_ms = (time.perf_counter() - start) * 1e3
         if run.returncode not in (0, 3, 4):
             raise NotRunError(run.stderr.strip())

@@ -47,8 +47,8 @@ def add(table: Table, cells: Cells) -> None:
     except ImportError as error:
         table.notes.append(f"scikit-fmm was not run: {error}.")
         return
-    ratio = times(median(cells.clock["fmm"]) / median(cells.both("pack", "dijkstra")))
-    row = [cells.name, "any direction", "scikit-fmm", spread(cells.clock["fmm"]), f"{ratio} (eight)", "cplan has none"]
+    over = times(median(cells.clock["fmm"]) / median(cells.both("pack", "dijkstra")))
+    row = [cells.name, "any direction", "scikit-fmm", spread(cells.clock["fmm"]), f"{over} (eight)", "cplan has none"]
     table.rows.append(row)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field
@@ -109,7 +110,7 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
             "B length",
             "B valid",
             "A process ms",
-            "A time over cplan's",
+            "A time over subdivision's",
         ],
     )
     reference = _time(listed, REFERENCE, "A")
@@ -121,7 +122,7 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
         row += [spread([a.process_ms for a in answers]), times(median([a.ms for a in answers]) / reference)]
         table.rows.append(row)
         if entry.failure is not None:
-            table.notes.append(f"{entry.contender.name} was not run: {entry.failure}.")
+            table.notes.append(f"{entry.contender.name} was not run, or not to the end: {entry.failure}.")
     _add_leads(table, listed)
     table.notes.append(
         "The peers stop at their first solution, or go on improving it for 1 s where the table says so. Time limit "
@@ -133,7 +134,8 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
 
 def _bounds(listed: list[Entry]) -> dict[str, float]:
     """Proven lower bounds on the lengths of all paths."""
-    return {name: max(a.bound or 0.0 for e in listed for a in e.answers[name]) for name in SOLVABLE}
+    proven = {name: [a.bound for e in listed for a in e.answers[name] if a.bound] for name in SOLVABLE}
+    return {name: max(bounds, default=math.nan) for name, bounds in proven.items()}
 
 
 def _time(listed: list[Entry], name: str, problem: str) -> float:
@@ -198,10 +200,10 @@ def tables(settings: Settings, problems: dict[str, Problem]) -> list[Table]:
     verdicts = Verdicts(problems)
     found = [paths_table(listed, verdicts), impossible_table(listed, verdicts)]
     found.append(warm.table(settings, problems, verdicts, _bounds(listed)))
-    for name in problems:
-        cplan = [a for e in listed if isinstance(e.contender, Cplan) for a in e.answers[name]]
-        wrong = sum(a.path is not None and not verdicts.valid(name, a.path) for a in cplan)
-        found[0].notes.append(
-            f"{name}: of cplan's {sum(a.path is not None for a in cplan)} paths {wrong} fail the judge."
-        )
+    own = [
+        (name, a.path) for e in listed if isinstance(e.contender, Cplan) for name in problems for a in e.answers[name]
+    ]
+    paths = [(name, path) for name, path in own if path is not None]
+    wrong = sum(not verdicts.valid(name, path) for name, path in paths)
+    found[0].notes.append(f"Of cplan's {len(paths)} paths {wrong} fail the judge.")
     return found

@@ -7,13 +7,14 @@ import tomllib
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 
 PROBLEMS = Path(__file__).parent.parent / "problems"
 ARM = PROBLEMS / "arm.urdf"
 
-Corners = np.ndarray
+Corners: TypeAlias = np.ndarray
 """Corners of a convex polygon, counter-clockwise, one a line."""
 
 
@@ -50,7 +51,7 @@ def load(name: str) -> Problem:
 def _arm() -> tuple[tuple[Corners, Corners], float]:
     """Rectangles of both links, and where the second joint sits on the first link's x axis."""
     robot = ElementTree.parse(ARM).getroot()
-    links = tuple(_rectangle(robot, name) for name in ("upper_arm", "forearm"))
+    links = (_rectangle(robot, "upper_arm"), _rectangle(robot, "forearm"))
     elbow = robot.find("joint[@name='elbow']/origin")
     assert elbow is not None
     x, y, _ = _numbers(elbow, "xyz")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -82,7 +83,7 @@ def _pyvisgraph(scene: dict[str, Any]) -> tuple[float, float, list[float]]:
     return build, (time.perf_counter() - start) * 1e6 / len(lengths), lengths
 
 
-def _difference(ours: list[float | None], theirs: list[float | None]) -> str:
+def _difference(ours: Sequence[float | None], theirs: Sequence[float | None]) -> str:
     pairs = list(zip(ours, theirs, strict=True))
     missing = sum(a is not None and b is None for a, b in pairs)
     extra = sum(a is None and b is not None for a, b in pairs)

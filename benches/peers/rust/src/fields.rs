@@ -79,6 +79,9 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
     write("free.u8", free.iter().map(|&free| u8::from(free)).collect())?;
     write("multigrid.f64", values.iter().flat_map(|value| value.to_le_bytes()).collect())?;
     write("steps.u32", steps.labels().iter().flat_map(|label| label.to_le_bytes()).collect())?;
+    // Values of the harmonic planner's field are below what doubles can hold: their natural logarithms.
+    let ln = |cell: usize| component.position_of(cell).map_or(f64::NEG_INFINITY, |at| field.potential.ln(at));
+    write("harmonic.f64", (0..free.len()).flat_map(|cell| ln(cell).to_le_bytes()).collect())?;
     let costs = (0..free.len()).map(|cell| ways.cost(cell).map_or(f64::INFINITY, |cost| cost.value()));
     write("dijkstra.f64", costs.flat_map(f64::to_le_bytes).collect())?;
     Ok(json!({
@@ -87,7 +90,5 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
         "goal": goal,
         "error": ERROR,
         "free": free.iter().filter(|&&free| free).count(),
-        "reached": component.len(),
-        "harmonic navigates": field.potential.navigates(&component),
     }))
 }
