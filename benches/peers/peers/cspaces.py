@@ -38,7 +38,7 @@ def tables(settings: Settings) -> list[Table]:
             row = [name, f"{cells} x {cells}", *(spread(clock[kind]) for kind in kinds), times(ratio)]
             table.rows.append(row)
             table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
-            table.notes.append(
+            table.note(
                 f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells blocked; parry2d, in "
                 f"single precision, says otherwise in {report['differ']} of them; in {report['differ_double']} of "
                 "these so does its double precision."

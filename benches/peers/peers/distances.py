@@ -33,7 +33,7 @@ def add(table: Table, cells: Cells) -> None:
             for _ in range(cells.rounds):
                 costs = _scikit_image(cells, quantity)
         except ImportError as error:
-            table.notes.append(f"scikit-image was not run: {error}.")
+            table.note(f"scikit-image was not run: {error}.")
             continue
         name = "scikit-image " + ("MCP" if quantity == "steps" else "MCP_Geometric")
         ratio = median(cells.clock[quantity]) / median(own)
@@ -45,7 +45,7 @@ def add(table: Table, cells: Cells) -> None:
         for _ in range(cells.rounds):
             _scikit_fmm(cells)
     except ImportError as error:
-        table.notes.append(f"scikit-fmm was not run: {error}.")
+        table.note(f"scikit-fmm was not run: {error}.")
         return
     over = times(median(cells.clock["fmm"]) / median(cells.both("pack", "dijkstra")))
     row = [cells.name, "any direction", "scikit-fmm", spread(cells.clock["fmm"]), f"{over} (eight)", "cplan has none"]

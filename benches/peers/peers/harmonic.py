@@ -50,8 +50,8 @@ def table() -> Table:
         "neighbour, where a robot that climbs the field gets stuck.",
         ["grid", "solver", "setup", "a goal", "setup and goal", "greatest error", "dead ends"],
         notes=[
-            "cplan multigrid is the library's solver for one equation, good to 1e-6 of the goal's value. cplan harmonic "
-            "is the planner's: each value agrees with its neighbours to 1.5e-14 of itself, however small it is (the "
+            "cplan multigrid is the library's solver for one equation, good to 1e-6 of the goal's value. cplan "
+            "harmonic is the planner's: each value agrees with its neighbours to 1.5e-14 of itself, however small it is (the "
             "judge gets its logarithms). That is what its time buys: no dead ends.",
         ],
     )
@@ -62,7 +62,7 @@ def add(table: Table, cells: Cells) -> None:
     try:
         equations = _equations(cells)
     except ImportError as error:
-        table.notes.append(f"scipy and pyamg were not run: {error}.")
+        table.note(f"scipy and pyamg were not run: {error}.")
         return
     exact: np.ndarray | None = None
     rows: list[list[str]] = []
@@ -70,7 +70,7 @@ def add(table: Table, cells: Cells) -> None:
         exact = _direct(equations)
         rows.append(_peer(table, cells, "scipy splu", exact, "is the measure"))
     else:
-        table.notes.append(f"{cells.name}: scipy's direct solver was not asked; it takes gigabytes.")
+        table.note(f"{cells.name}: scipy's direct solver was not asked; it takes gigabytes.")
     for name, maker in (
         ("pyamg ruge_stuben", "ruge_stuben_solver"),
         ("pyamg aggregation", "smoothed_aggregation_solver"),
@@ -78,7 +78,7 @@ def add(table: Table, cells: Cells) -> None:
         try:
             values = _multilevel(equations, exact, name, maker)
         except ImportError as error:
-            table.notes.append(f"{name} was not run: {error}.")
+            table.note(f"{name} was not run: {error}.")
             continue
         rows.append(_peer(table, cells, name, values, _error(values, exact)))
     table.rows += _own(cells, exact) + rows

@@ -122,9 +122,9 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
         row += [spread([a.process_ms for a in answers]), times(median([a.ms for a in answers]) / reference)]
         table.rows.append(row)
         if entry.failure is not None:
-            table.notes.append(f"{entry.contender.name} was not run, or not to the end: {entry.failure}.")
+            table.note(f"{entry.contender.name} was not run, or not to the end: {entry.failure}.")
     _add_leads(table, listed)
-    table.notes.append(
+    table.note(
         "The peers stop at their first solution, or go on improving it for 1 s where the table says so. Time limit "
         "2 s, on INF 1 s. "
         'cplan\'s times hold the certificate, and for "visibility" the lower bound on the optimum too.'
@@ -189,7 +189,7 @@ def impossible_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     peers = [e for e in listed if not isinstance(e.contender, Cplan)]
     runs = sum(len(e.answers["T"]) for e in peers)
     wrong = sum(a.path is not None and not verdicts.valid("T", a.path) for e in peers for a in e.answers["T"])
-    table.notes.append(f"On T the sampling planners return {wrong} colliding paths in {runs} runs.")
+    table.note(f"On T the sampling planners return {wrong} colliding paths in {runs} runs.")
     return table
 
 
@@ -205,5 +205,5 @@ def tables(settings: Settings, problems: dict[str, Problem]) -> list[Table]:
     ]
     paths = [(name, path) for name, path in own if path is not None]
     wrong = sum(not verdicts.valid(name, path) for name, path in paths)
-    found[0].notes.append(f"Of cplan's {len(paths)} paths {wrong} fail the judge.")
+    found[0].note(f"Of cplan's {len(paths)} paths {wrong} fail the judge.")
     return found

@@ -56,11 +56,9 @@ def _size(settings: Settings, table: Table, corners: int, rounds: int, slow: boo
             rows.append([name, "pyvisgraph", "-", f"{short(build)} (once)", short(each), difference])
             ratio = build / median(whole)
             table.leads.append(Lead(f"visibility graph of {name} corners", "pyvisgraph", "cplan", ratio))
-            table.notes.append(
-                f"{name} corners: pyvisgraph takes {times(ratio)} cplan's time for the visibility graph."
-            )
+            table.note(f"{name} corners: pyvisgraph takes {times(ratio)} cplan's time for the visibility graph.")
         except NotRunError as error:
-            table.notes.append(f"pyvisgraph was not run: {error}.")
+            table.note(f"pyvisgraph was not run: {error}.")
     table.rows += rows
 
 

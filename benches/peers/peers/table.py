@@ -28,6 +28,11 @@ class Table:
     leads: list[Lead] = field(default_factory=list)
     data: dict[str, Any] = field(default_factory=dict)
 
+    def note(self, text: str) -> None:
+        """Adds a note, once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
     def markdown(self) -> str:
         """With aligned columns, so that it can be read as text too."""
         lines = [f"### {self.title}", "", self.intro, ""]

@@ -59,7 +59,7 @@ def _answers(settings: Settings, table: Table, problem: Problem) -> dict[str, li
                 given = peer.warm(problem, batch + 1, LIMIT, 1 + runs // BATCHES)
                 answers.setdefault(peer.name, []).extend(given[1:])
         except NotRunError as error:
-            table.notes.append(f"{problem.name}: not all were run: {error}.")
+            table.note(f"{problem.name}: not all were run: {error}.")
             break
     return answers
 
