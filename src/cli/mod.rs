@@ -13,6 +13,7 @@ mod init;
 mod inspect;
 mod inspect_text;
 mod man;
+mod memory;
 mod motion;
 mod names;
 mod output;
@@ -28,6 +29,8 @@ mod task_files;
 mod task_summary;
 mod variant;
 mod verify;
+
+pub use memory::MemoryMeter;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser, error::ErrorKind};
@@ -47,12 +50,13 @@ const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2.
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. `meter` counts the
+/// process's memory, if anything does.
 #[must_use]
-pub fn run() -> ExitCode {
+pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     let mut cli = Cli::parse();
     let done = match (&mut cli.command, &cli.files) {
-        (Some(Command::Compare(args)), _) => compare::run(args),
+        (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
