@@ -3,16 +3,24 @@
 mod args;
 mod check;
 mod compare;
+mod completions;
+mod demo;
 mod failure;
 mod field_args;
 mod field_report;
+mod fresh;
+mod init;
 mod inspect;
 mod inspect_text;
+mod man;
 mod memory;
 mod motion;
+mod names;
 mod output;
 mod plan;
+mod planned;
 mod recheck;
+mod schema;
 mod search_args;
 mod step_lines;
 mod summary;
@@ -46,13 +54,18 @@ const UNKNOWN: u8 = 4;
 /// process's memory, if anything does.
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
-    let cli = Cli::parse();
-    let done = match (&cli.command, &cli.files) {
+    let mut cli = Cli::parse();
+    let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
+        (Some(Command::Demo(args)), _) => demo::run(args),
+        (Some(Command::Init(args)), _) => init::run(args),
+        (Some(Command::Completions(args)), _) => completions::run(args),
+        (Some(Command::Man(args)), _) => man::run(args),
+        (Some(Command::Schema), _) => schema::run(),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -3,6 +3,8 @@
 mod commands;
 mod compare;
 mod fields;
+mod first;
+mod help;
 mod inputs;
 mod mazes;
 mod results;
