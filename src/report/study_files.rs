@@ -11,6 +11,9 @@ use serde_json::{Value, json};
 /// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.
 const LISTED: usize = 60;
 
+/// Remarks of planners that are shown below the tables.
+const REMARKS: usize = 12;
+
 impl Study {
     /// Tables for a terminal: outcomes, the distribution of each measure, and problem by problem where they differ in
     /// more than start and goal; then the summary in words. Ends in a newline.
@@ -146,8 +149,13 @@ impl Study {
         let of = |c: &'_ Comparison| -> Vec<String> {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()
         };
-        let remarks = self.comparisons.iter().flat_map(of);
-        remarks.chain(self.left_out.iter().cloned()).chain(self.alarms())
+        let mut remarks: Vec<String> = self.comparisons.iter().flat_map(of).collect();
+        if remarks.len() > REMARKS {
+            let more = format!("and {} more such remarks, which CSV and JSON have", remarks.len() - REMARKS);
+            remarks.truncate(REMARKS);
+            remarks.push(more);
+        }
+        remarks.into_iter().chain(self.left_out.iter().cloned()).chain(self.alarms())
     }
 }
 

@@ -160,21 +160,24 @@ fn aspect(
     let beats = |i: usize, k: usize| wins(i, k) > wins(k, i) && sign_test(wins(i, k), wins(k, i)) < SIGNIFICANT;
     let winner = (0..sides.len()).find(|&i| others(i).all(|k| beats(i, k)));
     let word = better[usize::from(sides.len() > 2)];
-    let claim = match winner {
-        Some(winner) => format!("{} {word}.", capitalised(&sides[winner].name)),
-        None => format!("These problems do not settle which side {word}."),
+    let score = |i: usize, k: usize| {
+        let (won, lost) = (wins(i, k), wins(k, i));
+        let p = sign_test(won, lost);
+        let p = if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.3}") };
+        format!("better than {} in {won}, worse in {lost} (p = {p})", sides[k].name)
     };
-    // Against the winner, or against the first.
-    let one = winner.unwrap_or(0);
-    let scores: Vec<String> = others(one)
-        .map(|k| {
-            let (won, lost) = (wins(one, k), wins(k, one));
-            let p = sign_test(won, lost);
-            let p = if p < 0.001 { format!("{p:.0e}") } else { format!("{p:.3}") };
-            format!("better than {} in {won}, worse in {lost} (p = {p})", sides[k].name)
-        })
-        .collect();
-    Some(format!("{claim} {figures} {}: {}.", capitalised(&sides[one].name), scores.join("; ")))
+    let name = |i: usize| capitalised(&sides[i].name);
+    Some(match winner {
+        Some(i) => {
+            let scores: Vec<String> = others(i).map(|k| score(i, k)).collect();
+            format!("{} {word}. {figures} {}: {}.", name(i), name(i), scores.join("; "))
+        }
+        None => {
+            let pairs = (0..sides.len()).flat_map(|i| (i + 1..sides.len()).map(move |k| (i, k)));
+            let scores: Vec<String> = pairs.map(|(i, k)| format!("{}: {}.", name(i), score(i, k))).collect();
+            format!("These problems do not settle which side {word}. {figures} {}", scores.join(" "))
+        }
+    })
 }
 
 fn capitalised(text: &str) -> String {

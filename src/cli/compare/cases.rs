@@ -81,8 +81,7 @@ impl Cases {
         }
         let mut name = suite.name.clone();
         let overrides = args.query.overrides();
-        let bases = if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
-        let mut bases: Vec<(String, Problem)> = bases;
+        let mut bases = if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
         for (_, problem) in &mut bases {
             args.motion.override_limits(&mut problem.scene.arm.joints);
         }
