@@ -51,8 +51,8 @@ def table() -> Table:
         ["grid", "solver", "setup", "a goal", "setup and goal", "greatest error", "dead ends"],
         notes=[
             "cplan multigrid is the library's solver for one equation, good to 1e-6 of the goal's value. cplan "
-            "harmonic is the planner's: each value agrees with its neighbours to 1.5e-14 of itself, however small it is (the "
-            "judge gets its logarithms). That is what its time buys: no dead ends.",
+            "harmonic is the planner's: each value agrees with its neighbours to 1.5e-14 of itself, however small it "
+            "is (the judge gets its logarithms). That is what its time buys: no dead ends.",
         ],
     )
 
