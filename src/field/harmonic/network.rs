@@ -1,5 +1,6 @@
 //! Elimination in a network of unit resistances, without a subtraction.
 
+use crate::interrupt::checkpoint;
 use std::collections::VecDeque;
 
 /// No link, no node.
@@ -179,6 +180,7 @@ impl Network {
             }
             done[i] = true;
             order.push(node);
+            checkpoint();
             around.clear();
             let mut pivot = self.ground[i];
             let mut at = self.first[i];
