@@ -1,6 +1,10 @@
 //! The command line's words.
 
+use super::completions::CompletionsArgs;
+use super::demo::DemoArgs;
 use super::field_args::FieldArgs;
+use super::init::InitArgs;
+use super::man::ManArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
 use super::variant::Variant;
@@ -56,6 +60,16 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
+    /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.svg.
+    Demo(DemoArgs),
+    /// Write a commented world and a robot to start from.
+    Init(InitArgs),
+    /// Print what a shell needs to complete commands, options and their values.
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write those of all commands.
+    Man(ManArgs),
+    /// Print the JSON schema of world files, for editors.
+    Schema,
 }
 
 /// The two files.
@@ -222,7 +236,8 @@ pub struct PlanArgs {
     /// and so on for --output plan.yaml (worlds with steps).
     #[arg(long)]
     pub per_step: bool,
-    /// Draw workspace and configuration space side by side: .svg or .png. Can be repeated.
+    /// Draw workspace and configuration space side by side: .svg, .png, or .html (a page in which the arm can be moved).
+    /// Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print the result as JSON, and nothing else, on stdout.
@@ -263,7 +278,7 @@ pub struct CompareArgs {
     /// Print the table as CSV.
     #[arg(long)]
     pub csv: bool,
-    /// Draw all paths in one picture: .svg or .png. Can be repeated.
+    /// Draw all paths in one picture: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// No progress.
@@ -282,7 +297,7 @@ pub struct CheckArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
-    /// Draw workspace and configuration space with the configuration: .svg or .png. Can be repeated.
+    /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print the findings as JSON.
@@ -299,7 +314,7 @@ pub struct InspectArgs {
     /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
     #[arg(value_name = "WORLD")]
     pub world: Option<PathBuf>,
-    /// Draw the arm at zero with the frames of its joints: .svg or .png. Can be repeated.
+    /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print the report as JSON.
@@ -343,7 +358,7 @@ pub struct VerifyArgs {
     /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
     #[arg(long)]
     pub unwrap: bool,
-    /// Draw workspace and configuration space with the motion: .svg or .png. Can be repeated.
+    /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE")]
     pub picture: Vec<PathBuf>,
     /// Print the findings as JSON, and nothing else, on stdout.

@@ -3,15 +3,22 @@
 mod args;
 mod check;
 mod compare;
+mod completions;
+mod demo;
 mod failure;
 mod field_args;
 mod field_report;
+mod fresh;
+mod init;
 mod inspect;
 mod inspect_text;
+mod man;
 mod motion;
 mod output;
 mod plan;
+mod planned;
 mod recheck;
+mod schema;
 mod search_args;
 mod step_lines;
 mod summary;
@@ -42,13 +49,18 @@ const UNKNOWN: u8 = 4;
 /// Runs the program with the process's arguments. A wrong command line ends it with exit code 2.
 #[must_use]
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
-    let done = match (&cli.command, &cli.files) {
+    let mut cli = Cli::parse();
+    let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
+        (Some(Command::Demo(args)), _) => demo::run(args),
+        (Some(Command::Init(args)), _) => init::run(args),
+        (Some(Command::Completions(args)), _) => completions::run(args),
+        (Some(Command::Man(args)), _) => man::run(args),
+        (Some(Command::Schema), _) => schema::run(),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
     };

@@ -1,11 +1,10 @@
 //! Files and streams.
 
 use super::failure::Failure;
-use crate::certify::CertifiedCurve;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, Picture, Posture, TaskPicture};
+use crate::draw::{self, Ending, Picture, Posture, TaskPicture, View};
 use crate::model::{Problem, Scene};
-use crate::solve::{Answer, Verdict};
+use crate::task::TaskVerdict;
 use crate::trajectory::{Format, Report, check_writable, write_whole};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -43,6 +42,8 @@ pub enum PictureFormat {
     Svg,
     /// Pixels.
     Png,
+    /// A page with both, in which the arm can be moved.
+    Html,
 }
 
 /// Pixels of a PNG picture per unit of the SVG.
@@ -71,13 +72,14 @@ pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Fai
 /// The format that a picture's extension stands for.
 ///
 /// # Errors
-/// Any other extension than .svg and .png.
+/// Any other extension than .svg, .png and .html.
 pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
         Some("svg") => Ok(PictureFormat::Svg),
         Some("png") => Ok(PictureFormat::Png),
-        _ => Err(Failure::Usage(format!("{}: a picture's name must end in .svg or .png", path.display()))),
+        Some("html" | "htm") => Ok(PictureFormat::Html),
+        _ => Err(Failure::Usage(format!("{}: a picture's name must end in .svg, .png or .html", path.display()))),
     }
 }
 
@@ -96,43 +98,6 @@ pub fn write_result(format: Format, path: &Path, report: &Report) -> Result<(), 
 /// Says on stderr that a format has no room for a result without a trajectory.
 pub fn warn_unwritten(path: &Path) {
     say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display()));
-}
-
-/// Draws the answer to one problem.
-///
-/// # Errors
-/// I/O.
-pub fn write_picture(
-    format: PictureFormat,
-    path: &Path,
-    problem: &Problem,
-    answer: &Answer,
-    curve: Option<&CertifiedCurve>,
-    report: &Report,
-) -> Result<(), Failure> {
-    let scene = &problem.scene;
-    let contours = contours(scene);
-    let outline = curve.map(|curve| curve.curve().outline());
-    let (status, detail) = match (&answer.verdict, report.length) {
-        (Verdict::Found(_), Some(length)) => {
-            let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
-            ("found, certified", format!("{}: length {length:.4}, {clearance}", answer.method))
-        }
-        (Verdict::Infeasible(_), _) => ("no path: proven", answer.method.to_string()),
-        _ => ("unknown", answer.method.to_string()),
-    };
-    let picture = Picture {
-        title: vec![title(problem), detail],
-        status: status.into(),
-        scene,
-        start: problem.start,
-        goals: &problem.goals,
-        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
-        trace: Some(&answer.drawn()),
-        proof: answer.verdict.proof(),
-        c_obstacles: &contours,
-    };
-    save_picture(format, path, &picture)
 }
 
 /// Workspace and robot.
@@ -165,21 +130,43 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
         PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
         PictureFormat::Png => return Err(without_png(path)),
+        PictureFormat::Html => save_view(path, &View::of_picture(picture, Ending::Shown, Vec::new(), None))?,
     }
     Ok(())
 }
 
-/// Writes a picture of a task.
+/// Writes a page.
+///
+/// # Errors
+/// I/O.
+pub fn save_view(path: &Path, view: &View) -> Result<(), Failure> {
+    Ok(write_whole(path, draw::page(view).as_bytes())?)
+}
+
+/// Writes a picture of a task; `facts` are for pages.
 ///
 /// # Errors
 /// I/O, or a program built without PNG.
-pub fn save_task_picture(format: PictureFormat, path: &Path, picture: &TaskPicture) -> Result<(), Failure> {
+pub fn save_task_picture(
+    format: PictureFormat,
+    path: &Path,
+    picture: &TaskPicture,
+    facts: impl FnOnce() -> Vec<[String; 2]>,
+) -> Result<(), Failure> {
     match format {
         PictureFormat::Svg => write_whole(path, draw::task_svg(picture).as_bytes())?,
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::task_png(picture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
         PictureFormat::Png => return Err(without_png(path)),
+        PictureFormat::Html => {
+            let ending = match picture.answer.verdict {
+                TaskVerdict::Done => Ending::Found,
+                TaskVerdict::Infeasible(_) => Ending::Infeasible,
+                TaskVerdict::Unknown(_) => Ending::Unknown,
+            };
+            save_view(path, &View::of_task(picture, ending, facts()))?;
+        }
     }
     Ok(())
 }
@@ -195,13 +182,14 @@ pub fn save_posture(format: PictureFormat, path: &Path, posture: &Posture) -> Re
         PictureFormat::Png => write_whole(path, &draw::posture_png(posture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
         PictureFormat::Png => return Err(without_png(path)),
+        PictureFormat::Html => save_view(path, &View::of_posture(posture))?,
     }
     Ok(())
 }
 
 #[cfg(not(feature = "png"))]
 fn without_png(path: &Path) -> Failure {
-    Failure::Option(format!("{}: this program was built without PNG; use .svg", path.display()))
+    Failure::Option(format!("{}: this program was built without PNG; use .svg or .html", path.display()))
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

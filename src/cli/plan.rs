@@ -5,10 +5,11 @@ use super::failure::Failure;
 use super::field_report::field_report;
 use super::motion::MotionArgs;
 use super::output::{self, Sink};
+use super::planned::Planned;
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN, task};
 use crate::certify::{CertifiedCurve, ProofBox};
-use crate::input;
+use crate::input::{self, InputError, LoadedScene};
 use crate::model::{Problem, Scene};
 use crate::plan::{FieldPlanner, Size, Wavefront};
 use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
@@ -20,6 +21,14 @@ use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
 /// # Errors
 /// Bad input and I/O.
 pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
+    answer(args, || input::load_scene(&files.urdf, &files.world))
+}
+
+/// The same for a scene from anywhere. Nothing is loaded if the command line is wrong.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
     let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
     if let Some(conflict) = conflict {
@@ -27,7 +36,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
-    let loaded = input::load_scene(&files.urdf, &files.world)?;
+    let loaded = load()?;
     if loaded.has_steps() {
         return task::run(loaded, args, field, &sinks, clock);
     }
@@ -65,19 +74,18 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
     if args.timings {
         report.timings = clock.milliseconds();
     }
+    let planned = Planned { problem, answer: &answer, curve: curve.as_ref(), report: &report, field: field.as_ref() };
     for sink in &sinks {
         match sink {
             Sink::Result(format, path) => output::write_result(*format, path, &report)?,
-            Sink::Picture(format, path) => {
-                output::write_picture(*format, path, problem, &answer, curve.as_ref(), &report)?
-            }
+            Sink::Picture(format, path) => planned.save(*format, path)?,
         }
     }
     clock.stage("write");
     if args.json {
         output::print(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &answer, curve.as_ref(), &report, field.as_ref(), &sinks, &clock))?;
+        output::print(&summary::text(&loaded, &planned, &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,

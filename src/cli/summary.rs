@@ -1,13 +1,12 @@
 //! The summary for people.
 
 use super::output::Sink;
+use super::planned::Planned;
 use crate::certify::CertifiedCurve;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint, Scene};
-use crate::plan::FieldPlanner;
-use crate::solve::{Answer, Bound, Stages, Verdict, percent};
+use crate::solve::{Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric};
-use crate::trajectory::Report;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -70,25 +69,39 @@ pub fn range(joint: &Joint) -> String {
 }
 
 /// What was found, in some ten lines.
-pub fn text(
-    loaded: &Loaded,
-    answer: &Answer,
-    curve: Option<&CertifiedCurve>,
-    report: &Report,
-    field: Option<&FieldPlanner>,
-    sinks: &[Sink],
-    clock: &Clock,
-) -> String {
-    let scene = &loaded.problem.scene;
+pub fn text(loaded: &Loaded, planned: &Planned, sinks: &[Sink], clock: &Clock) -> String {
+    let scene = &planned.problem.scene;
     let arm = &scene.arm;
     let mut lines = arm_lines(arm);
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
     let obstacles = counted(scene.workspace.obstacles.len(), "obstacle");
     lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace.name))));
-    lines.push(("start", configuration(arm, loaded.problem.start)));
-    for &goal in &loaded.problem.goals {
+    lines.push(("start", configuration(arm, planned.problem.start)));
+    for &goal in &planned.problem.goals {
         lines.push(("goal", configuration(arm, goal)));
     }
+    lines.extend(outcome(planned));
+    for sink in sinks.iter().filter(|sink| sink.is_filled_by(planned.report)) {
+        lines.push(("file", sink.path().display().to_string()));
+    }
+    lines.push(time_line(clock));
+    laid_out(&lines)
+}
+
+/// What a page says of it: arm and outcome.
+pub fn facts(planned: &Planned) -> Vec<[String; 2]> {
+    named(arm_lines(&planned.problem.scene.arm).into_iter().chain(outcome(planned)))
+}
+
+/// Lines for a page.
+pub fn named(lines: impl IntoIterator<Item = Line>) -> Vec<[String; 2]> {
+    lines.into_iter().map(|(key, text)| [key.to_owned(), text]).collect()
+}
+
+/// What the planner did and found.
+fn outcome(planned: &Planned) -> Vec<Line> {
+    let Planned { problem, answer, curve, report, field } = planned;
+    let mut lines = Vec::new();
     let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
     lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
@@ -97,10 +110,8 @@ pub fn text(
         Verdict::Found(certified) => {
             let path = certified.path();
             let segments = path.segments().count();
-            lines.push((
-                "result",
-                format!("found and certified: {segments} straight pieces, length {:.4}", path.length()),
-            ));
+            let found = format!("found and certified: {segments} straight pieces, length {:.4}", path.length());
+            lines.push(("result", found));
             if let Some(bound) = &answer.bound {
                 lines.push(("optimum", optimum(bound)));
             }
@@ -111,15 +122,11 @@ pub fn text(
         Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
     }
     if let (Some(curve), Some(trajectory)) = (curve, &report.trajectory) {
-        lines.push(("clearance", clearance(scene, curve)));
+        lines.push(("clearance", clearance(&problem.scene, curve)));
         let (samples, corners) = (trajectory.time.len(), corners(curve));
         lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     }
-    for sink in sinks.iter().filter(|sink| sink.is_filled_by(report)) {
-        lines.push(("file", sink.path().display().to_string()));
-    }
-    lines.push(time_line(clock));
-    laid_out(&lines)
+    lines
 }
 
 /// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.

@@ -53,7 +53,8 @@ pub fn run(
     let mut written = files.write(&report)?;
     for sink in sinks {
         if let Sink::Picture(format, path) = sink {
-            output::save_task_picture(*format, path, &picture(&loaded, &answer, &report))?;
+            let facts = || task_summary::facts(&loaded.task, &answer, &report);
+            output::save_task_picture(*format, path, &picture(&loaded, &answer, &report), facts)?;
             written.push(path.display().to_string());
         }
     }

@@ -1,8 +1,9 @@
 //! The summary of a task for people.
 
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, non_empty, time_line};
+use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, named, non_empty, time_line};
 use crate::input::LoadedTask;
+use crate::model::Task;
 use crate::plan::FieldPlanner;
 use crate::solve::percent;
 use crate::task::{Leg, TaskAnswer, TaskReport};
@@ -31,6 +32,11 @@ pub fn text(
     lines.extend(files.iter().map(|file| ("file", file.clone())));
     lines.push(time_line(clock));
     laid_out(&lines)
+}
+
+/// What a page says of it: arm and outcome.
+pub fn facts(task: &Task, answer: &TaskAnswer, report: &TaskReport) -> Vec<[String; 2]> {
+    named(arm_lines(&task.arm).into_iter().chain(outcome(answer, report)).chain(clearance(answer, report)))
 }
 
 /// A line a step, those of later cycles in one.

@@ -13,6 +13,13 @@ const SAMPLES: usize = 17;
 /// Shows all that the arm can sweep, and of the obstacles what is not much farther away.
 #[must_use]
 pub fn frame(scene: &Scene, shown: &[Configuration], area: Rect) -> Frame {
+    let [x, y] = sides(scene, shown);
+    Frame::filling(area, x, y)
+}
+
+/// The same as least and greatest coordinates.
+#[must_use]
+pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Part of the swept extent up to which the panel grows for the sake of obstacles.
     const NEARBY: f64 = 0.25;
     const MARGIN: f64 = 0.04;
@@ -26,8 +33,7 @@ pub fn frame(scene: &Scene, shown: &[Configuration], area: Rect) -> Frame {
             sides = [0, 1].map(|k| (sides[k].0.min(near[k].0), sides[k].1.max(near[k].1)));
         }
     }
-    let [x, y] = sides.map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size));
-    Frame::filling(area, x, y)
+    sides.map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size))
 }
 
 /// The box around the arm in a sample of its configurations, which are dense enough for a picture.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Picture (scene, paths, trace, C-obstacles) -> Figure -> SVG -> PNG
+//!                                            \-> View -> JSON -> HTML
 //! ```
 //!
 //! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
@@ -29,11 +30,13 @@ mod shapes;
 mod svg_writer;
 mod task;
 mod trace;
+mod view;
 mod workspace;
 
 #[cfg(feature = "png")]
 pub use task::task_png;
 pub use task::{TaskPicture, task_svg};
+pub use view::{Ending, View, page, shell};
 
 use crate::certify::StuckBox;
 use crate::cspace::CObstacle;

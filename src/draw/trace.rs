@@ -9,6 +9,7 @@ use super::isolines::Samples;
 use super::legend::{Key, Sign};
 use crate::plan::Trace;
 use crate::space::{Configuration, Topology};
+use std::borrow::Cow;
 
 /// Cells along an axis that a wavefront is coarsened to: nearly a pixel and a half each.
 const CELLS: usize = 192;
@@ -36,8 +37,8 @@ pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
             vec![Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))]
         }
         Trace::Boxes { free, mixed, .. } => boxes::surfaces(free, mixed, frame),
-        Trace::Wavefront { cells, labels } if !labels.is_empty() && labels.len() == cells[0] * cells[1] => {
-            vec![Item::Raster(shades(*cells, labels, frame))]
+        Trace::Wavefront { cells, labels } => {
+            Waves::new(*cells, labels).map(|waves| Item::Raster(shades(&waves, frame))).into_iter().collect()
         }
         _ => Vec::new(),
     }
@@ -57,13 +58,10 @@ pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window)
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7))]
         }
         Trace::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, frame)).into(),
-        Trace::Field { cells, potential } if potential.len() == cells[0] * cells[1] => {
-            equipotentials(*cells, potential, TAIL, frame, topology)
+        Trace::Field { .. } | Trace::Potential { .. } => {
+            Slope::new(trace, topology).map_or_else(Vec::new, |slope| equipotentials(&slope, frame))
         }
-        Trace::Potential { cells, heights } if heights.len() == cells[0] * cells[1] => {
-            equipotentials(*cells, &depths(heights), SLOPES, frame, topology)
-        }
-        _ => Vec::new(),
+        Trace::Wavefront { .. } => Vec::new(),
     }
 }
 
@@ -102,7 +100,7 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
             Some((low, high)) => ("potential", format!("{:.2}", -low), format!("{:.2}", -high)),
             None => return Vec::new(),
         },
-        _ => return Vec::new(),
+        Trace::Roadmap { .. } | Trace::Channel { .. } | Trace::Boxes { .. } => return Vec::new(),
     };
     let (x, height) = (frame.rect.right() + 16.0, frame.rect.height.min(200.0));
     let rect = Rect { x, y: frame.rect.bottom() - height, width: 12.0, height };
@@ -136,31 +134,54 @@ fn farthest(labels: &[u32]) -> Option<u32> {
     labels.iter().copied().filter(|&l| l != u32::MAX).max()
 }
 
-/// Colours by the least label in each block of cells.
-fn shades(cells: [usize; 2], labels: &[u32], frame: &Frame) -> Raster {
-    let farthest = f64::from(farthest(labels).unwrap_or(0).max(1));
-    let block = cells.map(|n| n.div_ceil(CELLS).max(1));
-    let coarse = [0, 1].map(|k| cells[k].div_ceil(block[k]));
-    let mut least = vec![u32::MAX; coarse[0] * coarse[1]];
-    for (index, &label) in labels.iter().enumerate() {
-        let at = index / cells[1] / block[0] * coarse[1] + index % cells[1] / block[1];
-        least[at] = least[at].min(label);
+/// A wavefront coarse enough to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Waves {
+    /// Number of blocks of cells along each axis.
+    pub blocks: [usize; 2],
+    /// How much of the axis they cover: blocks may stick out beyond the last cell.
+    pub extent: [f64; 2],
+    /// Of each block its least label, as a part of the greatest of all; none where the wave did not come.
+    pub parts: Vec<Option<f64>>,
+    /// The greatest label.
+    pub farthest: u32,
+}
+
+impl Waves {
+    /// The wavefront with these labels; none where there are no labels.
+    pub fn new(cells: [usize; 2], labels: &[u32]) -> Option<Self> {
+        if labels.is_empty() || labels.len() != cells[0] * cells[1] {
+            return None;
+        }
+        let farthest = farthest(labels).unwrap_or(0);
+        let block = cells.map(|n| n.div_ceil(CELLS).max(1));
+        let blocks = [0, 1].map(|k| cells[k].div_ceil(block[k]));
+        let mut least = vec![u32::MAX; blocks[0] * blocks[1]];
+        for (index, &label) in labels.iter().enumerate() {
+            let at = index / cells[1] / block[0] * blocks[1] + index % cells[1] / block[1];
+            least[at] = least[at].min(label);
+        }
+        let part = |label: u32| (label != u32::MAX).then(|| f64::from(label) / f64::from(farthest.max(1)));
+        Some(Self {
+            blocks,
+            extent: [0, 1].map(|k| (blocks[k] * block[k]) as f64 / cells[k] as f64),
+            parts: least.into_iter().map(part).collect(),
+            farthest,
+        })
     }
-    let shade = |l: u32| (f64::from(l) / farthest * (SHADES - 1) as f64).round() as usize;
-    // Blocks may stick out beyond the last cell.
-    let [width, height] = [0, 1].map(|k| (coarse[k] * block[k]) as f64 / cells[k] as f64);
+}
+
+fn shades(waves: &Waves, frame: &Frame) -> Raster {
+    let [width, height] = waves.extent;
     let rect = Rect {
         x: frame.rect.x,
         y: frame.rect.bottom() - height * frame.rect.height,
         width: width * frame.rect.width,
         height: height * frame.rect.height,
     };
-    Raster {
-        rect,
-        cells: coarse,
-        palette: palette(SOFT),
-        levels: least.into_iter().map(|l| (l != u32::MAX).then(|| shade(l))).collect(),
-    }
+    let shade = |part: f64| (part * (SHADES - 1) as f64).round() as usize;
+    let levels = waves.parts.iter().map(|part| part.map(shade)).collect();
+    Raster { rect, cells: waves.blocks, palette: palette(SOFT), levels }
 }
 
 /// What rises towards the goal where `heights` fall.
@@ -176,17 +197,43 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     Some((low, *known.last()?))
 }
 
-/// Lines at equal distances.
-fn equipotentials(cells: [usize; 2], potential: &[f64], tail: f64, frame: &Frame, topology: &Topology) -> Vec<Item> {
-    let Some((low, high)) = span(potential, tail) else { return Vec::new() };
-    let samples = samples(cells, potential, topology);
-    let line = |k: usize| {
-        let part = (k as f64 + 0.5) / LINES as f64;
-        let lines = samples.isolines(high + (low - high) * part);
+/// A field that paths follow upwards, coarse enough to be drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slope {
+    /// Its values.
+    pub samples: Samples,
+    /// The values between which equipotentials are drawn.
+    pub span: (f64, f64),
+}
+
+impl Slope {
+    /// The slope that a field planner followed; none of other planners, and where the field has no values.
+    pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
+        let (cells, values, tail) = match trace {
+            Trace::Field { cells, potential } => (*cells, Cow::Borrowed(&potential[..]), TAIL),
+            Trace::Potential { cells, heights } => (*cells, Cow::Owned(depths(heights)), SLOPES),
+            _ => return None,
+        };
+        if values.len() != cells[0] * cells[1] {
+            return None;
+        }
+        Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
+    }
+
+    /// Lines at equal distances of values, each set with its place in the span: 0 at the goal, 1 at the far end.
+    pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
+        let (low, high) = self.span;
+        let part = |k: usize| (k as f64 + 0.5) / LINES as f64;
+        (0..LINES).map(part).map(move |part| (part, self.samples.isolines(high + (low - high) * part)))
+    }
+}
+
+fn equipotentials(slope: &Slope, frame: &Frame) -> Vec<Item> {
+    let set = |(part, lines): (f64, Vec<Vec<[f64; 2]>>)| {
         let steps = lines.iter().flat_map(|l| chain(l.iter().map(|p| frame.at(p[0], p[1])), false)).collect();
         Item::Outline(steps, Style::line(color::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1))
     };
-    (0..LINES).map(line).collect()
+    slope.equipotentials().map(set).collect()
 }
 
 /// The potential at the centres of every cell, or of some on a fine grid; on a circle once more beyond each seam, so
@@ -227,7 +274,7 @@ mod tests {
         let labels: Vec<u32> = (0..cells[0] * cells[1])
             .map(|k| if k % cells[1] == 200 { (k / cells[1]) as u32 } else { u32::MAX })
             .collect();
-        let raster = shades(cells, &labels, &frame());
+        let raster = shades(&Waves::new(cells, &labels).unwrap(), &frame());
         assert_eq!(raster.cells, [134, 130]);
         assert_eq!(raster.levels.iter().flatten().count(), 134);
         assert_eq!(raster.levels[200 / 3], Some(0));
@@ -259,7 +306,8 @@ mod tests {
     #[test]
     fn a_field_without_values_has_no_lines() {
         let topology = Topology { axes: [Axis::Circle; 2] };
-        assert!(equipotentials([4, 4], &[f64::NEG_INFINITY; 16], TAIL, &frame(), &topology).is_empty());
+        let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
+        assert_eq!(Slope::new(&trace, &topology), None);
         assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], TAIL), Some((-3.0, 0.0)));
     }
 }

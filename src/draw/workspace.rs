@@ -63,7 +63,7 @@ pub fn framed(frame: &Frame, plane: &Plane, inside: Vec<Item>) -> Vec<Item> {
 }
 
 /// The plane's coordinates are named after the root frame's axes if they run along them.
-fn titles(plane: &Plane) -> [String; 2] {
+pub fn titles(plane: &Plane) -> [String; 2] {
     const ALONG: f64 = 0.9999;
     let name = |v: Vector3<f64>, other: &str| {
         let axis = ["x", "y", "z"].into_iter().zip(v.iter()).find(|(_, part)| **part > ALONG);

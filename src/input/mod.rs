@@ -25,6 +25,7 @@ mod preference;
 mod preference_map;
 mod problem;
 mod requirement;
+mod schema;
 mod sequence;
 mod source;
 mod step;
@@ -45,7 +46,8 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
-pub use source::Position;
+pub use schema::world_schema;
+pub use source::{Position, Source};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};
@@ -94,7 +96,20 @@ pub struct Loaded {
 /// # Errors
 /// [`InputError`] for everything that is wrong with the files themselves.
 pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> {
-    let world = world::read(world)?;
+    let world = world::read(Source::read(world)?)?;
+    among(world, Source::read(urdf)?)
+}
+
+/// The same from texts, which need not be files.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the texts themselves.
+pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
+    among(world::read(world)?, urdf)
+}
+
+/// The arm in its world.
+fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, robot) = urdf::load(urdf, &world)?;
     let scene = Scene::new(arm, world.at_first());
     Ok(LoadedScene { scene, world, robot })
@@ -105,7 +120,7 @@ pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> 
 #[must_use]
 pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
     let mut unread = None;
-    let file = match world.map(world::read) {
+    let file = match world.map(|path| Source::read(path).and_then(world::read)) {
         None => World::silent(),
         Some(Ok(file)) => file,
         Some(Err(error)) => {

@@ -2,29 +2,52 @@
 
 use super::error::{Defect, quoted};
 use super::obstacle::{CircleTable, circle, polygon};
+use super::schema::{Corners, HeldAs, NotNegative, Two};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Point, Pose};
 use crate::model::{Holding, Object, Obstacle};
 use nalgebra::{Isometry2, Translation2};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 
-/// `[[object]]`.
-#[derive(Deserialize)]
+/// Something that can be picked and placed; an obstacle wherever it lies.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "object", extend("oneOf" = [{ "required": ["polygon"] }, { "required": ["circle"] }]))]
 pub(super) struct ObjectTable {
+    /// A name that no other object or obstacle has.
+    #[schemars(with = "String")]
     name: Spanned<String>,
+    /// Corners in its own frame, in order round the shape, m; simple, may be non-convex.
+    #[schemars(with = "Option<Corners>")]
     polygon: Option<Spanned<Vec<Numbers>>>,
+    /// A disc in its own frame.
     circle: Option<CircleTable>,
+    /// Where its origin lies at first, m.
+    #[schemars(with = "Two")]
     at: Numbers,
+    /// How it is turned at first, rad; by default 0.
+    #[schemars(with = "Option<f64>")]
     angle: Option<Number>,
+    /// Its extent along the plane's normal where it lies, m; by default all heights.
+    #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
+    /// By how much it is raised while it is carried, m; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
     lift: Option<Number>,
+    /// How it is held; by default as [robot] says.
+    #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
+    /// The point of it that the tip goes to, in its own frame, m; by default its origin.
+    #[schemars(with = "Option<Two>")]
     grasp: Option<Numbers>,
+    /// Obstacles and objects that it may touch where it is picked and placed.
+    #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
+    /// Whether each repetition of the steps that pick it finds a new one where it lay at first.
     #[serde(default)]
     renew: bool,
 }

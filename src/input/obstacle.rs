@@ -2,29 +2,55 @@
 
 use super::error::{Defect, InputError};
 use super::occupancy::OccupancyMap;
+use super::schema::{Corners, Positive, Two, UnknownAs};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Convex, SimplePolygon};
 use crate::model::{Obstacle, Shape};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// `[[obstacle]]`.
-#[derive(Deserialize)]
+/// What the arm must not touch: exactly one of polygon, circle, polyline and image.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "obstacle", extend(
+    "oneOf" = [
+        { "required": ["polygon"] }, { "required": ["circle"] }, { "required": ["polyline"] }, { "required": ["image"] }
+    ],
+    "dependencies" = { "unknown": ["image"] },
+))]
 pub(super) struct ObstacleTable {
+    /// For messages and pictures; need not be its own.
     name: Option<String>,
+    /// Corners in order round the shape, m; simple, may be non-convex.
+    #[schemars(with = "Option<Corners>")]
     polygon: Option<Spanned<Vec<Numbers>>>,
+    /// A disc.
     circle: Option<CircleTable>,
+    /// Points of a thin wall, m: no area, still solid.
+    #[schemars(with = "Option<Vec<Two>>", length(min = 2))]
     polyline: Option<Spanned<Vec<Numbers>>>,
+    /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
+    #[schemars(with = "Option<String>")]
     image: Option<Spanned<String>>,
+    /// What cells of an image are that nobody has looked at; by default "solid".
+    #[schemars(with = "Option<UnknownAs>")]
     unknown: Option<Spanned<String>>,
+    /// Its extent along the plane's normal, m: only parts of the arm at these heights can hit it; by default all heights.
+    #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
 }
 
-#[derive(Deserialize)]
+/// A disc.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "circle")]
 pub(super) struct CircleTable {
+    /// Coordinates of its centre, m.
+    #[schemars(with = "Two")]
     center: Numbers,
+    /// Its radius, m.
+    #[schemars(with = "Positive")]
     radius: Number,
 }
 

@@ -1,20 +1,32 @@
 //! The world file's `[[preference]]`.
 
 use super::error::Defect;
+use super::schema::{Corners, Two};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Point, SimplePolygon};
 use crate::model::{Preference, Region};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
 
-/// `[[preference]]`.
-#[derive(Deserialize)]
+/// A region that field planners prefer or avoid: where the tip is, or a region in joint space.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }]))]
 pub(super) struct PreferenceTable {
+    /// For messages and pictures.
     name: Option<String>,
+    /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
+    #[schemars(with = "f64")]
     epsilon: Number,
+    /// Direction in joint space, of any length, for the field local.
+    #[schemars(with = "Option<Two>")]
     direction: Option<Numbers>,
+    /// Corners of a region in joint space, rad or m.
+    #[schemars(with = "Option<Corners>")]
     configurations: Option<Spanned<Vec<Numbers>>>,
+    /// Corners of the region where the tip is, m.
+    #[schemars(with = "Option<Corners>")]
     polygon: Option<Spanned<Vec<Numbers>>>,
 }
 

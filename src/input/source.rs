@@ -15,11 +15,14 @@ pub struct Position {
     pub column: usize,
 }
 
-/// A text file in memory.
+/// The text of an input, read from a file or made by the program.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Source {
-    pub path: PathBuf,
-    pub text: String,
+pub struct Source {
+    /// The file, or the name of a text that is none.
+    pub(super) path: PathBuf,
+    pub(super) text: String,
+    /// Whether there is such a file, beside which others may lie.
+    is_file: bool,
 }
 
 /// Finds positions of ascending byte offsets in one pass over the text.
@@ -69,7 +72,17 @@ pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
+    /// A text that is no file: `name` is for messages, and a world's name if it has none of its own. It cannot refer to
+    /// other files (meshes, maps), so nothing is ever read for it.
+    #[must_use]
+    pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
+        Self { path: name.into(), text: text.into(), is_file: false }
+    }
+
     /// Reads a file as UTF-8, without a byte order mark.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is larger than 256 MiB, or is no UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let bytes = read_bounded(path).map_err(|error| {
             Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
@@ -83,31 +96,39 @@ impl Source {
             .cure("save it as UTF-8")
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path: path.to_owned(), text })
+        Ok(Self { path: path.to_owned(), text, is_file: true })
+    }
+
+    /// The path against which the names of other files are resolved.
+    ///
+    /// # Errors
+    /// In words, for a text that is no file.
+    pub(super) fn anchor(&self) -> Result<&Path, &'static str> {
+        if self.is_file { Ok(&self.path) } else { Err("this text is no file, so there are no files beside it") }
     }
 
     /// The path, for messages.
-    pub fn name(&self) -> String {
+    pub(super) fn name(&self) -> String {
         self.path.display().to_string()
     }
 
     /// Line and column of a byte offset.
-    pub fn position(&self, offset: usize) -> Position {
+    pub(super) fn position(&self, offset: usize) -> Position {
         self.cursor().position(offset)
     }
 
     /// For the positions of many offsets.
-    pub fn cursor(&self) -> Cursor<'_> {
+    pub(super) fn cursor(&self) -> Cursor<'_> {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }
 
     /// A defect of the file as a whole.
-    pub fn defect(&self, message: impl Into<String>) -> Defect {
+    pub(super) fn defect(&self, message: impl Into<String>) -> Defect {
         Defect::new(self.name(), message)
     }
 
     /// A defect at a range of bytes, with the source line and carets below it.
-    pub fn defect_at(&self, range: Range<usize>, message: impl Into<String>) -> Defect {
+    pub(super) fn defect_at(&self, range: Range<usize>, message: impl Into<String>) -> Defect {
         let position = self.position(range.start);
         Defect {
             position: Some(position),
@@ -117,7 +138,7 @@ impl Source {
     }
 
     /// A defect at a line and column, both counted from 1, as parsers name places; 0 is unknown.
-    pub fn defect_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Defect {
+    pub(super) fn defect_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Defect {
         if line == 0 {
             return self.defect(message);
         }
@@ -146,7 +167,7 @@ mod tests {
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { path: "a.toml".into(), text: text.to_owned() }
+        Source::in_memory("a.toml", text)
     }
 
     #[test]

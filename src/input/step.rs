@@ -3,47 +3,89 @@
 use super::error::Defect;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, NameList, Names};
+use super::schema::{DoneIn, NotNegative, Share, Two};
 use super::source::Cursor;
 use super::table::Table;
 use super::world::{GoalTable, Number, Numbers, Reader};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// `[[step]]`: one thing to do, or a group of steps.
-#[derive(Deserialize)]
+/// One thing to do, or a group of steps: exactly one of pick, place, move and steps.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "step", extend(
+    "oneOf" = [{ "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["steps"] }],
+    "dependencies" = { "grasp": ["pick"], "supports": ["pick"], "repeat": ["steps"], "order": ["steps"] },
+))]
 pub(super) struct StepTable {
+    /// Name of the object to pick.
+    #[schemars(with = "Option<String>")]
     pick: Option<Spanned<String>>,
+    /// Where to place what is carried.
+    #[schemars(with = "Option<PlaceTable>")]
     place: Option<Table<PlaceTable>>,
+    /// Where to go with whatever is carried.
     #[serde(rename = "move")]
+    #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<Table<GoalTable>>>,
+    /// A group; its speed and dwell are the defaults of its steps.
+    #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
     steps: Option<Vec<Spanned<StepTable>>>,
+    /// Of a pick: the point of the object that the tip goes to, in the object's frame, m; by default the object's.
+    #[schemars(with = "Option<Two>")]
     grasp: Option<Numbers>,
+    /// Of a pick: obstacles and objects that the object may touch; by default the object's.
+    #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
+    /// Of a group: how often its steps are done.
+    #[schemars(with = "Option<i64>", range(min = 1))]
     repeat: Option<Spanned<i64>>,
+    /// Of a group: "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+    #[schemars(with = "Option<DoneIn>")]
     order: Option<Spanned<String>>,
+    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+    #[schemars(with = "Option<Share>")]
     speed: Option<Number>,
+    /// How long the arm stands still at the end, s; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
     dwell: Option<Number>,
 }
 
-/// `place`.
-#[derive(Deserialize)]
+/// Where an object is placed.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "place")]
 struct PlaceTable {
+    /// Where the object's origin goes, m.
+    #[schemars(with = "Two")]
     at: Numbers,
+    /// How a level payload is turned there, rad; by default as it was.
+    #[schemars(with = "Option<f64>")]
     angle: Option<Number>,
+    /// Obstacles and objects that it may touch there; by default those of the object.
+    #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
 }
 
-/// `[task]`: what holds for all steps together.
-#[derive(Deserialize)]
+/// What holds for all steps together.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "task")]
 pub(super) struct TaskTable {
+    /// How often the steps are done; by default once.
+    #[schemars(with = "Option<i64>", range(min = 1))]
     repeat: Option<Spanned<i64>>,
+    /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+    #[schemars(with = "Option<DoneIn>")]
     order: Option<Spanned<String>>,
+    /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
+    #[schemars(with = "Option<Share>")]
     speed: Option<Number>,
+    /// How long the arm stands still at the end of each step, s; by default 0.
+    #[schemars(with = "Option<NotNegative>")]
     dwell: Option<Number>,
 }
 

@@ -4,6 +4,7 @@ use super::error::{Defect, InputError};
 use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
+use super::schema::{HeldAs, NotNegative, Positive, Two};
 use super::sequence::{Sequence, write_out};
 use super::source::Source;
 use super::step::{StepReader, StepTable, TaskTable};
@@ -12,10 +13,11 @@ use super::wrist::WristTable;
 use crate::geometry::Point;
 use crate::model::{Goal, Heights, Holding, Object, Workspace, Wrist};
 use crate::space::Configuration;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use toml::Spanned;
 
 pub(super) type Number = Spanned<f64>;
@@ -50,7 +52,7 @@ impl World {
                 preferences: Vec::new(),
             },
             objects: Vec::new(),
-            source: Source { path: "".into(), text: String::new() },
+            source: Source::in_memory("", ""),
             robot: RobotTable::default(),
             start: None,
             goal: None,
@@ -67,60 +69,106 @@ impl World {
     }
 }
 
-/// `[robot]`.
-#[derive(Debug, Clone, Default, Deserialize)]
+/// What the URDF leaves open, and what goes over it. All keys are optional.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "robot")]
 pub(super) struct RobotTable {
+    /// The two joints that move, in any order; needed only if the URDF has more than two that can.
+    #[schemars(with = "Option<[String; 2]>")]
     pub joints: Option<Spanned<Vec<Spanned<String>>>>,
+    /// Link whose origin is the tip; by default the end of the chain.
+    #[schemars(with = "Option<String>")]
     pub tip: Option<Spanned<String>>,
+    /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, f64>")]
     pub fixed: PerJoint<Number>,
+    /// Least and greatest value of a joint, by name, rad or m, in place of the URDF's.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Two>")]
     pub limits: PerJoint<Numbers>,
+    /// Top speed of a joint, by name, rad/s or m/s, in place of the URDF's.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub velocity: PerJoint<Number>,
+    /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub acceleration: PerJoint<Number>,
+    /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Positive>")]
     pub jerk: PerJoint<Number>,
-    /// Radius of the capsule that stands in for a link without geometry, metres.
+    /// Radius of the capsule that stands in for a link without geometry, m.
+    #[schemars(with = "Option<Positive>")]
     pub bar: Option<Number>,
+    /// The wrist that keeps or turns what is carried with payload "level".
     wrist: Option<WristTable>,
-    /// How objects are held that do not say it.
+    /// How objects are held that do not say it; by default "rigid".
+    #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
 }
 
-#[derive(Deserialize)]
+/// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are
+/// in metres, angles in radians, coordinates in the arm's plane.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct WorldFile {
+#[schemars(rename = "cplan world", extend("dependencies" = {
+    "task": ["step"], "step": { "not": { "required": ["goal"] } }
+}))]
+pub(super) struct WorldFile {
+    /// Title of summaries and pictures; by default the file's name.
     name: Option<String>,
+    /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
+    #[schemars(with = "Option<NotNegative>")]
     clearance: Option<Number>,
     #[serde(default)]
     robot: RobotTable,
     start: Option<StartTable>,
+    #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<GoalTable>>,
     map: Option<MapTable>,
+    /// What the arm must not touch.
     #[serde(default)]
+    #[schemars(with = "Vec<ObstacleTable>")]
     obstacle: Vec<Spanned<ObstacleTable>>,
+    /// Regions that field planners prefer or avoid; other planners do not look at them.
     #[serde(default)]
+    #[schemars(with = "Vec<PreferenceTable>")]
     preference: Vec<Spanned<PreferenceTable>>,
+    /// What steps pick and place.
     #[serde(default)]
+    #[schemars(with = "Vec<ObjectTable>")]
     object: Vec<Spanned<ObjectTable>>,
+    /// What the arm is to do, one after the other, in place of a goal.
     #[serde(default)]
+    #[schemars(with = "Vec<StepTable>")]
     step: Vec<Spanned<StepTable>>,
+    #[schemars(with = "Option<TaskTable>")]
     task: Option<Spanned<TaskTable>>,
 }
 
-#[derive(Deserialize)]
+/// Where the arm is at first.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "start")]
 struct StartTable {
+    /// Values of both joints, base to tip, rad or m.
+    #[schemars(with = "Two")]
     joints: Numbers,
 }
 
-#[derive(Deserialize)]
+/// Where the arm is to go: joint values, or a place for the tip in whatever posture is best.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
 pub(super) struct GoalTable {
+    /// Values of both joints, base to tip, rad or m.
+    #[schemars(with = "Option<Two>")]
     joints: Option<Numbers>,
+    /// Coordinates of the tip, m.
+    #[schemars(with = "Option<Two>")]
     tip: Option<Numbers>,
 }
 
@@ -128,12 +176,11 @@ pub(super) struct GoalTable {
 /// that large.
 pub(super) const LARGEST: f64 = 1e6;
 
-/// Reads a world file.
+/// Reads a world.
 ///
 /// # Errors
 /// On malformed TOML, unknown keys and invalid values, with line, column and a caret.
-pub(super) fn read(path: &Path) -> Result<World, InputError> {
-    let source = Source::read(path)?;
+pub(super) fn read(source: Source) -> Result<World, InputError> {
     if source.text.trim_start().starts_with('<') {
         let defect = source.defect("this is XML, not a world file (TOML)");
         return Err(defect.cure("give the URDF first and the world file second").into());
@@ -161,7 +208,7 @@ pub(super) fn read(path: &Path) -> Result<World, InputError> {
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
     let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
-    let stem = path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
+    let stem = source.path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     Ok(World {
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
         start: start.zip(file.start.map(|s| s.joints.span())),
@@ -268,7 +315,9 @@ impl Reader<'_> {
 
     /// The path of a file that the world names, relative to itself.
     pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
-        let path = self.source.path.with_file_name(name.get_ref());
+        let anchor = self.source.anchor();
+        let anchor = anchor.map_err(|why| self.source.defect_at(name.span(), format!("{what}: {why}")))?;
+        let path = anchor.with_file_name(name.get_ref());
         if path.is_file() {
             return Ok(path);
         }

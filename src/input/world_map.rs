@@ -4,23 +4,37 @@ use super::error::InputError;
 use super::line_map::LineMap;
 use super::obstacle::MOST_PIECES;
 use super::preference_map::{PreferenceMap, PreferenceRectangle};
+use super::schema::{Positive, Two};
 use super::world::{LARGEST, Number, Numbers, Reader};
 use crate::geometry::{Convex, Point, SimplePolygon, Vector};
 use crate::model::{Obstacle, Preference, Region, Shape};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
 
-/// `[map]`.
-#[derive(Deserialize)]
+/// Walls from a line map as MobileSim draws them. Files are named relative to this one.
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "map")]
 pub(super) struct MapTable {
+    /// The line map.
+    #[schemars(with = "String")]
     file: Spanned<String>,
+    /// A preference file: its goal, unless the world has one, and rectangles for field planners.
+    #[schemars(with = "Option<String>")]
     preferences: Option<Spanned<String>>,
+    /// Metres a unit, of both files; by default 0.001.
+    #[schemars(with = "Option<Positive>")]
     scale: Option<Number>,
+    /// Added to all coordinates after scaling, m; by default [0, 0].
+    #[schemars(with = "Option<Two>")]
     offset: Option<Numbers>,
+    /// Whether the bounds of the map are walls, too; by default true.
     frame: Option<bool>,
+    /// Extent of the walls along the plane's normal, m; by default all heights.
+    #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
 }
 

@@ -1,16 +1,23 @@
 //! The wrist in the world file's `[robot]`.
 
 use super::error::Defect;
+use super::schema::Positive;
 use super::urdf::DEFAULT_TIME_TO_TOP_SPEED;
 use super::world::{Number, Reader};
 use crate::model::Wrist;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// `wrist`.
-#[derive(Debug, Clone, Deserialize)]
+/// The wrist's limits.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "wrist")]
 pub(super) struct WristTable {
+    /// Top speed, rad/s.
+    #[schemars(with = "Positive")]
     velocity: Number,
+    /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
+    #[schemars(with = "Option<Positive>")]
     acceleration: Option<Number>,
 }
 

@@ -2,10 +2,11 @@
 //!
 //! Set `CPLAN_PICTURES` to a folder to have the pictures written there and look at them.
 
+mod pages;
 mod scenes;
 mod tasks;
 
-use cplan::draw::{Picture, svg};
+use cplan::draw::{Ending, Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene};
 use cplan::plan::Trace;
@@ -19,6 +20,7 @@ fn checked(name: &str, picture: &Picture) -> String {
     let png = || cplan::draw::png(picture, 1.0).unwrap();
     #[cfg(not(feature = "png"))]
     let png = Vec::new;
+    pages::inspected(name, &View::of_picture(picture, Ending::Shown, Vec::new(), None));
     inspected(name, || svg(picture), png)
 }
 

@@ -1,16 +1,16 @@
 //! Pictures of tasks: pick and place, rigid and level, repeated, many, impossible.
 
 use crate::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
-use crate::{inspected, words};
+use crate::{inspected, pages, words};
 use cplan::cspace::{CObstacle, c_obstacles};
-use cplan::draw::{Picture, TaskPicture, svg, task_svg};
+use cplan::draw::{Ending, Picture, TaskPicture, View, svg, task_svg};
 use cplan::geometry::{Convex, Point, Pose};
 use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
 };
 use cplan::solve::{Effort, Method};
 use cplan::space::Configuration;
-use cplan::task::{Manner, TaskAnswer, TaskVerdict, plan};
+use cplan::task::{Event, Manner, TaskAnswer, TaskVerdict, plan};
 use cplan::trajectory::Drive;
 use std::collections::BTreeSet;
 
@@ -107,7 +107,44 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
     let png = || cplan::draw::task_png(&picture, 1.0).unwrap();
     #[cfg(not(feature = "png"))]
     let png = Vec::new;
+    follows(name, &picture);
     inspected(name, || task_svg(&picture), png)
+}
+
+/// A page of the task shows every motion in the world that it has, when it is made.
+fn follows(name: &str, picture: &TaskPicture) {
+    let legs = &picture.answer.legs;
+    let value = pages::inspected(name, &View::of_task(picture, Ending::Shown, Vec::new()));
+    let list = |key: &str| value[key].as_array().unwrap().clone();
+    let (motions, paths, worlds) = (list("motions"), list("paths"), list("worlds"));
+    assert_eq!((paths.len(), motions.len()), (legs.len(), legs.len() + 1), "and one after the last step");
+    let mut poses: Vec<Option<Pose>> = picture.task.objects.iter().map(|object| Some(object.at)).collect();
+    let mut from = 0.0;
+    for (leg, motion) in legs.iter().zip(&motions) {
+        assert!((motion["from"].as_f64().unwrap() - from).abs() < 1e-9);
+        from = leg.event_time().unwrap_or(leg.end());
+        let world = &worlds[motion["world"].as_u64().unwrap() as usize];
+        let carried = leg.carried.map(|object| picture.task.objects[object].name.as_str());
+        assert_eq!(world["payload"]["object"].as_str(), carried);
+        let numbers = world["obstacles"].as_array().unwrap();
+        for (object, pose) in picture.task.objects.iter().zip(&poses) {
+            let lies = numbers.iter().any(|o| o["name"] == object.name.as_str() && o["own"].as_u64() > Some(0));
+            assert_eq!(lies, pose.is_some(), "{name}: {} lies somewhere unless it is carried", object.name);
+        }
+        match leg.event {
+            Some(Event::Grasp { object }) => poses[object] = None,
+            Some(Event::Release { object, pose }) => poses[object] = Some(pose),
+            None => {}
+        }
+    }
+    // Steps of a round end with what the round has placed; new objects lie there when the next begins.
+    let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
+    if picture.answer.impossible().is_none() {
+        assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());
+    } else {
+        let tried = picture.answer.impossible().map_or(0, |fails| fails.postures.len());
+        assert_eq!(last["unreached"].as_array().unwrap().len(), tried);
+    }
 }
 
 fn done(name: &str, task: &Task) -> String {

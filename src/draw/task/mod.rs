@@ -8,6 +8,9 @@ mod steps;
 mod tags;
 mod workspace;
 
+pub(super) use states::describe;
+pub(super) use steps::words;
+
 #[cfg(feature = "png")]
 use super::{DrawError, png_writer};
 use super::{color, svg_writer};
@@ -53,7 +56,7 @@ fn object_color(task: &Task, object: usize) -> color::Rgb {
 }
 
 /// The pen of a motion: that of the object which is carried, or a thin grey one.
-fn motion_pen(task: &Task, leg: &Leg) -> super::figure::Pen {
+pub(super) fn motion_pen(task: &Task, leg: &Leg) -> super::figure::Pen {
     let (color, width) = match leg.carried {
         Some(object) => (object_color(task, object).darker(0.25), 2.4),
         None => (color::INK.lighter(0.3), 1.6),

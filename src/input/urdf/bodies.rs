@@ -204,7 +204,7 @@ impl Bodies<'_> {
             Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
             Geometry::Mesh { filename, scale } => {
                 let scale = scale.map_or([1.0; 3], |s| s.0);
-                Solid::Points(mesh::vertices(filename, scale, &self.document.source.path)?)
+                Solid::Points(mesh::vertices(filename, scale, &self.document.source)?)
             }
         })
     }

@@ -12,7 +12,6 @@ use roxmltree::Node;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::ops::Range;
-use std::path::Path;
 
 /// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique. Elements that
 /// are not so are left out, with a defect.
@@ -56,13 +55,12 @@ pub(super) struct JointPlace {
 }
 
 impl Document {
-    /// Reads a URDF file.
+    /// Reads a URDF.
     ///
     /// # Errors
-    /// When it cannot be read, is no XML, is xacro or SDF, or so defective that nothing is left to work with. Defects that
+    /// When it is no XML, is xacro or SDF, or so defective that nothing is left to work with. Defects that
     /// can be seen without the tree of links are all collected in [`Document::defects`].
-    pub fn read(path: &Path) -> Result<Self, InputError> {
-        let source = Source::read(path)?;
+    pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::recognise_by_name(&source)?;
         let xml = roxmltree::Document::parse(&source.text).map_err(|error| foreign::malformed(&source, &error))?;
         let root = xml.root_element();

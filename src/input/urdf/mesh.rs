@@ -1,6 +1,6 @@
 //! Mesh files: where they are, and their vertices.
 
-use crate::input::source::read_bounded;
+use crate::input::source::{Source, read_bounded};
 use nalgebra::Point3;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 /// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
 ///
 /// # Errors
-/// In words, with the places that were searched: the file is missing, of another format than STL, or broken.
-pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Path) -> Result<Vec<Point3<f64>>, String> {
+/// In words, with the places that were searched: the file is missing, the URDF is no file, of another format than STL, or broken.
+pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Vec<Point3<f64>>, String> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if extension != "stl" {
         return Err(format!("mesh \"{filename}\" is no STL file, and cplan reads no other mesh format"));
     }
-    let path = find(filename, urdf)?;
+    let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
+    let path = find(filename, anchor)?;
     let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
     let points = read_stl(bytes).map_err(|e| format!("mesh {}: {e}", path.display()))?;
     Ok(points.into_iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect())

@@ -30,19 +30,19 @@ pub(super) use survey::survey;
 
 use super::RobotReport;
 use super::error::InputError;
+use super::source::Source;
 use super::world::World;
 use crate::model::Arm;
 use document::Document;
 use reduction::Reduction;
-use std::path::Path;
 use tree::Tree;
 
 /// Reads a URDF and reduces it to the arm that the world's `[robot]` table chooses.
 ///
 /// # Errors
 /// Broken or foreign files, robots that are no planar two-joint arm, unset limits, meshes that cannot be read.
-pub(super) fn load(path: &Path, world: &World) -> Result<(Arm, RobotReport), InputError> {
-    let document = Document::read(path)?;
+pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), InputError> {
+    let document = Document::read(source)?;
     InputError::check(document.defects.clone())?;
     let tree = Tree::build(&document)?;
     let chain = chain::choose(&document, &tree, world)?;

@@ -14,6 +14,7 @@ use crate::input::inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role, source_name,
 };
+use crate::input::source::Source;
 use crate::input::world::World;
 use crate::model::{Arm, Link, OutlineSource, Plane, Scene};
 use crate::space::{Axis, Configuration};
@@ -24,7 +25,7 @@ use urdf_rs::JointType;
 /// Everything that can be said of the robot.
 pub(in crate::input) fn survey(path: &Path, world: &World) -> Inspection {
     let mut report = Inspection { urdf: path.display().to_string(), ..Inspection::default() };
-    let document = match Document::read(path) {
+    let document = match Source::read(path).and_then(Document::read) {
         Ok(document) => document,
         Err(error) => {
             report.errors.push(error);

@@ -1,0 +1,72 @@
+//! `cplan demo`: a cell that is part of the program, for those who have no files yet.
+
+use super::args::PlanArgs;
+use super::failure::Failure;
+use super::fresh::{folder, spare, word};
+use super::summary::laid_out;
+use super::{DONE, output, plan};
+use crate::input::{Source, scene_from};
+use clap::{Args, ValueHint};
+use std::path::{Path, PathBuf};
+
+/// The robot of the cell.
+pub const ROBOT: &str = include_str!("../../robots/scara.urdf");
+/// The cell.
+pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
+
+/// Names of the files that are written.
+const RESULT: &str = "plan.json";
+const PICTURE: &str = "plan.svg";
+
+/// Arguments of `demo`: all options of the main job, and where to write.
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    /// Folder for plan.json and plan.svg; made if it is not there.
+    #[arg(long, value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]
+    pub dir: PathBuf,
+    /// Replace plan.json and plan.svg if they are there.
+    #[arg(long)]
+    pub force: bool,
+    #[command(flatten)]
+    pub plan: PlanArgs,
+}
+
+/// Plans the built-in cell as the main job plans any, and says what to do next. The exit code is the main job's.
+///
+/// # Errors
+/// Files that are there already, I/O, and options that make no sense for the cell.
+pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
+    let [result, picture] = [RESULT, PICTURE].map(|name| in_folder(&args.dir, name));
+    spare(&[result.clone(), picture.clone()], args.force, "--dir DIR writes elsewhere")?;
+    folder(&args.dir)?;
+    args.plan.output.insert(0, result);
+    args.plan.picture.insert(0, picture.clone());
+    let code = plan::answer(&args.plan, || {
+        scene_from(
+            Source::in_memory("built-in scara.urdf", ROBOT),
+            Source::in_memory("built-in scara_cell.toml", WORLD),
+        )
+    })?;
+    if code == DONE && !args.plan.quiet && !args.plan.json {
+        output::print(&next(&picture))?;
+    }
+    Ok(code)
+}
+
+/// The file in the folder, as people would write it.
+pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
+    if folder == Path::new(".") { name.into() } else { folder.join(name) }
+}
+
+fn next(picture: &Path) -> String {
+    let lines = [
+        format!("open {} in a browser: the arm and its configuration space", word(picture)),
+        "cplan demo --planner harmonic --force     the same cell with another planner".into(),
+        "cplan init --kind scara                   the files of this cell, to change".into(),
+        "cplan init                                a small arm and world, every line explained".into(),
+        "cplan --help                              all there is, with examples".into(),
+    ];
+    let labelled: Vec<_> =
+        lines.into_iter().enumerate().map(|(i, line)| (if i == 0 { "next" } else { "" }, line)).collect();
+    laid_out(&labelled)
+}

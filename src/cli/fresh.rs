@@ -1,0 +1,44 @@
+//! Files that a command makes up itself, so that they may take the place of nobody's by accident.
+
+use super::failure::Failure;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Makes a folder and those above it, unless it is there.
+///
+/// # Errors
+/// When the system refuses.
+pub fn folder(path: &Path) -> Result<(), Failure> {
+    if path.as_os_str().is_empty() || path.is_dir() {
+        return Ok(());
+    }
+    fs::create_dir_all(path).map_err(|error| {
+        let why = if path.exists() { "it exists and is not a folder".into() } else { error.kind().to_string() };
+        Failure::Option(format!("cannot make the folder {}: {why}", path.display()))
+    })
+}
+
+/// Refuses to replace files that are there, unless that is what `force` says. `elsewhere` is the other way out.
+///
+/// # Errors
+/// When one is there; all of them are named.
+pub fn spare(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
+    // A symbolic link that leads nowhere is somebody's, too.
+    let there: Vec<String> =
+        files.iter().filter(|f| f.symlink_metadata().is_ok()).map(|f| f.display().to_string()).collect();
+    if force || there.is_empty() {
+        return Ok(());
+    }
+    let (exist, them) = if there.len() == 1 { ("exists", "it") } else { ("exist", "them") };
+    Err(Failure::Option(format!(
+        "{} {exist} already; nothing was written\n  cure: --force replaces {them}, {elsewhere}",
+        there.join(" and ")
+    )))
+}
+
+/// A path as a word for the shell: in quotes where it needs them.
+pub fn word(path: &Path) -> String {
+    let text = path.display().to_string();
+    let plain = |c: char| c.is_alphanumeric() || "._-/\\:+~".contains(c);
+    if !text.is_empty() && text.chars().all(plain) { text } else { format!("\"{text}\"") }
+}

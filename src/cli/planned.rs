@@ -1,0 +1,76 @@
+//! What became of one problem, for pictures.
+
+use super::failure::Failure;
+use super::output::{self, PictureFormat};
+use super::summary;
+use crate::certify::CertifiedCurve;
+use crate::draw::{Ending, Picture, View};
+use crate::model::Problem;
+use crate::plan::FieldPlanner;
+use crate::solve::{Answer, Verdict};
+use crate::trajectory::Report;
+use std::path::Path;
+
+/// The answer to one problem.
+pub struct Planned<'a> {
+    pub problem: &'a Problem,
+    pub answer: &'a Answer,
+    /// What the motion follows, if there is one.
+    pub curve: Option<&'a CertifiedCurve>,
+    pub report: &'a Report,
+    /// The field that was chosen, if one was.
+    pub field: Option<&'a FieldPlanner>,
+}
+
+impl Planned<'_> {
+    /// Writes a picture of it.
+    ///
+    /// # Errors
+    /// I/O.
+    pub fn save(&self, format: PictureFormat, path: &Path) -> Result<(), Failure> {
+        match format {
+            PictureFormat::Html => output::save_view(path, &self.view()),
+            PictureFormat::Svg | PictureFormat::Png => {
+                self.with_picture(|picture| output::save_picture(format, path, picture))
+            }
+        }
+    }
+
+    /// What a page shows of it.
+    pub fn view(&self) -> View {
+        let ending = match self.answer.verdict {
+            Verdict::Found(_) => Ending::Found,
+            Verdict::Infeasible(_) => Ending::Infeasible,
+            Verdict::Unknown(_) => Ending::Unknown,
+        };
+        let trajectory = self.report.trajectory.as_ref();
+        self.with_picture(|picture| View::of_picture(picture, ending, summary::facts(self), trajectory))
+    }
+
+    fn with_picture<T>(&self, show: impl FnOnce(&Picture) -> T) -> T {
+        let Self { problem, answer, report, .. } = self;
+        let scene = &problem.scene;
+        let contours = output::contours(scene);
+        let outline = self.curve.map(|curve| curve.curve().outline());
+        let (status, detail) = match (&answer.verdict, report.length) {
+            (Verdict::Found(_), Some(length)) => {
+                let clearance =
+                    report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
+                ("found, certified", format!("{}: length {length:.4}, {clearance}", answer.method))
+            }
+            (Verdict::Infeasible(_), _) => ("no path: proven", answer.method.to_string()),
+            _ => ("unknown", answer.method.to_string()),
+        };
+        show(&Picture {
+            title: vec![output::title(problem), detail],
+            status: status.into(),
+            scene,
+            start: problem.start,
+            goals: &problem.goals,
+            paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
+            trace: Some(&answer.drawn()),
+            proof: answer.verdict.proof(),
+            c_obstacles: &contours,
+        })
+    }
+}

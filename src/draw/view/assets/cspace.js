@@ -1,0 +1,293 @@
+// The right panel: the configuration space, with what the planner saw in it.
+'use strict';
+
+const CSpace = (() => {
+  const { TURN, wrap, pointsOf } = Geometry;
+
+  function bounds(flat) {
+    const box = [[Infinity, -Infinity], [Infinity, -Infinity]];
+    for (const q of pointsOf(flat)) {
+      for (const k of [0, 1]) box[k] = [Math.min(box[k][0], q[k]), Math.max(box[k][1], q[k])];
+    }
+    return box;
+  }
+
+  /** Shifts by whole turns that bring a part of a shape into view, along axes that repeat. */
+  function shifts(panel, flat, repeats) {
+    const box = bounds(flat);
+    const along = (k) => {
+      const [low, high] = panel.shown[k];
+      if (!repeats[k]) return box[k][0] <= high && box[k][1] >= low ? [0] : [];
+      const found = [];
+      const first = Math.ceil((low - box[k][1]) / TURN - 1e-9);
+      for (let n = first; box[k][0] + n * TURN <= high && found.length < 64; n += 1) found.push(n * TURN);
+      return found;
+    };
+    const up = along(1);
+    return along(0).flatMap((a) => up.map((b) => [a, b]));
+  }
+
+  function shifted(context, panel, flat, repeats, closed) {
+    for (const by of shifts(panel, flat, repeats)) trace(context, panel, flat, closed, by);
+  }
+
+  /** A shape that lies still repeats for an arm after each turn, limits or not. */
+  const turning = (view) => view.model.arm.joints.map((joint) => joint.sign !== undefined);
+  const circles = (view) => view.model.arm.joints.map((joint) => joint.circle);
+
+  function cObstacles(context, panel, view, world) {
+    const repeats = turning(view);
+    world.obstacles.forEach((obstacle, index) => {
+      if (view.hidden.has(obstacle.name)) return;
+      const contours = world.c_obstacles.filter((c) => c.obstacle === index);
+      if (!contours.length) return;
+      const { fill, line: edge } = panel.theme.obstacle(obstacle.color);
+      context.beginPath();
+      for (const { contour } of contours) shifted(context, panel, contour, repeats, true);
+      context.lineWidth = 2;
+      context.strokeStyle = edge;
+      context.stroke();
+      context.fillStyle = fill;
+      context.fill();
+    });
+  }
+
+  function rectangles(context, panel, boxes, least = 0) {
+    for (let i = 0; i + 3 < boxes.length; i += 4) {
+      const [x0, y1] = panel.at([boxes[i], boxes[i + 1]]);
+      const [x1, y0] = panel.at([boxes[i + 2], boxes[i + 3]]);
+      if (x1 - x0 >= least && y1 - y0 >= least) context.rect(x0, y0, x1 - x0, y1 - y0);
+    }
+  }
+
+  function surfaces(context, panel, boxes, color, alpha = 0.8) {
+    context.beginPath();
+    rectangles(context, panel, boxes);
+    context.globalAlpha = alpha;
+    context.fillStyle = color;
+    context.fill();
+    context.globalAlpha = 1;
+  }
+
+  const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
+
+  function wavefront(context, panel, { blocks, extent, levels }) {
+    const [nx, ny] = blocks;
+    const raster = document.createElement('canvas');
+    [raster.width, raster.height] = [nx, ny];
+    const pixels = new ImageData(nx, ny);
+    const palette = [...LETTERS].map((_, k) => {
+      const color = Theme.mixed(panel.theme.scale(k / 63), panel.theme.paper, 0.25);
+      return [0, 1, 2].map((c) => parseInt(color.slice(1 + 2 * c, 3 + 2 * c), 16));
+    });
+    for (let k = 0; k < levels.length; k += 1) {
+      const level = LETTERS.indexOf(levels[k]);
+      if (level < 0) continue;
+      const at = 4 * ((ny - 1 - (k % ny)) * nx + Math.floor(k / ny));
+      pixels.data.set([...palette[level], 255], at);
+    }
+    raster.getContext('2d').putImageData(pixels, 0, 0);
+    const { x, y, width, height } = panel.rect;
+    context.imageSmoothingEnabled = false;
+    context.drawImage(raster, x, y + height * (1 - extent[1]), width * extent[0], height * extent[1]);
+  }
+
+  function below(context, panel, view, seen) {
+    const { theme } = panel;
+    if (seen.kind === 'wavefront' && view.shows('wavefront')) wavefront(context, panel, seen);
+    if (seen.kind === 'boxes' && view.shows('boxes')) {
+      surfaces(context, panel, seen.free, theme.free);
+      surfaces(context, panel, seen.mixed, theme.mixed);
+    }
+    if (seen.kind === 'channel' && view.shows('channel')) {
+      context.beginPath();
+      for (const i of seen.channel) if (seen.cells[i]) shifted(context, panel, seen.cells[i], circles(view), true);
+      context.globalAlpha = 0.75;
+      context.fillStyle = theme.channel;
+      context.fill();
+      context.globalAlpha = 1;
+    }
+  }
+
+  function above(context, panel, view, seen) {
+    const { theme } = panel;
+    context.strokeStyle = theme.edge;
+    context.lineWidth = 0.8;
+    context.globalAlpha = 0.75;
+    if (seen.kind === 'roadmap' && view.shows('roadmap')) {
+      context.beginPath();
+      for (let i = 0; i + 3 < seen.edges.length; i += 4) {
+        shifted(context, panel, seen.edges.slice(i, i + 4), circles(view), false);
+      }
+      context.stroke();
+    }
+    if (seen.kind === 'channel' && view.shows('cells')) {
+      context.beginPath();
+      for (const cell of seen.cells) shifted(context, panel, cell, circles(view), true);
+      context.stroke();
+    }
+    if (seen.kind === 'boxes' && view.shows('boxes')) {
+      context.beginPath();
+      for (const boxes of [seen.free, seen.stuck, seen.mixed]) rectangles(context, panel, boxes, 2);
+      context.lineWidth = 0.5;
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+    if (seen.kind === 'field') field(context, panel, view, seen);
+  }
+
+  function field(context, panel, view, seen) {
+    const { theme } = panel;
+    if (view.shows('equipotentials')) {
+      context.lineWidth = 1.2;
+      for (const { part, lines } of seen.levels) {
+        context.strokeStyle = theme.scale(part);
+        context.beginPath();
+        for (const flat of lines) trace(context, panel, flat, false);
+        context.stroke();
+      }
+    }
+    if (!view.shows('flow')) return;
+    context.strokeStyle = theme.accent;
+    context.fillStyle = theme.accent;
+    context.lineWidth = 1;
+    context.globalAlpha = 0.8;
+    for (const flat of seen.flow) {
+      context.beginPath();
+      trace(context, panel, flat, false);
+      context.stroke();
+      arrow(context, panel, flat);
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** A head a little after the beginning of a line of flow. */
+  function arrow(context, panel, flat) {
+    const at = 2 * Math.min(3, Math.floor(flat.length / 2) - 2);
+    if (at < 0) return;
+    const [a, b] = [panel.at([flat[at], flat[at + 1]]), panel.at([flat[at + 2], flat[at + 3]])];
+    const angle = Math.atan2(b[1] - a[1], b[0] - a[0]);
+    context.beginPath();
+    for (const [r, turn] of [[6, 0], [4, 2.5], [4, -2.5]]) {
+      context.lineTo(b[0] + r * Math.cos(angle + turn), b[1] + r * Math.sin(angle + turn));
+    }
+    context.fill();
+  }
+
+  function proof(context, panel, boxes) {
+    context.beginPath();
+    rectangles(context, panel, boxes);
+    context.globalAlpha = 0.5;
+    context.fillStyle = panel.theme.barred;
+    context.fill();
+    context.globalAlpha = 1;
+    context.lineWidth = 1;
+    context.strokeStyle = panel.theme.barred;
+    context.stroke();
+  }
+
+  function regions(context, panel, view, world) {
+    for (const region of world.regions.filter((r) => r.joints)) {
+      context.beginPath();
+      shifted(context, panel, region.corners, circles(view), true);
+      context.setLineDash([7, 4]);
+      context.lineWidth = 1.4;
+      context.strokeStyle = region.epsilon > 0 ? panel.theme.barred : panel.theme.accent;
+      context.stroke();
+      context.setLineDash([]);
+    }
+  }
+
+  function names(context, panel, view, world) {
+    const size = ({ contour }) => {
+      const [[x0, x1], [y0, y1]] = bounds(contour);
+      return (x1 - x0) * (y1 - y0);
+    };
+    const shown = world.obstacles.map((obstacle, index) => {
+      const contours = view.hidden.has(obstacle.name) ? [] : world.c_obstacles.filter((c) => c.obstacle === index);
+      if (!contours.length) return null;
+      const largest = contours.reduce((best, c) => (size(c) > size(best) ? c : best));
+      const middle = bounds(largest.contour).map(([a, b], k) => {
+        const value = (a + b) / 2;
+        const [low, high] = panel.shown[k];
+        return turning(view)[k] ? value - TURN * Math.floor((value - (low + high) / 2) / TURN + 0.5) : value;
+      });
+      return [view.named ? obstacle.name : String(index + 1), panel.at(middle)];
+    });
+    Workspace.labels(context, panel, shown.filter(Boolean));
+  }
+
+  /** What stays while the arm moves. */
+  function still(context, panel, view) {
+    const { world } = view;
+    const seen = world.trace && !view.stale ? world.trace : null;
+    if (seen) below(context, panel, view, seen);
+    if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
+    if (seen) above(context, panel, view, seen);
+    if (view.shows('regions')) regions(context, panel, view, world);
+    if (view.shows('proof') && world.proof.length) proof(context, panel, world.proof);
+    if (view.shows('names') && view.shows('c-obstacles')) names(context, panel, view, world);
+    if (view.shows('path')) {
+      for (const path of view.pathsHere()) {
+        pathLine(context, panel.theme, path, () => {
+          context.beginPath();
+          shifted(context, panel, path.points, circles(view), false);
+          context.stroke();
+        });
+      }
+    }
+    view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
+    ring(context, panel, place(view, panel, view.beginning()), 5.5);
+  }
+
+  function place(view, panel, q) {
+    return panel.at(q.map((value, k) => wrap(view.model.arm.joints[k], value)));
+  }
+
+  function ring(context, panel, [x, y], r) {
+    context.beginPath();
+    context.arc(x, y, r, 0, 2 * Math.PI);
+    context.fillStyle = panel.theme.paper;
+    context.fill();
+    context.lineWidth = 2.2;
+    context.strokeStyle = panel.theme.ink;
+    context.stroke();
+  }
+
+  function diamond(context, panel, [x, y], reached) {
+    for (const [r, color] of [[10, panel.theme.paper], [7.5, panel.theme.ink], [reached ? 0 : 5, panel.theme.paper]]) {
+      context.beginPath();
+      for (const [dx, dy] of [[0, -r], [r, 0], [0, r], [-r, 0]]) context.lineTo(x + dx, y + dy);
+      context.fillStyle = color;
+      context.fill();
+    }
+  }
+
+  /** What moves: where the arm is, and where it is tried. */
+  function moving(context, panel, view) {
+    const { theme } = panel;
+    const [x, y] = place(view, panel, view.q);
+    context.beginPath();
+    context.arc(x, y, 6, 0, 2 * Math.PI);
+    context.fillStyle = theme.accent;
+    context.fill();
+    context.lineWidth = 2;
+    context.strokeStyle = theme.paper;
+    context.stroke();
+    if (!view.probe) return;
+    const [px, py] = panel.at(view.probe.q);
+    const hit = view.probe.contacts[0]?.distance <= 0;
+    const { rect } = panel;
+    context.setLineDash([3, 3]);
+    context.lineWidth = 1;
+    context.strokeStyle = hit ? theme.barred : theme.probe;
+    line(context, [[px, rect.y], [px, rect.y + rect.height]]);
+    line(context, [[rect.x, py], [rect.x + rect.width, py]]);
+    context.setLineDash([]);
+    context.lineWidth = 2.4;
+    line(context, [[px - 7, py], [px + 7, py]]);
+    line(context, [[px, py - 7], [px, py + 7]]);
+  }
+
+  return { still, moving, place };
+})();

@@ -1,0 +1,188 @@
+// Kinematics, contacts and motion in time: what the program computes, once more for whoever moves the arm by hand.
+// Points are [x, y], poses [x, y, cosine, sine], shapes { core: [x0, y0, x1, y1, ...], radius }.
+'use strict';
+
+const Geometry = (() => {
+  const TURN = 2 * Math.PI;
+
+  const compose = (a, b) => [
+    a[0] + a[2] * b[0] - a[3] * b[1],
+    a[1] + a[3] * b[0] + a[2] * b[1],
+    a[2] * b[2] - a[3] * b[3],
+    a[3] * b[2] + a[2] * b[3],
+  ];
+  const apply = (pose, x, y) => [pose[0] + pose[2] * x - pose[3] * y, pose[1] + pose[3] * x + pose[2] * y];
+  const turned = (x, y, angle) => [x, y, Math.cos(angle), Math.sin(angle)];
+
+  function motion(joint, value) {
+    if (joint.sign !== undefined) return turned(0, 0, joint.sign * value);
+    return [value * joint.direction[0], value * joint.direction[1], 1, 0];
+  }
+
+  /** Poses of both links. */
+  function poses(arm, q) {
+    const first = compose([arm.base[0], arm.base[1], 1, 0], motion(arm.joints[0], q[0]));
+    const second = compose(compose(first, [arm.offset[0], arm.offset[1], 1, 0]), motion(arm.joints[1], q[1]));
+    return [first, second];
+  }
+
+  const tipAt = (arm, q) => apply(poses(arm, q)[1], arm.tip[0], arm.tip[1]);
+  const elbowAt = (arm, q) => apply(poses(arm, q)[0], arm.offset[0], arm.offset[1]);
+
+  /** The pose of what is carried. */
+  function payloadPose(arm, payload, q) {
+    if (payload.grip.rigid) {
+      const [x, y, angle] = payload.grip.rigid;
+      return compose(poses(arm, q)[1], turned(x, y, angle));
+    }
+    const [angle, x, y] = payload.grip.level;
+    const tip = tipAt(arm, q);
+    return compose(turned(tip[0], tip[1], angle), [-x, -y, 1, 0]);
+  }
+
+  function placed(shape, pose) {
+    const core = new Array(shape.core.length);
+    for (let i = 0; i < core.length; i += 2) {
+      const [x, y] = apply(pose, shape.core[i], shape.core[i + 1]);
+      core[i] = x;
+      core[i + 1] = y;
+    }
+    return { core, radius: shape.radius };
+  }
+
+  /** Directions along which two convex shapes can be told apart: normals of sides; of a bare side its own, too. */
+  function axes({ core }) {
+    const n = core.length / 2;
+    const found = [];
+    for (let i = 0; i < (n === 2 ? 1 : n > 2 ? n : 0); i += 1) {
+      const j = (i + 1) % n;
+      const [dx, dy] = [core[2 * j] - core[2 * i], core[2 * j + 1] - core[2 * i + 1]];
+      const length = Math.hypot(dx, dy);
+      if (length === 0) continue;
+      const [x, y] = [dy / length, -dx / length];
+      found.push([x, y]);
+      if (n === 2) found.push([-x, -y], [-y, x], [y, -x]);
+    }
+    return found;
+  }
+
+  function farthest(core, x, y) {
+    let best = -Infinity;
+    for (let i = 0; i < core.length; i += 2) best = Math.max(best, core[i] * x + core[i + 1] * y);
+    return best;
+  }
+
+  function toSegment(px, py, ax, ay, bx, by) {
+    const [dx, dy] = [bx - ax, by - ay];
+    const square = dx * dx + dy * dy;
+    const t = square > 0 ? Math.min(1, Math.max(0, ((px - ax) * dx + (py - ay) * dy) / square)) : 0;
+    return Math.hypot(px - ax - t * dx, py - ay - t * dy);
+  }
+
+  function cornersToSides(a, b) {
+    let least = Infinity;
+    const n = b.length / 2;
+    for (let i = 0; i < a.length; i += 2) {
+      for (let k = 0; k < n; k += 1) {
+        const l = (k + 1) % n;
+        least = Math.min(least, toSegment(a[i], a[i + 1], b[2 * k], b[2 * k + 1], b[2 * l], b[2 * l + 1]));
+      }
+    }
+    return least;
+  }
+
+  /** Signed distance of two shapes: separating axes where they meet, corners to sides where they do not. */
+  function separation(a, b) {
+    let gap = -Infinity;
+    for (const [x, y] of axes(a)) gap = Math.max(gap, -farthest(b.core, -x, -y) - farthest(a.core, x, y));
+    for (const [x, y] of axes(b)) gap = Math.max(gap, -farthest(a.core, -x, -y) - farthest(b.core, x, y));
+    const apart = gap > 0 || gap === -Infinity;
+    const distance = apart ? Math.min(cornersToSides(a.core, b.core), cornersToSides(b.core, a.core)) : gap;
+    return distance - a.radius - b.radius;
+  }
+
+  /** Signed distance of every link (or what it carries) and obstacle that can meet, nearest first. */
+  function contacts(arm, world, q) {
+    const at = poses(arm, q);
+    const nearest = new Map();
+    const parts = new Map();
+    for (const [link, part, obstacle, first, end] of world.pairs) {
+      const key = `${link} ${part}`;
+      if (!parts.has(key)) {
+        const own = arm.links[link].parts;
+        const carried = part >= own.length;
+        const shape = carried ? world.payload.parts[part - own.length] : own[part];
+        parts.set(key, { shape: placed(shape, at[link]), carried, body: carried ? world.payload.object : own[part].body });
+      }
+      const { shape, carried, body } = parts.get(key);
+      for (let piece = first; piece < end; piece += 1) {
+        const distance = separation(shape, world.obstacles[obstacle].pieces[piece]);
+        const name = `${carried ? 'payload' : link} ${obstacle}`;
+        if (!(nearest.get(name)?.distance <= distance)) nearest.set(name, { link, carried, body, obstacle, distance });
+      }
+    }
+    return [...nearest.values()].sort((a, b) => a.distance - b.distance);
+  }
+
+  /** The value of a circle within its domain; others as they are. */
+  function wrap(joint, value) {
+    if (!joint.circle) return value;
+    return value - TURN * Math.floor((value + Math.PI) / TURN);
+  }
+
+  /** The sample of a clock whose interval holds this time. */
+  function interval(clock, t) {
+    let [low, high] = [0, clock.time.length - 1];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (clock.time[middle] <= t) low = middle;
+      else high = middle;
+    }
+    return low;
+  }
+
+  /** Position and velocity at a time: the cubic between two samples. */
+  function moving(clock, t) {
+    const k = interval(clock, t);
+    const h = clock.time[k + 1] - clock.time[k];
+    const u = h > 0 ? Math.min(1, Math.max(0, (t - clock.time[k]) / h)) : 0;
+    const at = (list, i, joint) => list[2 * i + joint];
+    const joint = (j) => {
+      const [p0, p1] = [at(clock.position, k, j), at(clock.position, k + 1, j)];
+      const [m0, m1] = [h * at(clock.velocity, k, j), h * at(clock.velocity, k + 1, j)];
+      const [a, b] = [2 * (p0 - p1) + m0 + m1, 3 * (p1 - p0) - 2 * m0 - m1];
+      return [((a * u + b) * u + m0) * u + p0, h > 0 ? ((3 * a * u + 2 * b) * u + m0) / h : 0];
+    };
+    const [first, second] = [joint(0), joint(1)];
+    return {
+      position: [first[0], second[0]],
+      velocity: [first[1], second[1]],
+      acceleration: [at(clock.acceleration, k, 0), at(clock.acceleration, k, 1)],
+    };
+  }
+
+  /** Points of a polyline, given as one number after the other. */
+  function* pointsOf(flat) {
+    for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
+  }
+
+  /** Configurations that divide a path into equal parts, its ends included. */
+  function along(flat, count) {
+    const points = [...pointsOf(flat)];
+    const lengths = points.map((p, i) => (i > 0 ? Math.hypot(p[0] - points[i - 1][0], p[1] - points[i - 1][1]) : 0));
+    const total = lengths.reduce((sum, x) => sum + x, 0);
+    const found = [];
+    let [done, next] = [0, 0];
+    for (let i = 1; i < points.length && total > 0; i += 1) {
+      while (next <= count && (next * total) / count <= done + lengths[i] * (1 + 1e-12)) {
+        const t = lengths[i] > 0 ? ((next * total) / count - done) / lengths[i] : 0;
+        found.push([0, 1].map((k) => points[i - 1][k] + t * (points[i][k] - points[i - 1][k])));
+        next += 1;
+      }
+      done += lengths[i];
+    }
+    return total > 0 ? found : points.slice(0, 1);
+  }
+
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, separation, contacts, wrap, moving, pointsOf, along };
+})();

@@ -1,0 +1,275 @@
+// A canvas with axes: from values to pixels and back, in the colours of the page.
+'use strict';
+
+/** The colours that the page's style gives, for light and dark. */
+class Theme {
+  constructor(root) {
+    const style = getComputedStyle(root);
+    const value = (name) => style.getPropertyValue(`--${name}`).trim();
+    for (const name of ['ink', 'grey', 'pale', 'faint', 'paper', 'accent', 'barred', 'free', 'mixed', 'edge', 'channel', 'probe']) {
+      this[name] = value(name);
+    }
+    this.dark = value('dark') === '1';
+  }
+
+  /** A colour with some of another mixed in; both as #rrggbb. */
+  static mixed(color, other, part) {
+    const channel = (text, k) => parseInt(text.slice(1 + 2 * k, 3 + 2 * k), 16);
+    const mix = (k) => Math.round(channel(color, k) + (channel(other, k) - channel(color, k)) * part);
+    return `#${[0, 1, 2].map((k) => mix(k).toString(16).padStart(2, '0')).join('')}`;
+  }
+
+  /** Surface and outline of an obstacle. */
+  obstacle(color) {
+    if (this.dark) return { fill: Theme.mixed(color, this.paper, 0.35), line: Theme.mixed(color, '#ffffff', 0.35) };
+    return { fill: Theme.mixed(color, this.paper, 0.3), line: Theme.mixed(color, '#000000', 0.28) };
+  }
+
+  /** A scale from 0 to 1 that is read by its lightness. */
+  scale(part) {
+    const stops = ['#def5e5', '#a8e1bc', '#60ceac', '#3eb4ad', '#3498a9', '#357ba3', '#3b5d9a', '#413f80'];
+    const at = Math.min(1, Math.max(0, this.dark ? 1 - part : part)) * (stops.length - 1);
+    const below = Math.min(Math.floor(at), stops.length - 2);
+    return Theme.mixed(stops[below], stops[below + 1], at - below);
+  }
+}
+
+/** Ticks of an axis from `low` to `high`, some `room` pixels long, about `spacing` pixels apart at the least. */
+function ticks(low, high, degrees, room, spacing) {
+  const unit = degrees ? Math.PI / 180 : 1;
+  const wanted = ((high - low) / unit / Math.max(2, room / spacing)) || 1;
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const steps = degrees && wanted > 4 ? [5, 10, 15, 30, 45, 90, 180, 360, 720, 3600] : [1, 2, 5, 10].map((k) => k * power);
+  const step = steps.find((s) => s >= wanted * 0.999) ?? steps[steps.length - 1];
+  const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  const found = [];
+  for (let k = Math.ceil(low / unit / step - 1e-9); k * step * unit <= high + 1e-9 * (high - low); k += 1) {
+    const text = (k * step).toFixed(digits).replace('-', '\u2212');
+    found.push({ value: k * step * unit, text: degrees ? `${text}\u00b0` : text });
+  }
+  return found;
+}
+
+class Panel {
+  /**
+   * @param canvas where to draw
+   * @param options `x`, `y`: ranges; `degrees`: for both axes; `titles`; `scale`: 'fill' (one scale, more than the ranges
+   * may show), 'fit' (one scale, just the ranges) or 'free'; `still` and `moving`: functions that draw what stays and
+   * what moves; `margins`
+   */
+  constructor(canvas, options) {
+    Object.assign(this, { degrees: [false, false], seams: [false, false], titles: ['', ''], scale: 'free' }, options);
+    this.canvas = canvas;
+    this.overlays = [];
+    this.back = document.createElement('canvas');
+    this.dirty = true;
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.resize();
+  }
+
+  resize() {
+    const ratio = window.devicePixelRatio || 1;
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    for (const canvas of [this.canvas, this.back]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    this.ratio = ratio;
+    this.size = [width, height];
+    this.layout();
+    this.dirty = true;
+    this.draw();
+  }
+
+  /** Ranges to pixels. */
+  layout() {
+    if (!this.size) return;
+    const [left, right, top, bottom] = this.margins ?? [48, 10, 8, 40];
+    const rect = { x: left, y: top, width: this.size[0] - left - right, height: this.size[1] - top - bottom };
+    let [x, y] = [this.x.slice(), this.y.slice()];
+    for (const range of [x, y]) if (!(range[1] > range[0])) [range[0], range[1]] = [range[0] - 0.5, range[0] + 0.5];
+    if (this.scale !== 'free') {
+      const scale = Math.min(rect.width / (x[1] - x[0]), rect.height / (y[1] - y[0]));
+      const [width, height] = [(x[1] - x[0]) * scale, (y[1] - y[0]) * scale];
+      if (this.scale === 'fit') {
+        Object.assign(rect, { x: rect.x + (rect.width - width) / 2, width, height });
+      } else {
+        const about = ([a, b], length) => [(a + b - length) / 2, (a + b + length) / 2];
+        [x, y] = [about(x, rect.width / scale), about(y, rect.height / scale)];
+      }
+    }
+    this.rect = rect;
+    this.shown = [x, y];
+  }
+
+  at([x, y]) {
+    const { rect, shown } = this;
+    return [
+      rect.x + ((x - shown[0][0]) / (shown[0][1] - shown[0][0])) * rect.width,
+      rect.y + rect.height - ((y - shown[1][0]) / (shown[1][1] - shown[1][0])) * rect.height,
+    ];
+  }
+
+  value([px, py]) {
+    const { rect, shown } = this;
+    return [
+      shown[0][0] + ((px - rect.x) / rect.width) * (shown[0][1] - shown[0][0]),
+      shown[1][0] + ((rect.y + rect.height - py) / rect.height) * (shown[1][1] - shown[1][0]),
+    ];
+  }
+
+  /** Pixels a metre (or radian), along the first axis. */
+  get pixels() {
+    return this.rect.width / (this.shown[0][1] - this.shown[0][0]);
+  }
+
+  /** Where a pointer is: pixels within the canvas. */
+  spot(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  contains([px, py]) {
+    const { rect } = this;
+    return px >= rect.x && px <= rect.x + rect.width && py >= rect.y && py <= rect.y + rect.height;
+  }
+
+  draw() {
+    if (!this.size || !this.theme) return;
+    if (this.dirty) {
+      this.dirty = false;
+      const context = this.begin(this.back);
+      this.axes(context);
+      this.within(context, () => this.still?.(context, this));
+      this.border(context);
+    }
+    const context = this.begin(this.canvas);
+    context.drawImage(this.back, 0, 0, this.size[0], this.size[1]);
+    this.within(context, () => {
+      this.moving?.(context, this);
+      for (const overlay of this.overlays) overlay(context, this);
+    });
+  }
+
+  begin(canvas) {
+    const context = canvas.getContext('2d');
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    context.clearRect(0, 0, this.size[0], this.size[1]);
+    context.lineJoin = 'round';
+    return context;
+  }
+
+  within(context, draw) {
+    const { rect } = this;
+    context.save();
+    context.beginPath();
+    context.rect(rect.x, rect.y, rect.width, rect.height);
+    context.clip();
+    draw();
+    context.restore();
+  }
+
+  axes(context) {
+    const { rect, shown, theme } = this;
+    context.fillStyle = theme.paper;
+    context.fillRect(rect.x, rect.y, rect.width, rect.height);
+    context.font = '12px system-ui, sans-serif';
+    context.fillStyle = theme.grey;
+    context.strokeStyle = theme.faint;
+    context.lineWidth = 1;
+    const [across, up] = [0, 1].map((k) => ticks(...shown[k], this.degrees[k], [rect.width, rect.height][k], [56, 34][k]));
+    context.textAlign = 'center';
+    context.textBaseline = 'top';
+    for (const { value, text } of across) {
+      const [x] = this.at([value, shown[1][0]]);
+      line(context, [[x, rect.y], [x, rect.y + rect.height]]);
+      context.fillText(text, x, rect.y + rect.height + 5);
+    }
+    context.textAlign = 'right';
+    context.textBaseline = 'middle';
+    for (const { value, text } of up) {
+      const [, y] = this.at([shown[0][0], value]);
+      line(context, [[rect.x, y], [rect.x + rect.width, y]]);
+      context.fillText(text, rect.x - 6, y);
+    }
+    context.fillStyle = theme.ink;
+    context.textAlign = 'center';
+    context.textBaseline = 'bottom';
+    context.fillText(this.titles[0], rect.x + rect.width / 2, rect.y + rect.height + 36);
+    context.save();
+    context.translate(rect.x - 36, rect.y + rect.height / 2);
+    context.rotate(-Math.PI / 2);
+    context.fillText(this.titles[1], 0, 0);
+    context.restore();
+  }
+
+  /** Seams are dashed in the accent: what leaves there comes back on the other side. */
+  border(context) {
+    const { rect, theme } = this;
+    const sides = [
+      [[rect.x, rect.y], [rect.x, rect.y + rect.height], this.seams[0]],
+      [[rect.x + rect.width, rect.y], [rect.x + rect.width, rect.y + rect.height], this.seams[0]],
+      [[rect.x, rect.y], [rect.x + rect.width, rect.y], this.seams[1]],
+      [[rect.x, rect.y + rect.height], [rect.x + rect.width, rect.y + rect.height], this.seams[1]],
+    ];
+    for (const [a, b, seam] of sides) {
+      context.strokeStyle = seam ? theme.accent : theme.grey;
+      context.lineWidth = seam ? 2 : 1;
+      context.setLineDash(seam ? [7, 5] : []);
+      line(context, [a, b]);
+    }
+    context.setLineDash([]);
+  }
+}
+
+/** Strokes a polyline of pixels. */
+function line(context, spots) {
+  context.beginPath();
+  spots.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+  context.stroke();
+}
+
+/** Adds a polyline of values, given as one number after the other, to the current outline; shifted by `by`. */
+function trace(context, panel, flat, closed, by = [0, 0]) {
+  for (let i = 0; i + 1 < flat.length; i += 2) {
+    const [x, y] = panel.at([flat[i] + by[0], flat[i + 1] + by[1]]);
+    if (i) context.lineTo(x, y);
+    else context.moveTo(x, y);
+  }
+  if (closed) context.closePath();
+}
+
+/** Adds the outline of a rounded convex shape: sides moved outwards, joined by arcs. */
+function rounded(context, panel, { core, radius }) {
+  const n = core.length / 2;
+  const r = radius * panel.pixels;
+  if (n === 1) {
+    const [x, y] = panel.at(core);
+    context.moveTo(x + r, y);
+    context.arc(x, y, r, 0, 2 * Math.PI);
+    return;
+  }
+  let [first, last] = [null, null];
+  for (let i = 0; i < n; i += 1) {
+    const j = (i + 1) % n;
+    const [a, b] = [panel.at([core[2 * i], core[2 * i + 1]]), panel.at([core[2 * j], core[2 * j + 1]])];
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    if (length === 0) continue;
+    // Corners run counter-clockwise in the plane, clockwise where pixels count downwards.
+    const [nx, ny] = [-(b[1] - a[1]) / length, (b[0] - a[0]) / length];
+    const angle = Math.atan2(ny, nx);
+    if (first === null) {
+      first = angle;
+      context.moveTo(a[0] + nx * r, a[1] + ny * r);
+    } else if (r > 0) context.arc(a[0], a[1], r, last, angle, true);
+    else context.lineTo(a[0], a[1]);
+    context.lineTo(b[0] + nx * r, b[1] + ny * r);
+    last = angle;
+  }
+  if (r > 0 && first !== null) {
+    const [x, y] = panel.at([core[0], core[1]]);
+    context.arc(x, y, r, last, first, true);
+  }
+  context.closePath();
+}

@@ -1,0 +1,105 @@
+// Position, velocity and acceleration of both joints over time.
+'use strict';
+
+const Plots = (() => {
+  const QUANTITIES = [
+    { key: 'position', title: 'position', per: '' },
+    { key: 'velocity', title: 'velocity', per: '/s' },
+    { key: 'acceleration', title: 'acceleration', per: '/s\u00b2' },
+  ];
+  const DASHES = [[], [6, 4]];
+
+  /** The range of one joint's values, with its limits in it where there are some. */
+  function span(model, key) {
+    let [low, high] = [0, 0];
+    const values = model.clock[key];
+    for (let i = 0; i < values.length; i += 1) [low, high] = [Math.min(low, values[i]), Math.max(high, values[i])];
+    const room = 0.08 * (high - low || 1);
+    return [low - room, high + room];
+  }
+
+  function draw(context, panel, view, { key }) {
+    const { clock } = view.model;
+    const colors = view.jointColors();
+    [0, 1].forEach((joint) => {
+      const limit = view.model.arm.joints[joint][key];
+      context.strokeStyle = colors[joint];
+      if (limit !== undefined) {
+        context.globalAlpha = 0.45;
+        context.lineWidth = 1;
+        context.setLineDash([2, 4]);
+        for (const value of [limit, -limit]) {
+          const [, y] = panel.at([0, value]);
+          line(context, [[panel.rect.x, y], [panel.rect.x + panel.rect.width, y]]);
+        }
+        context.globalAlpha = 1;
+      }
+      context.setLineDash(DASHES[joint]);
+      context.lineWidth = 1.8;
+      context.beginPath();
+      // Accelerations jump; they hold until the next sample.
+      let before = null;
+      let last = -Infinity;
+      for (let k = 0; k < clock.time.length; k += 1) {
+        const spot = panel.at([clock.time[k], clock[key][2 * k + joint]]);
+        if (before && spot[0] - last < 0.3 && Math.abs(spot[1] - before[1]) < 0.3 && k + 1 < clock.time.length) continue;
+        if (before && key === 'acceleration') context.lineTo(spot[0], before[1]);
+        if (before) context.lineTo(...spot);
+        else context.moveTo(...spot);
+        [before, last] = [spot, spot[0]];
+      }
+      context.stroke();
+      context.setLineDash([]);
+    });
+  }
+
+  function cursor(context, panel, view) {
+    const [x] = panel.at([view.time, 0]);
+    context.lineWidth = 1.5;
+    context.strokeStyle = panel.theme.accent;
+    line(context, [[x, panel.rect.y], [x, panel.rect.y + panel.rect.height]]);
+  }
+
+  /** One panel a quantity. */
+  function mount(element, view) {
+    const key = document.createElement('p');
+    key.className = 'key';
+    element.append(key);
+    return QUANTITIES.map((quantity) => {
+      const canvas = document.createElement('canvas');
+      canvas.setAttribute('role', 'img');
+      canvas.setAttribute('aria-label', `${quantity.title} of both joints over time`);
+      element.append(canvas);
+      const panel = new Panel(canvas, {
+        x: [0, 1],
+        y: [-1, 1],
+        titles: ['s', quantity.title],
+        margins: [52, 8, 6, 38],
+        still: (context, panel) => view.model.clock && draw(context, panel, view, quantity),
+        moving: (context, panel) => view.model.clock && cursor(context, panel, view),
+      });
+      const scrub = (event) => event.buttons && view.seek(panel.value(panel.spot(event))[0]);
+      canvas.addEventListener('pointerdown', (event) => {
+        canvas.setPointerCapture(event.pointerId);
+        scrub(event);
+      });
+      canvas.addEventListener('pointermove', scrub);
+      return { panel, fit: () => fit(panel, view, quantity, key) };
+    });
+  }
+
+  function fit(panel, view, { key, title, per }, legend) {
+    const { clock, arm } = view.model;
+    if (!clock) return;
+    const [first, second] = arm.joints.map((joint) => joint.name);
+    legend.textContent = `${first} solid, ${second} dashed; limits dotted`;
+    const units = [...new Set(arm.joints.map((joint) => joint.unit + per))].join(', ');
+    panel.titles = ['s', `${title} [${units}]`];
+    panel.x = [0, Math.max(clock.time[clock.time.length - 1], 1e-6)];
+    panel.y = span(view.model, key);
+    panel.layout();
+    panel.dirty = true;
+  }
+
+  return { mount };
+})();

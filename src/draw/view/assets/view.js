@@ -1,0 +1,446 @@
+// The page: two panels, what can be shown in them, and time.
+'use strict';
+
+/** An element with attributes and children. */
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith('on')) made.addEventListener(name.slice(2), value);
+    else if (value !== undefined && value !== false) made.setAttribute(name, value === true ? '' : value);
+  }
+  made.append(...children.filter((child) => child !== undefined && child !== null));
+  return made;
+}
+
+/** Names of layers, and whether they are shown at first. Which of them there are depends on what is shown. */
+const LAYERS = [
+  ['c-obstacles', 'C-obstacles', true],
+  ['path', 'path', true],
+  ['roadmap', 'visibility graph', true],
+  ['channel', 'channel', true],
+  ['cells', 'cells', true],
+  ['wavefront', 'wavefront', true],
+  ['equipotentials', 'equipotentials', true],
+  ['flow', 'flow lines', false],
+  ['boxes', 'subdivision boxes', true],
+  ['proof', 'proof of infeasibility', true],
+  ['regions', 'preferred regions', true],
+  ['poses', 'poses along the path', true],
+  ['trace', 'trace of the tip', true],
+  ['names', 'names', true],
+  ['frames', 'frames', true],
+];
+const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022' };
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
+/** More obstacles than this are numbered, not named. */
+const NAMED = 16;
+
+class View {
+  /** A view of `model` within `root`. */
+  constructor(root, model) {
+    this.root = root;
+    this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
+    this.hidden = new Set();
+    this.time = 0;
+    this.speed = 1;
+    this.probe = null;
+    this.pinned = false;
+    /** Who takes the pointer before the view does: { down, move, up }, each called with panel, value and event. */
+    this.tool = null;
+    this.build();
+    this.update(model);
+    const themes = matchMedia('(prefers-color-scheme: dark)');
+    themes.addEventListener('change', () => this.recolor());
+    document.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  // What is shown.
+
+  /** Shows another model; layers, hidden obstacles and, as far as it goes, the time stay. */
+  update(model) {
+    this.model = model;
+    this.traces = null;
+    this.stale = false;
+    this.named = (model.worlds[0]?.obstacles.length ?? 0) <= NAMED;
+    this.headings();
+    this.choices();
+    const { workspace, cspace } = this.panels;
+    const { joints, plane } = model.arm;
+    [workspace.x, workspace.y] = model.frame;
+    workspace.titles = plane;
+    [cspace.x, cspace.y] = joints.map((joint) => joint.domain);
+    cspace.degrees = joints.map((joint) => joint.unit === 'rad');
+    cspace.seams = joints.map((joint) => joint.circle);
+    cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
+    const [width, height] = joints.map(({ domain }) => domain[1] - domain[0]);
+    const alike = joints[0].unit === joints[1].unit && width <= 2.2 * height && height <= 2.2 * width;
+    cspace.scale = alike ? 'fit' : 'free';
+    for (const panel of [workspace, cspace]) panel.layout();
+    const moves = Boolean(model.clock);
+    this.parts.transport.hidden = !moves;
+    this.parts.plots.hidden = !moves;
+    this.parts.scrubber.max = this.duration;
+    for (const plot of this.plots) plot.fit();
+    this.time = Math.min(this.time, this.duration);
+    if (!moves) this.pause();
+    this.seek(this.time);
+    this.refresh();
+  }
+
+  get duration() {
+    return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
+  }
+
+  /** The motion that is under way. */
+  get motion() {
+    const { motions } = this.model;
+    let found = 0;
+    for (let i = 1; i < motions.length && motions[i].from <= this.time + 1e-9; i += 1) found = i;
+    return motions[found];
+  }
+
+  get world() {
+    return this.model.worlds[this.motion?.world ?? 0];
+  }
+
+  /** Where the arm is. */
+  get q() {
+    return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
+  }
+
+  shows(layer) {
+    return this.layers.get(layer);
+  }
+
+  /** The paths in the world that is shown. */
+  pathsHere() {
+    const world = this.motion?.world ?? 0;
+    return this.stale ? [] : this.model.paths.filter((path) => path.world === world);
+  }
+
+  beginning() {
+    const [first] = this.model.paths.filter((path) => path.world === (this.motion?.world ?? 0));
+    return first ? first.points.slice(0, 2) : this.model.start;
+  }
+
+  /** Ends of the paths that are shown, or the goals where there are none. */
+  ends() {
+    const ends = this.pathsHere().map((path) => path.points.slice(-2));
+    return ends.length ? ends.slice(0, 1) : this.model.goals.slice(0, 1);
+  }
+
+  /** Goals, each with whether a path ends there (or none was found). */
+  goals() {
+    const ends = this.pathsHere().map((path) => path.points.slice(-2));
+    const alone = ends.length === 0;
+    const unreached = this.world.unreached.map((q) => [q, false]);
+    return [...this.model.goals.map((q) => [q, alone]), ...unreached, ...ends.map((q) => [q, true])];
+  }
+
+  jointColors() {
+    const { theme } = this.panels.workspace;
+    return [theme.ink, theme.accent];
+  }
+
+  // What the page is made of.
+
+  build() {
+    const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label });
+    const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
+    const parts = {
+      title: element('h1'),
+      lines: element('div', { class: 'lines' }),
+      status: element('p', { class: 'status', role: 'status' }),
+      facts: element('dl', { class: 'facts' }),
+      probe: element('p', { class: 'probe', 'aria-live': 'polite' }),
+      play: element('button', { type: 'button', class: 'play', onclick: () => this.toggle() }, '\u25b6'),
+      scrubber: element('input', {
+        type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
+        oninput: (event) => this.seek(Number(event.target.value)),
+      }),
+      clock: element('output', { class: 'clock' }),
+      step: element('p', { class: 'step', 'aria-live': 'polite' }),
+      layers: element('div', { class: 'choices' }),
+      obstacles: element('div', { class: 'choices' }),
+      plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
+    };
+    const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.hasten(Number(event.target.value)) });
+    for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
+    parts.speed = speed;
+    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.play, parts.scrubber, parts.clock, speed);
+    this.parts = parts;
+    this.root.append(
+      element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
+      element(
+        'section',
+        { class: 'panels' },
+        element('figure', {}, element('figcaption', {}, 'Workspace'), left),
+        element('figure', {}, element('figcaption', {}, 'Configuration space'), right),
+      ),
+      parts.probe,
+      parts.transport,
+      parts.step,
+      parts.plots,
+      element(
+        'section',
+        { class: 'below' },
+        parts.facts,
+        element('fieldset', {}, element('legend', {}, 'Layers'), parts.layers),
+        element('fieldset', {}, element('legend', {}, 'Obstacles'), parts.obstacles),
+      ),
+      help(),
+    );
+    this.panels = {
+      workspace: new Panel(left, {
+        x: [0, 1], y: [0, 1], scale: 'fill',
+        still: (context, panel) => Workspace.still(context, panel, this),
+        moving: (context, panel) => Workspace.moving(context, panel, this),
+      }),
+      cspace: new Panel(right, {
+        x: [0, 1], y: [0, 1], scale: 'fit',
+        still: (context, panel) => CSpace.still(context, panel, this),
+        moving: (context, panel) => CSpace.moving(context, panel, this),
+      }),
+    };
+    this.plots = Plots.mount(parts.plots, this);
+    for (const panel of Object.values(this.panels)) this.listen(panel);
+    this.recolor();
+  }
+
+  headings() {
+    const { title, status, ending, facts } = this.model;
+    const { parts } = this;
+    parts.title.textContent = title[0] ?? '';
+    parts.lines.replaceChildren(...title.slice(1).map((text) => element('p', {}, text)));
+    parts.status.dataset.ending = ending;
+    parts.status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${status}`);
+    parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+  }
+
+  /** Layers that there are, and obstacles. */
+  choices() {
+    const { worlds, paths } = this.model;
+    const kinds = new Set(worlds.map((world) => world.trace?.kind));
+    const any = (key) => worlds.some((world) => world[key].length > 0);
+    const there = {
+      'c-obstacles': any('c_obstacles'), path: paths.length > 0, roadmap: kinds.has('roadmap'), channel: kinds.has('channel'),
+      cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
+      flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
+      trace: paths.length > 0, names: any('obstacles'), frames: this.model.frames.length > 0,
+    };
+    const wanted = LAYERS.filter(([name]) => there[name]);
+    const names = [...new Map(worlds.flatMap((world) => world.obstacles.map((o) => [o.name, o.color])))];
+    const signature = JSON.stringify([wanted.map(([name]) => name), names]);
+    if (signature === this.signature) return;
+    this.signature = signature;
+    this.parts.layers.replaceChildren(...wanted.map(([name, text]) => {
+      const box = element('input', {
+        type: 'checkbox', checked: this.layers.get(name), 'data-layer': name,
+        onchange: (event) => this.layer(name, event.target.checked),
+      });
+      return element('label', {}, box, ` ${text}`);
+    }));
+    this.parts.obstacles.replaceChildren(...names.map(([name, color], index) => {
+      const box = element('input', {
+        type: 'checkbox', checked: !this.hidden.has(name), 'data-obstacle': name,
+        onchange: (event) => {
+          this.hidden[event.target.checked ? 'delete' : 'add'](name);
+          this.refresh();
+        },
+      });
+      const swatch = element('span', { class: 'swatch', style: `background:${color}` });
+      return element('label', {}, box, swatch, this.named ? name : `${index + 1} ${name}`);
+    }));
+    this.parts.obstacles.parentElement.hidden = names.length === 0;
+  }
+
+  layer(name, shown) {
+    this.layers.set(name, shown);
+    const box = this.parts.layers.querySelector(`[data-layer="${name}"]`);
+    if (box) box.checked = shown;
+    this.refresh();
+  }
+
+  recolor() {
+    const theme = new Theme(document.documentElement);
+    for (const panel of this.allPanels()) panel.theme = theme;
+    this.refresh();
+  }
+
+  allPanels() {
+    return [...Object.values(this.panels), ...(this.plots ?? []).map((plot) => plot.panel)];
+  }
+
+  /** Draws everything anew. */
+  refresh() {
+    if (!this.model) return;
+    for (const panel of this.allPanels()) {
+      panel.dirty = true;
+      panel.draw();
+    }
+  }
+
+  // Time.
+
+  seek(time) {
+    const before = this.motion;
+    this.time = Math.min(this.duration, Math.max(0, Number.isFinite(time) ? time : 0));
+    const { parts, motion } = this;
+    if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
+    parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
+    parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
+    const step = this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '';
+    if (parts.step.textContent !== step) parts.step.textContent = step;
+    if (motion !== before) {
+      for (const panel of Object.values(this.panels)) panel.dirty = true;
+      if (this.probe) this.examine(this.probe.q);
+    }
+    for (const panel of this.allPanels()) panel.draw();
+  }
+
+  toggle() {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  play() {
+    if (!this.model.clock) return;
+    if (this.time >= this.duration) this.seek(0);
+    this.playing = true;
+    this.mark();
+    let before = null;
+    const tick = (now) => {
+      if (!this.playing) return;
+      if (before !== null) this.seek(this.time + ((now - before) / 1000) * this.speed);
+      before = now;
+      if (this.time >= this.duration) this.pause();
+      else requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  pause() {
+    this.playing = false;
+    this.mark();
+  }
+
+  mark() {
+    this.parts.play.textContent = this.playing ? '\u23f8' : '\u25b6';
+    this.parts.play.setAttribute('aria-label', this.playing ? 'pause' : 'play');
+  }
+
+  hasten(speed) {
+    this.speed = speed;
+    this.parts.speed.value = String(speed);
+  }
+
+  // Trying a configuration.
+
+  listen(panel) {
+    const { canvas } = panel;
+    const asTool = (name, event) => this.tool?.[name]?.(panel, panel.value(panel.spot(event)), event);
+    canvas.addEventListener('pointerdown', (event) => {
+      if (asTool('down', event)) {
+        canvas.setPointerCapture(event.pointerId);
+        event.preventDefault();
+      } else if (panel === this.panels.cspace && panel.contains(panel.spot(event))) {
+        this.pinned = event.pointerType === 'mouse' ? !this.pinned : true;
+        this.examine(panel.value(panel.spot(event)));
+      }
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (asTool('move', event) || panel !== this.panels.cspace) return;
+      const held = event.pointerType !== 'mouse' && event.buttons;
+      if (panel.contains(panel.spot(event)) && (held || !this.pinned)) this.examine(panel.value(panel.spot(event)));
+    });
+    canvas.addEventListener('pointerup', (event) => asTool('up', event));
+    canvas.addEventListener('pointercancel', (event) => asTool('up', event));
+    canvas.addEventListener('pointerleave', () => {
+      if (panel === this.panels.cspace && !this.pinned) this.examine(null);
+    });
+  }
+
+  /** Puts the arm to q, to see what it would touch; without q, no more. */
+  examine(q) {
+    this.probe = q && { q, contacts: Geometry.contacts(this.model.arm, this.world, q) };
+    if (!q) this.pinned = false;
+    const text = this.probe ? this.described() : '';
+    if (this.parts.probe.textContent !== text) this.parts.probe.textContent = text;
+    this.parts.probe.dataset.free = this.probe ? String(!(this.probe.contacts[0]?.distance <= 0)) : '';
+    for (const panel of Object.values(this.panels)) panel.draw();
+  }
+
+  described() {
+    const { q, contacts } = this.probe;
+    const { arm } = this.model;
+    const value = (joint, x) => (joint.unit === 'rad' ? `${((x * 180) / Math.PI).toFixed(1)}\u00b0` : `${x.toFixed(3)} m`);
+    const at = arm.joints.map((joint, k) => `${joint.name} ${value(joint, q[k])}`).join(', ');
+    const hits = contacts.filter((c) => c.distance <= 0);
+    const who = (c) => (c.carried ? `payload "${c.body}"` : `link "${arm.links[c.link].name}"`);
+    const pair = (c) => `${who(c)} and "${this.world.obstacles[c.obstacle].name}"`;
+    const depth = (c) => `${(-c.distance * 1000).toPrecision(3)} mm deep`;
+    if (hits.length) return `${at}: touches. ${hits.map((c) => `${pair(c)}, ${depth(c)}`).join('; ')}`;
+    const [nearest] = contacts;
+    if (!nearest) return `${at}: free; nothing can be hit`;
+    const room = nearest.distance <= this.world.clearance ? 'nearer than the clearance asked for' : 'free';
+    return `${at}: ${room}; nearest: ${pair(nearest)}, ${(nearest.distance * 1000).toPrecision(3)} mm`;
+  }
+
+  // Keys.
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target.matches?.('input:not([type=checkbox]):not([type=range]), textarea, select')) return;
+    const { canvas } = this.panels.cspace;
+    if (event.target === canvas && this.nudge(event)) return;
+    const control = event.target.matches?.('button, input, a, summary');
+    const step = event.shiftKey ? 0.5 : 0.05;
+    const keys = {
+      ' ': () => !control && this.toggle(),
+      k: () => this.toggle(),
+      ArrowRight: () => !control && this.seek(this.time + step),
+      ArrowLeft: () => !control && this.seek(this.time - step),
+      Home: () => !control && this.seek(0),
+      End: () => !control && this.seek(this.duration),
+      '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
+      '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
+      Escape: () => this.examine(null),
+    };
+    const done = keys[event.key]?.();
+    if (done !== undefined && done !== false) event.preventDefault();
+    else if (keys[event.key] && !control) event.preventDefault();
+  }
+
+  /** Arrow keys move the cross in the configuration space. */
+  nudge(event) {
+    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+    const way = ways[event.key];
+    if (!way) return false;
+    const from = this.probe?.q ?? this.q;
+    const { joints } = this.model.arm;
+    const step = (joint) => (joint.unit === 'rad' ? Math.PI / 180 : (joint.domain[1] - joint.domain[0]) / 200) * (event.shiftKey ? 10 : 1);
+    const next = joints.map((joint, k) => {
+      const value = Geometry.wrap(joint, from[k] + way[k] * step(joint));
+      return joint.circle ? value : Math.min(joint.domain[1], Math.max(joint.domain[0], value));
+    });
+    this.pinned = true;
+    this.examine(next);
+    event.preventDefault();
+    return true;
+  }
+}
+
+function help() {
+  const rows = [
+    ['point into the configuration space', 'the arm stands there; what it touches is named'],
+    ['click, tap', 'hold it there, or let go'],
+    ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
+    ['Space or k', 'play, pause'],
+    ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
+    ['Home, End', 'to the start, to the end'],
+    ['+, \u2212', 'faster, slower'],
+    ['Escape', 'takes the tried arm away'],
+  ];
+  const list = element('dl', {}, ...rows.flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
+  return element('details', { class: 'help' }, element('summary', {}, 'Keys and pointer'), list);
+}

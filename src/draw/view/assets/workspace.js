@@ -1,0 +1,259 @@
+// The left panel: obstacles, the arm, and where its tip goes.
+'use strict';
+
+const Workspace = (() => {
+  const { poses, tipAt, elbowAt, payloadPose, placed, along, pointsOf } = Geometry;
+
+  /** Length of a straight piece of a tip's trace, as a part of a turn. */
+  const FINE = 0.0125;
+  /** Frames of joints: length of an axis, pixels. */
+  const AXIS = 46;
+  const FONT = '600 12px system-ui, sans-serif';
+
+  function outline(context, panel, obstacle) {
+    context.beginPath();
+    const { polygon, circle, polyline } = obstacle.outline;
+    if (polygon) trace(context, panel, polygon, true);
+    else if (polyline) trace(context, panel, polyline, false);
+    else if (circle) rounded(context, panel, { core: circle.slice(0, 2), radius: Math.max(circle[2], 1 / panel.pixels) });
+    else for (const piece of obstacle.pieces.slice(0, obstacle.own)) rounded(context, panel, piece);
+  }
+
+  function obstacles(context, panel, view, world) {
+    const { theme } = panel;
+    world.obstacles.forEach((obstacle, index) => {
+      if (view.hidden.has(obstacle.name)) return;
+      const { fill, line: edge } = theme.obstacle(obstacle.color);
+      outline(context, panel, obstacle);
+      context.fillStyle = fill;
+      context.strokeStyle = edge;
+      context.lineWidth = obstacle.outline.polyline ? 3 : 1.4;
+      if (obstacle.outline.polyline) context.stroke();
+      else {
+        // What pieces have in common is no outline.
+        context.stroke();
+        context.fill();
+      }
+    });
+  }
+
+  function names(context, panel, view, world) {
+    const shown = world.obstacles.map((obstacle, index) => {
+      if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return null;
+      return [view.named ? obstacle.name : String(index + 1), panel.at(middle(obstacle))];
+    });
+    labels(context, panel, shown.filter(Boolean));
+  }
+
+  /** Texts about spots, moved into the panel; one that would lie over another is left out. */
+  function labels(context, panel, texts) {
+    const { rect } = panel;
+    const taken = [];
+    context.font = FONT;
+    for (const [text, [x, y]] of texts) {
+      const [w, h] = [context.measureText(text).width / 2 + 3, 9];
+      const at = [Math.min(rect.x + rect.width - w, Math.max(rect.x + w, x)), Math.min(rect.y + rect.height - h, Math.max(rect.y + h, y))];
+      if (taken.some(([p, v, wide]) => Math.abs(p - at[0]) < wide + w && Math.abs(v - at[1]) < 2 * h)) continue;
+      taken.push([...at, w]);
+      label(context, panel.theme, text, ...at);
+    }
+  }
+
+  function middle({ pieces, own }) {
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const { core } of pieces.slice(0, own)) {
+      for (const [x, y] of pointsOf(core)) {
+        [x0, x1, y0, y1] = [Math.min(x0, x), Math.max(x1, x), Math.min(y0, y), Math.max(y1, y)];
+      }
+    }
+    return [(x0 + x1) / 2, (y0 + y1) / 2];
+  }
+
+  function label(context, theme, text, x, y) {
+    context.font = FONT;
+    context.textAlign = 'center';
+    context.textBaseline = 'middle';
+    context.lineWidth = 3.5;
+    context.strokeStyle = theme.paper;
+    context.strokeText(text, x, y);
+    context.fillStyle = theme.ink;
+    context.fillText(text, x, y);
+  }
+
+  /** The arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
+  function arm(context, panel, view, world, q, look) {
+    const model = view.model.arm;
+    const at = poses(model, q);
+    context.save();
+    context.globalAlpha = look.alpha ?? 1;
+    model.links.forEach((link, k) => {
+      context.beginPath();
+      for (const part of link.parts) rounded(context, panel, placed(part, at[k]));
+      context.lineWidth = 2 * look.width;
+      context.strokeStyle = look.line;
+      context.stroke();
+      context.fillStyle = look.touching?.has(k) ? look.touch : look.fill;
+      context.fill();
+    });
+    if (world.payload) {
+      const pose = payloadPose(model, world.payload, q);
+      const { fill, line: edge } = panel.theme.obstacle(world.payload.color);
+      context.beginPath();
+      for (const piece of world.payload.pieces) rounded(context, panel, placed(piece, pose));
+      context.strokeStyle = edge;
+      context.stroke();
+      context.fillStyle = look.touching?.has('payload') ? look.touch : fill;
+      context.fill();
+    }
+    if (look.joints) skeleton(context, panel, model, q, look.line);
+    context.restore();
+  }
+
+  function skeleton(context, panel, model, q, color) {
+    const [base, elbow, tip] = [model.base, elbowAt(model, q), tipAt(model, q)].map((p) => panel.at(p));
+    context.lineWidth = 1;
+    context.strokeStyle = color;
+    line(context, [base, elbow, tip]);
+    for (const [[x, y], r, filled] of [[base, 5, true], [elbow, 3.5, true], [tip, 3.5, false]]) {
+      context.beginPath();
+      context.arc(x, y, r, 0, 2 * Math.PI);
+      context.fillStyle = filled ? color : panel.theme.paper;
+      context.fill();
+      context.lineWidth = 1.5;
+      context.stroke();
+    }
+  }
+
+  /** Where the tip goes along a path: straight joint motions are curves here. */
+  function tipTrace(model, flat) {
+    const spots = [];
+    let before = null;
+    for (const q of pointsOf(flat)) {
+      const angle = before ? Math.max(...[0, 1].map((k) => (model.joints[k].sign ? Math.abs(q[k] - before[k]) : 0))) : 0;
+      const pieces = Math.min(2000, Math.max(1, Math.ceil(angle / FINE)));
+      for (let i = 1; before && i <= pieces; i += 1) {
+        spots.push(tipAt(model, [0, 1].map((k) => before[k] + ((q[k] - before[k]) * i) / pieces)));
+      }
+      if (!before) spots.push(tipAt(model, q));
+      before = q;
+    }
+    return spots;
+  }
+
+  function traces(context, panel, view) {
+    const spots = view.traces ?? (view.traces = view.model.paths.map((path) => tipTrace(view.model.arm, path.points)));
+    const draw = (i, path) => {
+      const there = spots[i].map((p) => panel.at(p));
+      pathLine(context, panel.theme, path, () => line(context, there));
+    };
+    // Those of other worlds are there, but pale.
+    const here = new Set(view.pathsHere());
+    context.globalAlpha = 0.22;
+    view.model.paths.forEach((path, i) => !here.has(path) && draw(i, path));
+    context.globalAlpha = 1;
+    view.model.paths.forEach((path, i) => here.has(path) && draw(i, path));
+  }
+
+  function regions(context, panel, world) {
+    for (const region of world.regions.filter((r) => !r.joints)) {
+      context.beginPath();
+      trace(context, panel, region.corners, true);
+      dashed(context, region.epsilon > 0 ? panel.theme.barred : panel.theme.accent);
+    }
+  }
+
+  function dashed(context, color) {
+    context.setLineDash([7, 4]);
+    context.lineWidth = 1.4;
+    context.strokeStyle = color;
+    context.stroke();
+    context.setLineDash([]);
+  }
+
+  /** What stays while the arm moves. */
+  function still(context, panel, view) {
+    const { model, world } = view;
+    const { theme } = panel;
+    obstacles(context, panel, view, world);
+    if (view.shows('regions')) regions(context, panel, world);
+    if (view.shows('poses')) {
+      const shown = view.pathsHere();
+      if (shown.length === 1) {
+        for (const q of along(shown[0].points, 6).slice(1, -1)) {
+          arm(context, panel, view, world, q, { fill: theme.faint, line: theme.pale, width: 0.8, alpha: 0.7 });
+        }
+      }
+      const look = { fill: theme.pale, line: theme.ink, width: 1, alpha: 0.75, joints: true };
+      for (const q of view.ends()) arm(context, panel, view, world, q, look);
+      for (const q of world.unreached) {
+        arm(context, panel, view, world, q, { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
+      }
+    }
+    if (view.shows('trace') && !view.stale) traces(context, panel, view);
+    if (view.shows('names')) names(context, panel, view, world);
+    if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
+  }
+
+  /** What moves: the arm, and the one that is tried. */
+  function moving(context, panel, view) {
+    const { theme } = panel;
+    arm(context, panel, view, view.world, view.q, { fill: theme.paper, line: theme.ink, width: 1.3, joints: true });
+    if (!view.probe) return;
+    const { contacts, q } = view.probe;
+    const hits = contacts.filter((c) => c.distance <= 0);
+    for (const { obstacle } of hits) {
+      outline(context, panel, view.world.obstacles[obstacle]);
+      context.lineWidth = 4;
+      context.strokeStyle = theme.barred;
+      context.stroke();
+    }
+    const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
+    arm(context, panel, view, view.world, q, {
+      fill: theme.free,
+      touch: Theme.mixed(theme.barred, theme.paper, 0.45),
+      touching,
+      line: hits.length ? theme.barred : theme.probe,
+      width: 1.6,
+      alpha: 0.92,
+      joints: true,
+    });
+  }
+
+  /** Directions of a link's frame; one that stands on the plane is a dot (towards us) or a cross. */
+  function axes(context, panel, frame) {
+    const [x, y] = panel.at(frame.at);
+    ['x', 'y', 'z'].forEach((letter, k) => {
+      const [u, v, w] = frame.axes[k];
+      const color = panel.theme.scale(0.25 + 0.3 * k);
+      context.strokeStyle = color;
+      context.fillStyle = color;
+      context.lineWidth = 2.2;
+      if (Math.hypot(u, v) < 0.1) {
+        context.beginPath();
+        context.arc(x, y, 7, 0, 2 * Math.PI);
+        context.stroke();
+        label(context, panel.theme, w > 0 ? '\u2022' : '\u00d7', x, y);
+        return;
+      }
+      line(context, [[x, y], [x + AXIS * u, y - AXIS * v]]);
+      label(context, panel.theme, letter, x + (AXIS + 9) * u, y - (AXIS + 9) * v);
+    });
+    context.textAlign = 'left';
+    label(context, panel.theme, frame.name, x + 30, y + 18);
+  }
+
+  return { still, moving, labels };
+})();
+
+/** A path or trace: in its colour, visible on any ground by the broad line of paper under it. */
+function pathLine(context, theme, path, stroke) {
+  context.lineCap = 'round';
+  for (const [color, width, dash] of [[theme.paper, 5, []], [path.color ?? theme.ink, 2.4, path.dash]]) {
+    context.strokeStyle = color;
+    context.lineWidth = width;
+    context.setLineDash(dash);
+    stroke();
+  }
+  context.setLineDash([]);
+  context.lineCap = 'butt';
+}

@@ -1,0 +1,49 @@
+//! The file around a view.
+
+use super::View;
+
+const STYLE: &str = include_str!("assets/view.css");
+
+/// What draws a view, in the order in which one part needs the other.
+const CODE: [&str; 6] = [
+    include_str!("assets/geometry.js"),
+    include_str!("assets/panel.js"),
+    include_str!("assets/workspace.js"),
+    include_str!("assets/cspace.js"),
+    include_str!("assets/plots.js"),
+    include_str!("assets/view.js"),
+];
+
+/// What shows the view that lies in the page.
+const PLAN: &str = include_str!("assets/plan.js");
+
+/// The view as one self-contained file of HTML: it loads nothing, and may not.
+#[must_use]
+pub fn page(view: &View) -> String {
+    let title = view.title.first().map_or("cplan", String::as_str);
+    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
+    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
+    // Within a script only the less-than sign could end it.
+    let data = view.json().replace('<', "\\u003c");
+    let data = format!("<script id=\"view\" type=\"application/json\">{data}</script>\n");
+    shell(title, &policy, "", &data, PLAN)
+}
+
+/// A page whose code begins with what draws views: its title, what else stands in its head, styles of its own, what stands
+/// before the code, and its own code, which makes a `View` within `main`.
+#[must_use]
+pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
+    let title = escaped(title);
+    let drawing = CODE.concat();
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{head}\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
+         <style>\n{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
+         off here.</noscript></main>\n{before}<script>\n{drawing}{code}</script>\n</body>\n</html>\n"
+    )
+}
+
+/// Text for HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
