@@ -7,6 +7,8 @@ use super::init::InitArgs;
 use super::man::ManArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
+#[cfg(feature = "serve")]
+use super::serve::ServeArgs;
 use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
@@ -27,6 +29,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
   cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
@@ -60,6 +63,9 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
+    /// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
+    #[cfg(feature = "serve")]
+    Serve(ServeArgs),
     /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.svg.
     Demo(DemoArgs),
     /// Write a commented world and a robot to start from.

@@ -4,11 +4,11 @@ use super::failure::Failure;
 use super::output::{self, PictureFormat};
 use super::summary;
 use crate::certify::CertifiedCurve;
-use crate::draw::{Ending, Picture, View};
+use crate::draw::{Ending, Picture, View, page};
 use crate::model::Problem;
 use crate::plan::FieldPlanner;
 use crate::solve::{Answer, Verdict};
-use crate::trajectory::Report;
+use crate::trajectory::{Report, write_whole};
 use std::path::Path;
 
 /// The answer to one problem.
@@ -26,13 +26,19 @@ impl Planned<'_> {
     /// Writes a picture of it.
     ///
     /// # Errors
-    /// I/O.
+    /// I/O, or a program built without PNG.
     pub fn save(&self, format: PictureFormat, path: &Path) -> Result<(), Failure> {
+        Ok(write_whole(path, &self.bytes(format)?)?)
+    }
+
+    /// A picture of it as a file holds it.
+    ///
+    /// # Errors
+    /// A program built without PNG.
+    pub fn bytes(&self, format: PictureFormat) -> Result<Vec<u8>, Failure> {
         match format {
-            PictureFormat::Html => output::save_view(path, &self.view()),
-            PictureFormat::Svg | PictureFormat::Png => {
-                self.with_picture(|picture| output::save_picture(format, path, picture))
-            }
+            PictureFormat::Html => Ok(page(&self.view()).into_bytes()),
+            PictureFormat::Svg | PictureFormat::Png => self.with_picture(|picture| output::drawn(format, picture)),
         }
     }
 

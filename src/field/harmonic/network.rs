@@ -131,6 +131,7 @@ impl Network {
             row[n + 1..].copy_from_slice(&self.source[node]);
         }
         for k in 0..n {
+            checkpoint();
             let (done, left) = rows.split_at_mut((k + 1) * width);
             let row = &mut done[k * width..];
             row[k] = row[k + 1..=n].iter().sum();
