@@ -16,15 +16,15 @@ pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 
 /// Names of the files that are written.
 const RESULT: &str = "plan.json";
-const PICTURE: &str = "plan.svg";
+const PICTURE: &str = "plan.html";
 
 /// Arguments of `demo`: all options of the main job, and where to write.
 #[derive(Debug, Args)]
 pub struct DemoArgs {
-    /// Folder for plan.json and plan.svg; made if it is not there.
+    /// Folder for plan.json and plan.html; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
-    /// Replace plan.json and plan.svg if they are there.
+    /// Replace plan.json and plan.html if they are there.
     #[arg(long)]
     pub force: bool,
     #[command(flatten)]

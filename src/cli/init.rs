@@ -219,7 +219,7 @@ fn told(robot: &Path, world: &Path, schema: &Path) -> String {
         ("file", format!("{}: the robot", robot.display())),
         ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
         ("file", format!("{}: for editors, which then complete and explain the keys of the world", schema.display())),
-        ("next", format!("cplan {both} --picture plan.svg")),
+        ("next", format!("cplan {both} --picture plan.html")),
         ("next", format!("cplan check {both} --at 0.3,0.4")),
         ("next", format!("cplan inspect {both}")),
         ("next", format!("cplan compare {both}")),

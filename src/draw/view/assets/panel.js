@@ -62,6 +62,7 @@ class Panel {
     this.canvas = canvas;
     this.overlays = [];
     this.back = document.createElement('canvas');
+    this.scratch = document.createElement('canvas');
     this.dirty = true;
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.resize();
@@ -71,7 +72,7 @@ class Panel {
     const ratio = window.devicePixelRatio || 1;
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
-    for (const canvas of [this.canvas, this.back]) {
+    for (const canvas of [this.canvas, this.back, this.scratch]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
@@ -158,6 +159,19 @@ class Panel {
     context.clearRect(0, 0, this.size[0], this.size[1]);
     context.lineJoin = 'round';
     return context;
+  }
+
+  /** Draws something as a whole, and all of it as transparent as `alpha` says. */
+  faded(context, alpha, draw) {
+    if (alpha >= 1) {
+      draw(context);
+      return;
+    }
+    draw(this.begin(this.scratch));
+    context.save();
+    context.globalAlpha = alpha;
+    context.drawImage(this.scratch, 0, 0, this.size[0], this.size[1]);
+    context.restore();
   }
 
   within(context, draw) {
@@ -247,7 +261,8 @@ function rounded(context, panel, { core, radius }) {
   if (n === 1) {
     const [x, y] = panel.at(core);
     context.moveTo(x + r, y);
-    context.arc(x, y, r, 0, 2 * Math.PI);
+    // The same way round as the other outlines, which are united by the non-zero rule.
+    context.arc(x, y, r, 0, 2 * Math.PI, true);
     return;
   }
   let [first, last] = [null, null];

@@ -118,9 +118,13 @@ class View {
     return this.stale ? [] : this.model.paths.filter((path) => path.world === world);
   }
 
+  /** Where the arm is when what is shown begins. */
   beginning() {
-    const [first] = this.model.paths.filter((path) => path.world === (this.motion?.world ?? 0));
-    return first ? first.points.slice(0, 2) : this.model.start;
+    const { clock, start, paths } = this.model;
+    const { motion } = this;
+    const [first] = paths.filter((path) => path.world === motion?.world);
+    if (first) return first.points.slice(0, 2);
+    return motion && clock ? Geometry.moving(clock, motion.from).position : start;
   }
 
   /** Ends of the paths that are shown, or the goals where there are none. */
@@ -204,6 +208,7 @@ class View {
     };
     this.plots = Plots.mount(parts.plots, this);
     for (const panel of Object.values(this.panels)) this.listen(panel);
+    this.mark();
     this.recolor();
   }
 

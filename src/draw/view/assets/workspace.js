@@ -59,7 +59,15 @@ const Workspace = (() => {
     }
   }
 
-  function middle({ pieces, own }) {
+  /** Where a name stands: in the middle, of a wall in the middle of its longest piece. */
+  function middle({ outline: { polyline }, pieces, own }) {
+    if (polyline) {
+      const points = [...pointsOf(polyline)];
+      const sides = points.slice(1).map((b, i) => [points[i], b]);
+      const length = ([a, b]) => Math.hypot(b[0] - a[0], b[1] - a[1]);
+      const [a, b] = sides.reduce((best, side) => (length(side) > length(best) ? side : best));
+      return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
+    }
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const { core } of pieces.slice(0, own)) {
       for (const [x, y] of pointsOf(core)) {
@@ -82,10 +90,12 @@ const Workspace = (() => {
 
   /** The arm at q. `look`: fill, line, width, alpha, whether joints are shown, and colours of links that touch. */
   function arm(context, panel, view, world, q, look) {
+    panel.faded(context, look.alpha ?? 1, (layer) => solid(layer, panel, view, world, q, look));
+  }
+
+  function solid(context, panel, view, world, q, look) {
     const model = view.model.arm;
     const at = poses(model, q);
-    context.save();
-    context.globalAlpha = look.alpha ?? 1;
     model.links.forEach((link, k) => {
       context.beginPath();
       for (const part of link.parts) rounded(context, panel, placed(part, at[k]));
@@ -106,7 +116,6 @@ const Workspace = (() => {
       context.fill();
     }
     if (look.joints) skeleton(context, panel, model, q, look.line);
-    context.restore();
   }
 
   function skeleton(context, panel, model, q, color) {

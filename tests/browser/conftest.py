@@ -1,0 +1,116 @@
+"""Pages in a real browser: Debian's Chromium, headless, driven by Playwright. `.ci/run` installs both and runs
+
+    pytest tests/browser
+
+CPLAN names the program (target/debug/cplan without it), CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for
+pictures of what was seen (target/browser).
+"""
+
+import json
+import os
+import shutil
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import sync_playwright
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = Path(os.environ.get("CPLAN", ROOT / "target/debug/cplan"))
+SCREENSHOTS = Path(os.environ.get("CPLAN_SCREENSHOTS", ROOT / "target/browser"))
+
+
+class Program:
+    """cplan, run in a folder of its own."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def run(self, *words, code=0):
+        """Runs it and returns what it printed; the exit code must be the given one."""
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+        assert done.returncode == code, done.stderr
+        return done.stdout
+
+    def plan(self, robot, world, *words, code=0):
+        """Plans a shipped workspace; returns the page of it and the result."""
+        name = world.replace("/", "_") + "-".join(words).replace("--", "")
+        page = self.folder / f"{name}.html"
+        files = [ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml"]
+        result = self.run(*files, *words, "--json", "--picture", page, code=code)
+        return page, json.loads(result)
+
+
+@pytest.fixture(scope="session")
+def program(tmp_path_factory):
+    return Program(tmp_path_factory.mktemp("pages"))
+
+
+@pytest.fixture(scope="session")
+def browser():
+    name = os.environ.get("CPLAN_BROWSER", "chromium")
+    path = shutil.which(name)
+    assert path, f"there is no {name}: install Debian's chromium, or set CPLAN_BROWSER"
+    with sync_playwright() as playwright:
+        # Containers run as root, where Chromium's sandbox does not work.
+        launched = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield launched
+        launched.close()
+
+
+class Seen:
+    """A page, with what it complained about."""
+
+    def __init__(self, page):
+        self.page = page
+        self.complaints = []
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("console", lambda message: message.type == "error" and self.complaints.append(message.text))
+
+    def shoot(self, name):
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        self.page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=True)
+
+    def do(self, code, argument=None):
+        return self.page.evaluate(code, argument)
+
+    def until(self, code, seconds=20):
+        """Waits until this is true. (The page's policy forbids the browser to evaluate strings by itself.)"""
+        deadline = time.monotonic() + seconds
+        while not self.do(code):
+            assert time.monotonic() < deadline, f"{code} is not true after {seconds} s"
+            self.page.wait_for_timeout(20)
+
+
+@pytest.fixture
+def show(browser):
+    """Opens an address in a window of its own; at the end nothing may have gone wrong in it."""
+    opened = []
+
+    def open_(address, width=1400, height=1000, **options):
+        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, **options)
+        seen = Seen(context.new_page())
+        opened.append((context, seen))
+        seen.page.goto(address)
+        return seen
+
+    yield open_
+    for context, seen in opened:
+        context.close()
+        assert seen.complaints == []
+
+
+@pytest.fixture
+def show_file(show):
+    """The same for a page in a file, which must not ask for anything else."""
+
+    def open_(path, **options):
+        asked = []
+        seen = show("about:blank", **options)
+        seen.page.on("request", lambda request: asked.append(request.url))
+        seen.page.goto(path.as_uri())
+        assert asked == [path.as_uri()], "a page by itself asks for nothing"
+        return seen
+
+    return open_

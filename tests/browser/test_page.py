@@ -1,0 +1,250 @@
+"""The page of `--picture plan.html`."""
+
+import json
+import math
+import random
+
+import pytest
+from conftest import ROOT
+
+# Robots of all kinds, each with a workspace.
+CASES = [
+    ("planar_2r", "workbench"),
+    ("planar_2r_continuous", "torus_open"),
+    ("scara", "scara_tray"),
+    ("polar", "polar_gate"),
+    ("slide_arm", "slide_table"),
+    ("gantry", "gantry_maze"),
+    ("l_forearm", "l_hook"),
+]
+
+
+def pixels(seen, panel):
+    """The pixels of a panel, to see whether something changes."""
+    return seen.do("(panel) => cplan.panels[panel].canvas.toDataURL()", panel)
+
+
+@pytest.mark.parametrize(("robot", "world"), CASES)
+def test_contacts_are_those_of_the_program(program, show_file, robot, world):
+    page, _ = program.plan(robot, world)
+    seen = show_file(page)
+    domains = seen.do("cplan.model.arm.joints.map((joint) => joint.domain)")
+    source = random.Random(1)
+    files = [ROOT / f"robots/{robot}.urdf", ROOT / f"workspaces/{world}.toml"]
+    touching = 0
+    for _ in range(25):
+        q = [source.uniform(*domain) for domain in domains]
+        seen.do("(q) => cplan.examine(q)", q)
+        shown = seen.do("cplan.probe.contacts")
+        said = json.loads(program.run("check", *files, f"--at={q[0]!r},{q[1]!r}", "--json"))
+        assert shown[0]["distance"] == pytest.approx(said["clearance"], abs=3e-5)
+        tip = seen.do("(q) => Geometry.tipAt(cplan.model.arm, q)", q)
+        assert tip == pytest.approx(said["tip"], abs=1e-9)
+        hits = {contact["obstacle"] for contact in said["contacts"] if contact["touching"]}
+        names = seen.do("cplan.world.obstacles.map((obstacle) => obstacle.name)")
+        assert {names[c["obstacle"]] for c in shown if c["distance"] <= 0} == hits
+        text = seen.page.locator(".probe").inner_text()
+        assert all(name in text for name in hits)
+        assert ("touches" in text) == bool(hits)
+        touching += bool(hits)
+    assert 0 < touching < 25, "both are seen"
+
+
+def test_the_arm_is_where_the_trajectory_says(program, show_file):
+    page, result = program.plan("planar_2r", "workbench")
+    seen = show_file(page)
+    motion = result["trajectory"]
+    for k in range(0, len(motion["time"]), 7):
+        seen.do("(t) => cplan.seek(t)", motion["time"][k])
+        assert seen.do("cplan.q") == pytest.approx(motion["position"][k], abs=2e-5)
+    seen.do("(t) => cplan.seek(t)", motion["time"][-1] + 5)
+    assert seen.do("cplan.time") == pytest.approx(motion["time"][-1], abs=1e-6)
+
+
+def test_time_runs_and_obeys(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    duration = seen.do("cplan.duration")
+    before = pixels(seen, "workspace")
+    seen.page.get_by_label("speed").select_option("10")
+    seen.page.get_by_role("button", name="play").click()
+    seen.until("cplan.time === cplan.duration && !cplan.playing")
+    assert pixels(seen, "workspace") != before
+    seen.page.get_by_label("time", exact=True).fill(str(duration / 2))
+    assert seen.do("cplan.time") == pytest.approx(duration / 2)
+    # The third plot's middle is the middle of the time.
+    box = seen.page.locator(".plots canvas").nth(2).bounding_box()
+    seen.page.mouse.click(box["x"] + box["width"] * 0.3, box["y"] + box["height"] / 2)
+    assert 0.1 * duration < seen.do("cplan.time") < 0.4 * duration
+
+
+def test_everything_can_be_done_by_keyboard(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    keyboard = seen.page.keyboard
+    keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") == pytest.approx(0.05)
+    keyboard.press("End")
+    assert seen.do("cplan.time") == seen.do("cplan.duration")
+    keyboard.press("Home")
+    keyboard.press("+")
+    assert seen.do("cplan.speed") == 2
+    keyboard.press(" ")
+    assert seen.do("cplan.playing")
+    keyboard.press(" ")
+    assert not seen.do("cplan.playing")
+    # Every control is reached by the tabulator, and has a name.
+    reached = set()
+    for _ in range(40):
+        keyboard.press("Tab")
+        reached.add(seen.do("document.activeElement.dataset.layer ?? document.activeElement.dataset.obstacle ?? document.activeElement.tagName"))
+    layers = {"c-obstacles", "path", "roadmap", "poses", "trace", "names"}
+    assert layers | {"shelf", "crate", "CANVAS", "BUTTON", "INPUT", "SELECT", "SUMMARY"} <= reached
+    nameless = seen.do(
+        """[...document.querySelectorAll('button, input, select, canvas')].filter((e) =>
+             !(e.getAttribute('aria-label') || e.closest('label')?.textContent.trim())).length"""
+    )
+    assert nameless == 0
+    # The cross in the configuration space begins where the arm is.
+    seen.do("cplan.seek(0)")
+    seen.page.locator("canvas[aria-label='Configuration space']").focus()
+    for _ in range(6):
+        keyboard.press("Shift+ArrowLeft")
+    q = seen.do("cplan.probe.q")
+    assert q == pytest.approx([-0.9 - math.radians(60), 0.4], abs=1e-4)
+    keyboard.press("Escape")
+    assert seen.do("cplan.probe") is None
+
+
+def test_pointing_into_the_configuration_space_puts_the_arm_there(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    box = seen.page.locator("canvas[aria-label='Configuration space']").bounding_box()
+    spot = seen.do("cplan.panels.cspace.at([0.139626, 0])")
+    before = pixels(seen, "workspace")
+    seen.page.mouse.move(box["x"] + spot[0], box["y"] + spot[1])
+    text = seen.page.locator(".probe").inner_text()
+    assert "touches" in text and 'link "forearm" and "shelf"' in text
+    assert pixels(seen, "workspace") != before
+    seen.page.mouse.down()
+    seen.page.mouse.up()
+    seen.page.mouse.move(5, 5)
+    assert "touches" in seen.page.locator(".probe").inner_text(), "a click holds it"
+    seen.shoot("contact")
+    seen.page.keyboard.press("Escape")
+    assert seen.page.locator(".probe").inner_text() == ""
+
+
+LAYERS = [
+    (("planar_2r", "workbench"), ("--planner", "visibility"), {"roadmap"}),
+    (("planar_2r", "workbench"), ("--planner", "trapezoid"), {"cells", "channel"}),
+    (("planar_2r", "workbench"), ("--planner", "wavefront"), {"wavefront"}),
+    (("planar_2r_continuous", "torus_open"), ("--planner", "harmonic"), {"equipotentials", "flow"}),
+    (("planar_2r", "workbench"), ("--planner", "subdivision"), {"boxes"}),
+]
+
+
+@pytest.mark.parametrize(("files", "words", "layers"), LAYERS, ids=lambda value: value[-1] if isinstance(value, tuple) else "")
+def test_layers_come_and_go(program, show_file, files, words, layers):
+    page, _ = program.plan(*files, *words)
+    seen = show_file(page)
+    there = set(seen.do("[...document.querySelectorAll('[data-layer]')].map((box) => box.dataset.layer)"))
+    assert there == layers | {"c-obstacles", "path", "poses", "trace", "names"}
+    for layer in sorted(there):
+        panel = "workspace" if layer in {"poses", "trace"} else "cspace"
+        before = pixels(seen, panel)
+        seen.page.locator(f"[data-layer='{layer}']").click()
+        assert pixels(seen, panel) != before, layer
+        seen.page.locator(f"[data-layer='{layer}']").click()
+        assert pixels(seen, panel) == before, layer
+    if "flow" in there:
+        seen.page.locator("[data-layer='flow']").check()
+    seen.shoot(f"planner-{words[-1]}")
+
+
+def test_obstacles_can_be_hidden_one_by_one(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench")
+    seen = show_file(page)
+    before = [pixels(seen, "workspace"), pixels(seen, "cspace")]
+    seen.page.locator("[data-obstacle='vice']").uncheck()
+    after = [pixels(seen, "workspace"), pixels(seen, "cspace")]
+    assert before[0] != after[0] and before[1] != after[1], "alike in both"
+
+
+def test_no_path_shows_its_proof(program, show_file):
+    page, result = program.plan("planar_2r_continuous", "no_path", code=3)
+    seen = show_file(page)
+    assert "no path: proven" in seen.page.get_by_role("status").inner_text()
+    assert seen.do("cplan.world.proof.length") == 4 * len(result["proof"])
+    before = pixels(seen, "cspace")
+    seen.page.locator("[data-layer='proof']").uncheck()
+    assert pixels(seen, "cspace") != before
+    assert not seen.page.locator(".transport").is_visible()
+    seen.page.locator("[data-layer='proof']").check()
+    seen.shoot("no-path")
+
+
+def test_unknown_says_so(program, show_file):
+    words = ("--planner", "wavefront", "--cells", "8", "--levels", "1")
+    page, result = program.plan("planar_2r", "narrow_slot", *words, code=4)
+    seen = show_file(page)
+    assert "unknown" in seen.page.get_by_role("status").inner_text()
+    assert result["reason"] in seen.page.locator(".facts").inner_text()
+
+
+def test_a_task_is_followed_step_by_step(program, show_file):
+    page, result = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    for event in result["events"]:
+        carried = "cplan.world.payload?.object"
+        seen.do("(t) => cplan.seek(t)", event["time"] - 0.01)
+        before = seen.do(carried)
+        seen.do("(t) => cplan.seek(t)", event["time"] + 0.01)
+        after = seen.do(carried)
+        assert {before, after} == {None, event["object"]}
+    for step in result["steps"]:
+        seen.do("(t) => cplan.seek(t)", (step["begin"] + step["arrival"]) / 2)
+        assert seen.page.locator(".step").inner_text().startswith(f"{step['step']}. ")
+    seen.do("(t) => cplan.seek(t)", result["events"][0]["time"] + 0.5)
+    seen.shoot("task")
+
+
+def test_a_step_that_fails_shows_why(program, show_file):
+    page, _ = program.plan("gantry", "tasks/board_and_gate", code=3)
+    seen = show_file(page)
+    seen.do("cplan.seek(cplan.duration)")
+    assert "fails" in seen.page.locator(".step").inner_text()
+    assert seen.do("cplan.world.proof.length") > 0
+    seen.shoot("task-fails")
+
+
+def test_it_is_readable_in_the_dark_and_on_a_phone(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench", "--planner", "wavefront")
+    for scheme in ("light", "dark"):
+        seen = show_file(page, width=390, height=844, color_scheme=scheme)
+        wide = seen.do("document.documentElement.scrollWidth > document.documentElement.clientWidth")
+        assert not wide, "nothing sticks out to the side"
+        light = seen.do(
+            """() => { const rgb = (name) => getComputedStyle(document.body)[name].match(/\\d+/g).map(Number);
+                 const luminance = (c) => c.map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+                   .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+                 return [luminance(rgb('color')), luminance(rgb('backgroundColor'))]; }"""
+        )
+        assert (light[0] > light[1]) == (scheme == "dark")
+        # WCAG's contrast for text.
+        assert (max(light) + 0.05) / (min(light) + 0.05) > 7
+        seen.shoot(f"phone-{scheme}")
+
+
+def test_other_commands_make_pages_too(program, show_file):
+    files = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+    folder = program.folder
+    program.run("check", *files, "--at=0.1,0.2", "--picture", "check.html")
+    program.run("compare", *files, "--quiet", "--picture", "compare.html")
+    program.run("inspect", files[0], "--picture", "inspect.html")
+    program.run(*files, "--quiet", "--output", "plan.json")
+    program.run("verify", *files, "plan.json", "--picture", "verify.html")
+    assert show_file(folder / "check.html").do("cplan.q") == pytest.approx([0.1, 0.2])
+    assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 5
+    assert show_file(folder / "inspect.html").do("cplan.model.frames.length") == 3
+    assert show_file(folder / "verify.html").do("cplan.model.paths.length") == 1
