@@ -63,7 +63,7 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
-/// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
+    /// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
     #[cfg(feature = "serve")]
     Serve(ServeArgs),
     /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.

@@ -44,8 +44,10 @@ impl Options {
     pub fn parse(text: &str) -> Result<Self, String> {
         let grammar = Grammar::try_parse_from(text.split_whitespace()).map_err(|error| {
             let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            line.strip_prefix("error: ").unwrap_or(line).to_owned()
+            // Up to the usage, which is that of a command line.
+            let lines: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+            let line = lines.join(" ");
+            line.strip_prefix("error: ").unwrap_or(&line).to_owned()
         })?;
         let planner = grammar.planner;
         if let Some(conflict) = grammar.optimum.conflict(planner).or_else(|| grammar.search.conflict(planner)) {
