@@ -14,7 +14,7 @@ use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
 use crate::trajectory::SHORTEST_INTERVAL;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
 /// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
@@ -23,6 +23,8 @@ use std::path::PathBuf;
 #[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 #[command(after_help = "\
 Examples:
+  cplan demo
+  cplan init cell
   cplan robots/planar_2r.urdf workspaces/shelf.toml --output plan.json --picture plan.svg
   cplan robots/scara.urdf workspaces/scara_tray.toml --planner wavefront --goal-tip 0.25,0.3
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
@@ -31,14 +33,15 @@ Examples:
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
-  cplan inspect robots/scara.urdf --picture scara.svg
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
-Lengths are metres, angles radians (or 30deg). Exit codes: 0 found and certified, 1 bad input,
-2 wrong command line, 3 proven that there is no path, 4 unknown.")]
+Lengths are metres, angles radians (or 30deg), times seconds. `cplan help check` and so on explain the other jobs.
+
+Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3 proven that there is no path, 4 unknown.")]
 pub struct Cli {
     /// Other jobs than planning.
     #[command(subcommand)]
@@ -75,6 +78,7 @@ pub enum Command {
     /// Print the manual page, or write those of all commands.
     Man(ManArgs),
     /// Print the JSON schema of world files, for editors.
+    #[command(after_help = super::schema::HELP)]
     Schema,
 }
 
@@ -82,10 +86,10 @@ pub enum Command {
 #[derive(Debug, Args)]
 pub struct Files {
     /// The arm.
-    #[arg(value_name = "URDF")]
+    #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
     /// The workspace, TOML.
-    #[arg(value_name = "WORLD")]
+    #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: PathBuf,
 }
 
@@ -222,7 +226,7 @@ fn clearance(text: &str) -> Result<f64, String> {
 /// Options of the main job.
 #[derive(Debug, Args)]
 pub struct PlanArgs {
-    /// Planner: visibility, trapezoid, wavefront, harmonic or subdivision.
+    /// Planner.
     #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
     pub planner: Method,
     #[command(flatten)]
@@ -236,7 +240,7 @@ pub struct PlanArgs {
     #[command(flatten)]
     pub search: SearchArgs,
     /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Vec<PathBuf>,
     /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml
     /// and so on for --output plan.yaml (worlds with steps).
@@ -244,7 +248,7 @@ pub struct PlanArgs {
     pub per_step: bool,
     /// Draw workspace and configuration space side by side: .svg, .png, or .html (a page in which the arm can be moved).
     /// Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// Print the result as JSON, and nothing else, on stdout.
     #[arg(long)]
@@ -262,6 +266,12 @@ pub struct PlanArgs {
 
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --picture paths.svg
+
+Exit codes: that of the best answer: 0 found, 3 proven that there is no path, 4 unknown; 1 bad input or I/O, 2 wrong
+command line.")]
 pub struct CompareArgs {
     #[command(flatten)]
     pub files: Files,
@@ -285,7 +295,7 @@ pub struct CompareArgs {
     #[arg(long)]
     pub csv: bool,
     /// Draw all paths in one picture: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// No progress.
     #[arg(long)]
@@ -294,6 +304,15 @@ pub struct CompareArgs {
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Depths and distances are in metres. If the configuration is not free, the nearest free one is named as well.
+
+Examples:
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 0.14,0 --clearance 0.02 --picture why.html
+  cplan check robots/scara.urdf workspaces/scara_cell.toml --at=-1,-0.9 --json
+
+Exit codes: 0 whether it is free or not, 1 bad input or I/O, 2 wrong command line.")]
 pub struct CheckArgs {
     #[command(flatten)]
     pub files: Files,
@@ -304,7 +323,7 @@ pub struct CheckArgs {
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
     /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// Print the findings as JSON.
     #[arg(long)]
@@ -313,15 +332,21 @@ pub struct CheckArgs {
 
 /// Arguments of `inspect`.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan inspect robots/planar_2r.urdf
+  cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
+
+Exit codes: 0 the robot can be planned with, 1 it cannot (the report is printed all the same), or I/O, 2 wrong command line.")]
 pub struct InspectArgs {
     /// The robot, which may be broken or no planar arm at all.
-    #[arg(value_name = "URDF")]
+    #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
     pub urdf: PathBuf,
     /// The workspace, TOML: its [robot] table decides what the URDF leaves open.
-    #[arg(value_name = "WORLD")]
+    #[arg(value_name = "WORLD", value_hint = ValueHint::FilePath)]
     pub world: Option<PathBuf>,
     /// Draw the arm at zero with the frames of its joints: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// Print the report as JSON.
     #[arg(long)]
@@ -330,11 +355,17 @@ pub struct InspectArgs {
 
 /// Arguments of `recheck`.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
+  cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
+
+Exit codes: 0 the proof holds, 1 it does not, or bad input or I/O, 2 wrong command line.")]
 pub struct RecheckArgs {
     #[command(flatten)]
     pub files: Files,
     /// A result of the main job with a proof: .json.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub proof: PathBuf,
     #[command(flatten)]
     pub query: QueryArgs,
@@ -347,13 +378,19 @@ Between samples the motion is the cubic that positions and velocities imply; wit
 joint space. CSV columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians
 or metres. In a world with steps a result of cplan's for it (.json) is judged step by step: that the steps are the world's,
 each motion with what is carried and objects where they lie then, grasps, places, turns of the wrist and rests.
+
+Examples:
+  cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
+  cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml turns.csv --unwrap --clearance 0.01
+  cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
+
 Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision, limit broken or not the
 task asked for, 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,
     /// The motion: .json (a result of cplan), .csv, or .yaml (ROS 2 JointTrajectory).
-    #[arg(value_name = "TRAJECTORY")]
+    #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
     pub trajectory: PathBuf,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
@@ -365,7 +402,7 @@ pub struct VerifyArgs {
     #[arg(long)]
     pub unwrap: bool,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     /// Print the findings as JSON, and nothing else, on stdout.
     #[arg(long)]

@@ -11,10 +11,14 @@ use clap_complete::Shell;
 #[command(after_help = "\
 Examples:
   cplan completions bash > ~/.local/share/bash-completion/completions/cplan
-  cplan completions zsh > ~/.zfunc/_cplan        with fpath+=~/.zfunc before compinit in ~/.zshrc
+  cplan completions zsh > ~/.zfunc/_cplan
   cplan completions fish > ~/.config/fish/completions/cplan.fish
   cplan completions powershell >> $PROFILE
-  cplan completions elvish >> ~/.config/elvish/rc.elv")]
+  cplan completions elvish >> ~/.config/elvish/rc.elv
+
+For zsh the folder has to be in its path of functions: fpath+=~/.zfunc before compinit in ~/.zshrc. A new shell knows them.
+
+Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct CompletionsArgs {
     /// The shell.
     #[arg(value_name = "SHELL")]

@@ -20,6 +20,15 @@ const PICTURE: &str = "plan.html";
 
 /// Arguments of `demo`: all options of the main job, and where to write.
 #[derive(Debug, Args)]
+#[command(after_help = "\
+The files of the cell are those of `cplan init --kind scara`.
+
+Examples:
+  cplan demo
+  cplan demo --planner harmonic --force
+  cplan demo --dir wider --clearance 0.02 --goal-tip 0.1,0.45
+
+Exit codes: those of the main job, 0 found and certified; 1 also if the files are there already; 2 wrong command line.")]
 pub struct DemoArgs {
     /// Folder for plan.json and plan.html; made if it is not there.
     #[arg(long, value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]

@@ -17,7 +17,9 @@ Examples:
   cplan man > cplan.1
   cplan man man1
 
-man ./cplan.1 shows a page; pages in ~/.local/share/man/man1 are found by name, such as man cplan-check.")]
+man ./cplan.1 shows a page; pages in ~/.local/share/man/man1 are found by name, such as man cplan-check.
+
+Exit codes: 0 the pages are written, 1 I/O, 2 wrong command line.")]
 pub struct ManArgs {
     /// Folder for the pages of all commands, which replace those that are there; without it the main page is printed.
     #[arg(value_name = "DIR", value_hint = ValueHint::DirPath)]
@@ -67,41 +69,40 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// What stands below the options of a help text, in roff. A line that is not indented and ends in a colon begins a section,
-/// any other text before the first one is notes; indented lines stay lines, as examples and tables have to.
+/// What stands below the options of a help text, in roff: examples, exit codes, and notes for all else.
 fn sections(text: &str) -> String {
-    let mut roff = String::new();
-    let (mut in_section, mut in_lines) = (false, false);
-    for line in text.lines() {
-        let is_indented = line.starts_with(' ');
-        if is_indented != in_lines && !line.is_empty() {
-            roff += if is_indented { ".PP\n.EX\n" } else { ".EE\n" };
-            in_lines = is_indented;
-        }
-        match line.strip_suffix(':').filter(|_| !is_indented) {
-            Some(title) => {
-                roff += &format!(".SH {}\n", quoted(&title.to_uppercase()));
-                in_section = true;
-            }
-            None if line.is_empty() => roff += ".PP\n",
-            None => {
-                if !in_section {
-                    roff += ".SH NOTES\n";
-                    in_section = true;
-                }
-                roff += &escaped(line.strip_prefix("  ").unwrap_or(line));
-                roff.push('\n');
-            }
+    let mut found: [(&str, &str, Vec<&str>); 3] =
+        [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
+    for paragraph in text.split("\n\n") {
+        // Every text begins with the empty heading of the notes.
+        if let Some((heading, _, paragraphs)) = found.iter_mut().rev().find(|f| paragraph.starts_with(f.0)) {
+            paragraphs.push(&paragraph[heading.len()..]);
         }
     }
-    if in_lines {
-        roff += ".EE\n";
-    }
-    roff
+    found.iter().filter(|f| !f.2.is_empty()).map(|(_, title, paragraphs)| section(title, paragraphs)).collect()
 }
 
-fn quoted(title: &str) -> String {
-    format!("\"{}\"", escaped(title).replace('"', "\\(dq"))
+/// A section. Indented lines stay lines, as examples have to.
+fn section(title: &str, paragraphs: &[&str]) -> String {
+    let mut roff = format!(".SH \"{title}\"\n");
+    for (i, paragraph) in paragraphs.iter().enumerate() {
+        if i > 0 {
+            roff += ".PP\n";
+        }
+        let mut in_lines = false;
+        for line in paragraph.lines().filter(|line| !line.trim().is_empty()) {
+            let is_indented = line.starts_with("  ");
+            if is_indented != in_lines {
+                roff += if is_indented { ".EX\n" } else { ".EE\n" };
+                in_lines = is_indented;
+            }
+            roff += &format!("{}\n", escaped(line.trim()));
+        }
+        if in_lines {
+            roff += ".EE\n";
+        }
+    }
+    roff
 }
 
 /// Text as roff takes it: no escapes, no requests, hyphens that can be copied.
@@ -115,10 +116,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn examples_stay_lines_and_text_does_not() {
-        let roff = sections("A note\nin two lines.\n\nExamples:\n  cplan a --b 'c'\n  .d\n\nMore of it.");
-        let expected = ".SH NOTES\nA note\nin two lines.\n.PP\n.SH \"EXAMPLES\"\n.PP\n.EX\ncplan a \\-\\-b \\(aqc\\(aq\n\
-                        \\&.d\n.PP\n.EE\nMore of it.\n";
-        assert_eq!(roff, expected);
+    fn examples_stay_lines_and_come_last() {
+        let text =
+            "A note\nin two lines.\n\nExamples:\n  cplan a --b 'c'\n  .d\nEach is one.\n\nExit codes: 0 done.\n\nMore.";
+        let expected = ".SH \"NOTES\"\nA note\nin two lines.\n.PP\nMore.\n.SH \"EXIT STATUS\"\n0 done.\n\
+                        .SH \"EXAMPLES\"\n.EX\ncplan a \\-\\-b \\(aqc\\(aq\n\\&.d\n.EE\nEach is one.\n";
+        assert_eq!(sections(text), expected);
+        assert_eq!(sections(""), "");
     }
 }

@@ -14,6 +14,7 @@ mod inspect;
 mod inspect_text;
 mod man;
 mod motion;
+mod names;
 mod output;
 mod plan;
 mod planned;

@@ -4,17 +4,17 @@ use crate::field::Neighborhood;
 use crate::plan::{GridSearch, Wavefront};
 use crate::solve::Method;
 use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 /// How the wavefront planner searches its grid.
 #[derive(Debug, Clone, Args)]
 pub struct SearchArgs {
-    /// How the grid is searched, from the goal (planner wavefront): wave labels all cells, bfs, dfs, dijkstra and astar
-    /// stop at the start. [default: wave]
-    #[arg(long, value_name = "NAME")]
+    /// How the grid is searched, from the goal (planner wavefront). [default: wave]
+    #[arg(long, value_enum, value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
-    #[arg(long, value_name = "N", value_parser = neighbors)]
+    #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
 }
 
@@ -37,7 +37,7 @@ impl SearchArgs {
     }
 }
 
-fn neighbors(text: &str) -> Result<Neighborhood, String> {
-    let all = [Neighborhood::Four, Neighborhood::Eight];
-    all.into_iter().find(|n| n.count().to_string() == text).ok_or_else(|| "must be 4 or 8".into())
+fn neighbors() -> impl TypedValueParser<Value = Neighborhood> {
+    PossibleValuesParser::new(["4", "8"])
+        .map(|count| if count == "4" { Neighborhood::Four } else { Neighborhood::Eight })
 }

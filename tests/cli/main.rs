@@ -2,6 +2,8 @@
 
 mod commands;
 mod fields;
+mod first;
+mod help;
 mod inputs;
 mod mazes;
 mod results;

@@ -1,8 +1,4 @@
-//! Redraws the pictures of the documentation: each planner on one workspace, one workspace without a path, and two tasks.
-//!
-//! ```text
-//! cargo run --release --example pictures
-//! ```
+//! What the pictures of the documentation show. `tests/pictures.rs` draws them, too.
 
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, svg, task_svg};
@@ -10,9 +6,40 @@ use cplan::input::{self, Overrides};
 use cplan::model::Scene;
 use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::task::{Manner, TaskVerdict, plan};
-use cplan::trajectory::{Drive, write_whole};
+use cplan::trajectory::Drive;
 use std::error::Error;
 use std::path::Path;
+
+/// A picture of the documentation.
+pub enum Subject {
+    /// What a planner answers to a workspace: robot, workspace, planner.
+    Answer(&'static str, &'static str, Method),
+    /// What comes of a task: robot, workspace in `tasks`.
+    Task(&'static str, &'static str),
+}
+
+/// All, with the names of their files.
+pub const PICTURES: [(&str, Subject); 9] = [
+    ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
+    ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
+    ("wavefront", Subject::Answer("planar_2r", "workbench", Method::Wavefront)),
+    ("harmonic", Subject::Answer("planar_2r", "workbench", Method::Harmonic)),
+    ("subdivision", Subject::Answer("planar_2r", "workbench", Method::Subdivision)),
+    ("no_path", Subject::Answer("planar_2r_continuous", "no_path", Method::Wavefront)),
+    ("scara_cell", Subject::Answer("scara", "scara_cell", Method::Visibility)),
+    ("tower", Subject::Task("rrbot_vertical", "tower")),
+    ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
+];
+
+impl Subject {
+    /// The picture, SVG.
+    pub fn svg(&self) -> Result<String, Box<dyn Error>> {
+        match *self {
+            Subject::Answer(robot, world, method) => answer(robot, world, method),
+            Subject::Task(robot, world) => task(robot, world),
+        }
+    }
+}
 
 /// C-obstacles, within less than a pixel.
 fn contours(scene: &Scene) -> Vec<CObstacle> {
@@ -20,8 +47,8 @@ fn contours(scene: &Scene) -> Vec<CObstacle> {
     c_obstacles(scene, tolerance, tolerance)
 }
 
-/// Draws a shipped task.
-fn draw_task(robot: &str, world: &str, file: &Path) -> Result<(), Box<dyn Error>> {
+/// What comes of a shipped task.
+fn task(robot: &str, world: &str) -> Result<String, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let urdf = root.join("robots").join(robot).with_extension("urdf");
     let world = root.join("workspaces/tasks").join(world).with_extension("toml");
@@ -40,13 +67,11 @@ fn draw_task(robot: &str, world: &str, file: &Path) -> Result<(), Box<dyn Error>
         answer: &answer,
         c_obstacles: contours,
     };
-    write_whole(file, task_svg(&picture).as_bytes())?;
-    println!("{}", file.display());
-    Ok(())
+    Ok(task_svg(&picture))
 }
 
-/// Draws what `method` answers to a shipped workspace.
-fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box<dyn Error>> {
+/// What `method` answers to a shipped workspace.
+fn answer(robot: &str, world: &str, method: Method) -> Result<String, Box<dyn Error>> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let urdf = root.join("robots").join(robot).with_extension("urdf");
     let world = root.join("workspaces").join(world).with_extension("toml");
@@ -77,18 +102,5 @@ fn draw(robot: &str, world: &str, method: Method, file: &Path) -> Result<(), Box
         proof: answer.verdict.proof(),
         c_obstacles: &contours(scene),
     };
-    write_whole(file, svg(&picture).as_bytes())?;
-    println!("{}", file.display());
-    Ok(())
-}
-
-fn main() -> Result<(), Box<dyn Error>> {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures");
-    std::fs::create_dir_all(&docs)?;
-    for method in Method::ALL {
-        draw("planar_2r", "workbench", method, &docs.join(format!("{method}.svg")))?;
-    }
-    draw("planar_2r_continuous", "no_path", Method::Wavefront, &docs.join("no_path.svg"))?;
-    draw_task("rrbot_vertical", "tower", &docs.join("tower.svg"))?;
-    draw_task("gantry", "board_and_gate", &docs.join("board_and_gate.svg"))
+    Ok(svg(&picture))
 }

@@ -1,0 +1,40 @@
+//! Planners and searches by name on the command line, so that help and shells can list them.
+
+use crate::plan::GridSearch;
+use crate::solve::Method;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+
+impl ValueEnum for Method {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Method::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
+            Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and a taut string through it",
+            Method::Wavefront => "Manhattan wavefront on a grid",
+            Method::Harmonic => "Harmonic potential on a grid",
+            Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
+}
+
+impl ValueEnum for GridSearch {
+    fn value_variants<'a>() -> &'a [Self] {
+        &GridSearch::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            GridSearch::Wave => "Labels all cells from the goal: fewest moves",
+            GridSearch::BreadthFirst => "Breadth first, until the start is met: fewest moves",
+            GridSearch::DepthFirst => "Depth first, until the start is met: some path",
+            GridSearch::Dijkstra => "Least cost first, where a diagonal move counts for 1.414 straight ones",
+            GridSearch::AStar => "The same cost, led by the distance from the start",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
+}

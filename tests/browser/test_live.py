@@ -1,0 +1,269 @@
+"""The page of `cplan serve`."""
+
+import json
+import math
+import subprocess
+import time
+import urllib.request
+
+import pytest
+from conftest import PROGRAM, ROOT
+
+PLANAR = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
+
+
+@pytest.fixture
+def serve(show):
+    """Serves files and opens the page; returns it once a plan is shown."""
+    running = []
+
+    def start(*words, **options):
+        command = [PROGRAM, "serve", *words, "--port", "0"]
+        server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        running.append(server)
+        address = server.stdout.readline().strip()
+        assert address.startswith("http://127.0.0.1:"), "loopback alone"
+        seen = show(address, **options)
+        settled(seen)
+        return seen
+
+    yield start
+    for server in running:
+        assert server.poll() is None, "nothing ends the server"
+        server.terminate()
+        assert server.wait(timeout=10) == 0
+
+
+def settled(seen, seconds=30):
+    """Waits until what is shown is the answer to the last thing that was asked."""
+    seen.until("cplan.view && !cplan.link.awaited && !cplan.link.next && cplan.answered.id === cplan.link.id", seconds)
+    return seen.do("cplan.answered")
+
+
+def spot(seen, panel, place):
+    """Where on the screen a place of a panel is."""
+    name = {"workspace": "Workspace", "cspace": "Configuration space"}[panel]
+    canvas = seen.page.locator(f"canvas[aria-label='{name}']")
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    x, y = seen.do("([panel, place]) => cplan.view.panels[panel].at(place)", [panel, place])
+    return box["x"] + x, box["y"] + y
+
+
+def drag(seen, panel, from_, to, steps=12):
+    mouse = seen.page.mouse
+    mouse.move(*spot(seen, panel, from_))
+    mouse.down()
+    for i in range(1, steps + 1):
+        mouse.move(*spot(seen, panel, [a + (b - a) * i / steps for a, b in zip(from_, to)]))
+    mouse.up()
+
+
+def path(seen):
+    return seen.do("cplan.view.model.paths[0]?.points ?? null")
+
+
+def test_an_obstacle_that_is_dragged_into_the_path_changes_it(serve):
+    seen = serve(*PLANAR)
+    first = settled(seen)
+    assert first["verdict"] == "found" and first["certified"]
+    before, c_obstacles = path(seen), seen.do("JSON.stringify(cplan.view.world.c_obstacles)")
+    # The crate, from below into the way of the forearm.
+    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
+    after = settled(seen)
+    assert after["final"] and after["verdict"] == "found" and after["certified"]
+    assert path(seen) != before
+    assert seen.do("JSON.stringify(cplan.view.world.c_obstacles)") != c_obstacles
+    assert after["figures"]["length"] >= after["figures"]["lower_bound"] > 0
+    assert after["figures"]["length"] > first["figures"]["length"], "it was in the way"
+    seen.shoot("live-dragged")
+    # What came back is free by the page's own contact test, which the pages' tests hold to the program.
+    worst = seen.do(
+        """() => { const { view } = cplan; let least = Infinity;
+             for (let k = 0; k <= 2000; k += 1) {
+               const q = Geometry.moving(view.model.clock, (view.duration * k) / 2000).position;
+               least = Math.min(least, Geometry.contacts(view.model.arm, view.world, q)[0].distance);
+             } return least; }"""
+    )
+    assert worst > -2e-5
+    seen.page.get_by_label("undo").click()
+    settled(seen)
+    assert path(seen) == before
+
+
+def test_planners_can_be_switched(serve):
+    seen = serve(*PLANAR)
+    kinds = {"visibility": "roadmap", "trapezoid": "channel", "wavefront": "wavefront", "harmonic": "field", "subdivision": "boxes"}
+    for planner, kind in kinds.items():
+        seen.page.get_by_label("planner", exact=True).select_option(planner)
+        answer = settled(seen)
+        assert answer["certified"] and seen.do("cplan.view.world.trace.kind") == kind
+    seen.page.get_by_label("planner", exact=True).select_option("visibility")
+    seen.page.locator("[data-option='--gap']").select_option("0.0001")
+    figures = settled(seen)["figures"]
+    assert figures["length"] <= 1.0001 * figures["lower_bound"]
+
+
+def test_a_world_without_a_path_shows_its_proof(serve):
+    seen = serve(ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml")
+    answer = settled(seen)
+    assert answer["verdict"] == "infeasible" and not answer["certified"]
+    assert seen.do("cplan.view.world.proof.length") > 0
+    assert "no path" in seen.page.locator(".figures").inner_text()
+    seen.shoot("live-no-path")
+
+
+def test_a_world_that_is_saved_and_loaded_gives_the_same_plan(serve):
+    seen = serve(*PLANAR)
+    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75])
+    assert settled(seen)["certified"]
+    moved, answer = path(seen), seen.do("cplan.answered.figures")
+    with seen.page.expect_download() as saved:
+        seen.page.get_by_label("file to save").select_option("toml")
+        seen.page.get_by_role("button", name="Save").click()
+    text = saved.value.path().read_text()
+    assert text.startswith(PLANAR[1].read_text()[:40]), "comments are kept"
+    again = serve(*PLANAR)
+    assert path(again) != moved
+    file = saved.value.path()
+    again.page.locator("input[type=file]").set_input_files({"name": "world.toml", "mimeType": "text/plain", "buffer": file.read_bytes()})
+    assert settled(again)["certified"]
+    assert path(again) == moved
+    figures = again.do("cplan.answered.figures")
+    assert {key: figures[key] for key in figures if key != "milliseconds"} == {key: answer[key] for key in answer if key != "milliseconds"}
+    # Other files, as the main job writes them.
+    for format_ in ("json", "csv", "yaml", "svg", "html"):
+        with again.page.expect_download() as saved:
+            again.page.get_by_label("file to save").select_option(format_)
+            again.page.get_by_role("button", name="Save").click()
+        content = saved.value.path().read_text()
+        assert saved.value.suggested_filename == f"plan.{format_}" and len(content) > 1000
+        if format_ == "json":
+            assert json.loads(content)["certified"] is True
+
+
+def test_what_is_wrong_is_said_and_what_was_there_stays(serve):
+    seen = serve(*PLANAR)
+    before = path(seen)
+    seen.page.locator(".world summary").click()
+    seen.page.get_by_label("world as TOML").fill("[start]\njoints = [0.1]\n")
+    seen.page.get_by_role("button", name="take the text for the world").click()
+    seen.until("cplan.answered.error")
+    assert "line 2" in seen.page.get_by_role("alert").inner_text()
+    assert path(seen) == before
+    # A start that collides: the shelf upon the arm.
+    drag(seen, "workspace", [1.3, 0.24], [0.85, -0.95])
+    answer = settled(seen)
+    assert answer["verdict"] is None and "shelf" in answer["error"]
+    assert "shelf" in seen.page.get_by_role("alert").inner_text()
+    seen.shoot("live-start-collides")
+    seen.page.get_by_label("undo").click()
+    assert settled(seen)["certified"]
+    assert not seen.page.get_by_role("alert").is_visible()
+
+
+def test_start_goal_and_tip_can_be_dragged(serve):
+    seen = serve(*PLANAR)
+    drag(seen, "cspace", [1.55, -0.35], [2.0, 0.5])
+    answer = settled(seen)
+    assert answer["certified"]
+    assert path(seen)[-2:] == pytest.approx([2.0, 0.5], abs=0.03)
+    target = seen.do("cplan.editor.tips.goal")
+    drag(seen, "workspace", target, [-0.4, 1.2])
+    answer = settled(seen)
+    assert answer["certified"]
+    end = seen.do("Geometry.tipAt(cplan.view.model.arm, cplan.view.model.paths[0].points.slice(-2))")
+    assert math.dist(end, [-0.4, 1.2]) < 0.02
+    tip = seen.do("cplan.editor.tips.start")
+    drag(seen, "workspace", tip, [1.0, -1.0])
+    assert settled(seen)["certified"]
+    begin = seen.do("Geometry.tipAt(cplan.view.model.arm, cplan.view.model.paths[0].points.slice(0, 2))")
+    assert math.dist(begin, [1.0, -1.0]) < 0.02
+
+
+def test_obstacles_come_and_go_by_keyboard(serve):
+    seen = serve(*PLANAR)
+    names = "cplan.view.world.obstacles.map((obstacle) => obstacle.name)"
+    assert seen.do(names) == ["shelf", "crate"]
+    for button in ("add a polygon", "add a circle", "add a thin wall"):
+        seen.page.get_by_role("button", name=button).click()
+        settled(seen)
+    assert len(seen.do(names)) == 5
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 2")
+    before = seen.do("cplan.view.world.obstacles[2].outline.polygon")
+    seen.page.keyboard.press("Shift+ArrowUp")
+    settled(seen)
+    after = seen.do("cplan.view.world.obstacles[2].outline.polygon")
+    assert [b > a for a, b in zip(before[1::2], after[1::2])] == [True] * 4
+    seen.page.keyboard.press("c")
+    seen.page.keyboard.press("Delete")
+    settled(seen)
+    assert len(seen.do("cplan.view.world.obstacles[2].outline.polygon")) == 6, "a corner less"
+    seen.page.keyboard.press("Delete")
+    settled(seen)
+    assert len(seen.do(names)) == 4
+
+
+def test_a_slow_plan_is_given_up_for_the_next_drag(serve):
+    seen = serve(*PLANAR, "--with", "harmonic --cells 2048")
+    begin = time.monotonic()
+    seen.page.get_by_label("planner", exact=True).select_option("harmonic")
+    for _ in range(5):
+        drag(seen, "workspace", seen.do("cplan.scene.obstacles[1].shape.polygon[0].map((x) => x + 0.05)"), [0.6, -1.3], steps=4)
+        drag(seen, "workspace", seen.do("cplan.scene.obstacles[1].shape.polygon[0].map((x) => x + 0.05)"), [0.7, -1.45], steps=4)
+    seen.page.get_by_label("planner", exact=True).select_option("visibility")
+    answer = settled(seen)
+    assert answer["certified"] and answer["final"]
+    print(f"\nten drags with harmonic fields of 2048 x 2048 under way: answered after {time.monotonic() - begin:.1f} s")
+
+
+def test_strangers_are_refused(serve):
+    seen = serve(*PLANAR)
+    address = seen.page.url
+    with urllib.request.urlopen(address) as page:
+        assert "connect-src 'self'" in page.headers["content-security-policy"]
+    for path_, headers, code in [("robots", {}, 404), ("live", {}, 403), ("", {"Host": "evil.example"}, 421), ("", {"Origin": "http://evil.example"}, 403)]:
+        with pytest.raises(urllib.error.HTTPError) as refused:
+            urllib.request.urlopen(urllib.request.Request(address + path_, headers=headers))
+        assert refused.value.code in (code, 400), path_
+
+
+TEN = """
+[start]
+joints = [-0.9, 0.4]
+[goal]
+joints = [1.55, -0.35]
+""" + "".join(
+    f'[[obstacle]]\nname = "block {i}"\npolygon = [[{x:.3f}, {y:.3f}], [{x + 0.12:.3f}, {y:.3f}], [{x + 0.12:.3f}, {y + 0.1:.3f}], [{x:.3f}, {y + 0.1:.3f}]]\n'
+    for i, (x, y) in enumerate(
+        [(1.3, 0.25), (1.55, -0.05), (0.6, -1.6), (1.2, 0.9), (-0.9, 1.3), (-1.3, 0.3), (-1.5, -0.5), (-0.6, -1.4), (0.1, -1.75), (-0.2, 1.7)]
+    )
+)
+
+
+def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
+    """Drags one of ten obstacles for three seconds, and says how many answers a second came and were drawn."""
+    world = tmp_path / "ten.toml"
+    world.write_text(TEN)
+    seen = serve(ROOT / "robots/planar_2r.urdf", world)
+    assert settled(seen)["certified"] and seen.do("cplan.view.world.obstacles.length") == 10
+    seen.do(
+        """() => { window.drawn = []; const show = cplan.take.bind(cplan);
+             cplan.take = (message) => { show(message); if (!message.final && message.view) drawn.push(performance.now()); }; }"""
+    )
+    mouse = seen.page.mouse
+    mouse.move(*spot(seen, "workspace", [1.36, 0.3]))
+    mouse.down()
+    begin = time.monotonic()
+    shapes = set()
+    while (passed := time.monotonic() - begin) < 3:
+        mouse.move(*spot(seen, "workspace", [1.36 + 0.1 * math.sin(4 * passed), 0.3 + 0.05 * math.sin(7 * passed)]))
+        shapes.add(seen.do("JSON.stringify(cplan.view.world.obstacles[0].outline)"))
+    count = seen.do("drawn.length")
+    gaps = seen.do("drawn.slice(1).map((t, i) => t - drawn[i]).sort((a, b) => a - b)")
+    mouse.up()
+    answer = settled(seen)
+    assert answer["final"] and answer["certified"]
+    print(f"\n{count / passed:.1f} updates a second; between two of them {gaps[len(gaps) // 2]:.0f} ms (median), {gaps[-1]:.0f} ms (longest)")
+    assert len(shapes) > 5, "it moves while it is dragged"
+    seen.shoot("live-ten")

@@ -1,0 +1,254 @@
+//! The JSON schema of world files, by an independent validator: it accepts what the program reads and refuses what it
+//! refuses for its form.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn kept() -> String {
+    std::fs::read_to_string(root().join("docs/world.schema.json")).unwrap()
+}
+
+fn validator() -> jsonschema::Validator {
+    let schema = cplan::input::world_schema();
+    assert!(jsonschema::meta::is_valid(&schema), "no JSON Schema");
+    jsonschema::draft7::new(&schema).unwrap()
+}
+
+fn json(toml: &str) -> Value {
+    let table: toml::Table = toml::from_str(toml).unwrap_or_else(|e| panic!("{toml}: {e}"));
+    serde_json::to_value(table).unwrap()
+}
+
+fn worlds(folder: &str) -> Vec<PathBuf> {
+    let files = std::fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let mut worlds: Vec<PathBuf> = files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
+    worlds.retain(|file| file.file_name().is_some_and(|name| name != "suite.toml"));
+    worlds.sort();
+    worlds
+}
+
+#[test]
+fn the_kept_schema_is_the_one_of_the_program() {
+    let printed = Command::new(env!("CARGO_BIN_EXE_cplan")).arg("schema").output().unwrap();
+    assert_eq!(String::from_utf8(printed.stdout).unwrap(), kept(), "run `cplan schema > docs/world.schema.json`");
+    assert_eq!(serde_json::from_str::<Value>(&kept()).unwrap(), cplan::input::world_schema());
+}
+
+#[test]
+fn shipped_worlds_are_valid() {
+    let validator = validator();
+    let all = [worlds("workspaces"), worlds("workspaces/tasks")].concat();
+    assert!(all.len() > 30, "{}", all.len());
+    for file in all {
+        let world = json(&std::fs::read_to_string(&file).unwrap());
+        let errors: Vec<String> =
+            validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
+        assert!(errors.is_empty(), "{}: {}", file.display(), errors.join("; "));
+    }
+}
+
+/// A world that has every key, in two files because goals and steps exclude each other.
+const FULL: [&str; 2] = [
+    r#"
+name = "full"
+clearance = 0.01
+[robot]
+joints = ["a", "b"]
+tip = "tool"
+fixed = { c = 0 }
+limits = { a = [-1, 1.5] }
+velocity = { a = 2 }
+acceleration = { a = 3.5 }
+jerk = { a = 100 }
+bar = 0.02
+payload = "level"
+wrist = { velocity = 6.0, acceleration = 60.0 }
+[start]
+joints = [0, 0.5]
+[goal]
+tip = [0.3, 0.4]
+[map]
+file = "room.map"
+preferences = "wishes.map"
+scale = 0.001
+offset = [0, 0]
+frame = false
+height = [0.0, 3.0]
+[[obstacle]]
+polygon = [[0, 0], [1, 0], [1, 1]]
+[[obstacle]]
+name = "disc"
+circle = { center = [1, 1], radius = 0.5 }
+height = [0, 1]
+[[obstacle]]
+polyline = [[0, 0], [1, 0]]
+[[obstacle]]
+image = "den.yaml"
+unknown = "free"
+[[preference]]
+name = "aisle"
+epsilon = -0.5
+direction = [0, 1]
+polygon = [[0, 0], [1, 0], [1, 1]]
+[[preference]]
+epsilon = 1
+configurations = [[0, 0], [1, 0], [1, 1]]
+"#,
+    r#"
+[start]
+joints = [0, 0.5]
+[[object]]
+name = "part"
+polygon = [[0, 0], [1, 0], [1, 1]]
+at = [0.3, 0.1]
+angle = 1
+height = [0, 0.02]
+lift = 0.05
+payload = "rigid"
+grasp = [0, 0.005]
+supports = ["table"]
+renew = true
+[[object]]
+name = "coin"
+circle = { center = [0, 0], radius = 0.01 }
+at = [0.3, 0.2]
+[[step]]
+pick = "part"
+grasp = [0, 0]
+supports = []
+dwell = 0.2
+[[step]]
+place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"] }
+speed = 0.5
+[[step]]
+move = { joints = [0, 0.5] }
+[[step]]
+repeat = 100
+order = "free"
+speed = 1
+[[step.steps]]
+pick = "coin"
+[[step.steps]]
+place = { at = [0.2, 0.3] }
+[task]
+repeat = 10
+order = "fixed"
+speed = 0.8
+dwell = 0
+"#,
+];
+
+/// Every key of every table of the schema.
+fn keys(schema: &Value) -> Vec<String> {
+    let mut keys = Vec::new();
+    if let Value::Object(object) = schema {
+        if let Some(Value::Object(properties)) = object.get("properties") {
+            keys.extend(properties.keys().cloned());
+        }
+        keys.extend(object.values().flat_map(self::keys));
+    }
+    keys
+}
+
+#[test]
+fn worlds_with_every_key_are_valid() {
+    let validator = validator();
+    let schema = cplan::input::world_schema();
+    for full in FULL {
+        let world = json(full);
+        let errors: Vec<String> =
+            validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
+        assert!(errors.is_empty(), "{}", errors.join("; "));
+    }
+    for key in keys(&schema) {
+        assert!(FULL.iter().any(|full| full.contains(&key)), "no world has the key {key}");
+    }
+}
+
+/// Every key has a description, so that editors have something to show.
+#[test]
+fn every_key_is_described() {
+    fn check(schema: &Value, at: &str) {
+        let Value::Object(object) = schema else { return };
+        if let Some(Value::Object(properties)) = object.get("properties") {
+            for (key, value) in properties {
+                let described = value.get("description").is_some() || value.get("$ref").is_some();
+                assert!(described, "{at}/{key} has no description: {value}");
+            }
+        }
+        for (key, value) in object {
+            check(value, &format!("{at}/{key}"));
+        }
+    }
+    check(&cplan::input::world_schema(), "");
+}
+
+#[test]
+fn broken_worlds_are_not_valid() {
+    const POSED: &str = "[start]\njoints = [0, 0]\n[goal]\njoints = [1, 1]\n";
+    let broken = [
+        "nam = \"x\"",
+        "name = 3",
+        "clearance = -0.1",
+        "clearance = \"0.1\"",
+        "[start]\njoint = [0, 0]",
+        "[start]\njoints = [0]",
+        "[start]\njoints = [0, 0, 0]",
+        "[start]\njoints = [\"0\", 0]",
+        "[start]",
+        "[goal]",
+        "[goal]\njoints = [0, 0]\ntip = [0, 0]",
+        "[robot]\njoints = [\"a\"]",
+        "[robot]\nlimits = { a = 1 }",
+        "[robot]\nvelocity = { a = 0 }",
+        "[robot]\nwrist = { acceleration = 1 }",
+        "[robot]\npayload = \"loose\"",
+        "[[obstacle]]\nname = \"none\"",
+        "[[obstacle]]\npolygon = [[0, 0], [1, 0]]",
+        "[[obstacle]]\npolygon = [[0, 0], [1, 0], [1]]",
+        "[[obstacle]]\npolygon = [[0, 0], [1, 0], [1, 1]]\ncircle = { center = [0, 0], radius = 1 }",
+        "[[obstacle]]\ncircle = { center = [0, 0], radius = 0 }",
+        "[[obstacle]]\ncircle = { center = [0, 0], radios = 1 }",
+        "[[obstacle]]\npolyline = [[0, 0]]",
+        "[[obstacle]]\npolyline = [[0, 0], [1, 1]]\nunknown = \"free\"",
+        "[[obstacle]]\nimage = \"a.yaml\"\nunknown = \"maybe\"",
+        "[obstacle]\npolyline = [[0, 0], [1, 1]]",
+        "[[preference]]\npolygon = [[0, 0], [1, 0], [1, 1]]",
+        "[[preference]]\nepsilon = 1",
+        "[map]\nscale = 1",
+        "[map]\nfile = \"a\"\nscale = 0",
+        "[[object]]\nname = \"a\"\ncircle = { center = [0, 0], radius = 1 }",
+        "[[object]]\ncircle = { center = [0, 0], radius = 1 }\nat = [0, 0]",
+        "[[object]]\nname = \"a\"\nat = [0, 0]",
+        "[[step]]",
+        "[[step]]\npick = \"a\"\nplace = { at = [0, 0] }",
+        "[[step]]\nplace = [0, 0]",
+        "[[step]]\nplace = { at = [0, 0] }\ngrasp = [0, 0]",
+        "[[step]]\npick = \"a\"\nrepeat = 2",
+        "[[step]]\nmove = { joints = [0, 0] }\norder = \"free\"",
+        "[[step]]\nsteps = []",
+        "[[step]]\npick = \"a\"\nspeed = 1.5",
+        "[[step]]\npick = \"a\"\nspeed = 0",
+        "[[step]]\npick = \"a\"\ndwell = -1",
+        "[task]\nrepeat = 2",
+        "[goal]\njoints = [0, 0]\n[[step]]\nmove = { joints = [0, 0] }",
+        "[[step]]\nmove = { joints = [0, 0] }\n[task]\nrepeat = 0",
+        "[[step]]\nmove = { joints = [0, 0] }\n[task]\nrepeat = 1.5",
+    ];
+    let validator = validator();
+    assert!(validator.is_valid(&json(POSED)));
+    let folder = tempfile::tempdir().unwrap();
+    let robot = root().join("robots/planar_2r.urdf");
+    for text in broken {
+        assert!(!validator.is_valid(&json(text)), "{text}");
+        // The program is of the same opinion.
+        let world = folder.path().join("world.toml");
+        std::fs::write(&world, text).unwrap();
+        assert!(cplan::input::load_scene(&robot, &world).is_err(), "{text}");
+    }
+}
