@@ -11,6 +11,15 @@ use crate::solve::{Answer, Verdict};
 use crate::trajectory::{Report, write_whole};
 use std::path::Path;
 
+/// A verdict in a word or two.
+pub fn status(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Found(_) => "found, certified",
+        Verdict::Infeasible(_) => "no path: proven",
+        Verdict::Unknown(_) => "unknown",
+    }
+}
+
 /// The answer to one problem.
 pub struct Planned<'a> {
     pub problem: &'a Problem,
@@ -58,18 +67,17 @@ impl Planned<'_> {
         let scene = &problem.scene;
         let contours = output::contours(scene);
         let outline = self.curve.map(|curve| curve.curve().outline());
-        let (status, detail) = match (&answer.verdict, report.length) {
-            (Verdict::Found(_), Some(length)) => {
+        let detail = match report.length {
+            Some(length) => {
                 let clearance =
                     report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
-                ("found, certified", format!("{}: length {length:.4}, {clearance}", answer.method))
+                format!("{}: length {length:.4}, {clearance}", answer.method)
             }
-            (Verdict::Infeasible(_), _) => ("no path: proven", answer.method.to_string()),
-            _ => ("unknown", answer.method.to_string()),
+            None => answer.method.to_string(),
         };
         show(&Picture {
             title: vec![output::title(problem), detail],
-            status: status.into(),
+            status: status(&answer.verdict).into(),
             scene,
             start: problem.start,
             goals: &problem.goals,

@@ -4,7 +4,7 @@ use super::Host;
 use super::document::Document;
 use super::files;
 use super::options::Options;
-use super::protocol::{AnswerReply, Ask, Begin, Figures, JointReply, Pair, PieceReply, Reply, WorldReply};
+use super::protocol::{AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
 use super::result::{self, Found};
 use crate::geometry::Point;
 use crate::input::{LoadedScene, Overrides};
@@ -120,7 +120,6 @@ impl<'a> Desk<'a> {
                 Err(Interrupted::TimeUp) => Ok(Some(AnswerReply { toml, ..late(self.time(ask)) })),
             };
         }
-        let bare = |start, goals: &[Configuration]| result::bare(&loaded.scene, start, goals);
         let at = |q: Option<Pair>| q.map_or_else(Configuration::zeros, Configuration::from);
         let start = ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
         let problem = match loaded.clone().problem(&Overrides::default()) {
@@ -130,7 +129,7 @@ impl<'a> Desk<'a> {
             }
             Err(error) => {
                 let error = Some(error.to_string());
-                let shown = interrupt.run(|| bare(at(start), &[])).ok();
+                let shown = interrupt.run(|| result::bare(&loaded.scene, at(start), &[], "not planned")).ok();
                 return Ok(shown.map(|shown| AnswerReply { error, toml, start, ..shown }));
             }
         };
@@ -143,16 +142,18 @@ impl<'a> Desk<'a> {
             true => Found::in_full(&problem, &options, &effort).answer(),
             false => Ok(result::quick(&problem, options.method(), &effort)),
         };
-        let (Ok(shown), true) = (interrupt.run(|| bare(start, goals)), true) else { return Ok(None) };
+        let bare = |status| interrupt.run(|| result::bare(&loaded.scene, start, goals, status));
         if ask.is_final {
-            tell(places(AnswerReply { view: shown.view.clone(), ..AnswerReply::default() }));
+            let Ok(shown) = bare("planning") else { return Ok(None) };
+            tell(places(shown));
         }
         match limited.run(plan) {
             Ok(answer) => Ok(Some(AnswerReply { toml, ..places(answer?) })),
             Err(Interrupted::Set) => Ok(None),
-            Err(Interrupted::TimeUp) => {
-                Ok(Some(AnswerReply { toml, view: shown.view, ..places(late(self.time(ask))) }))
-            }
+            Err(Interrupted::TimeUp) => Ok(bare("unknown").ok().map(|shown| {
+                let AnswerReply { verdict, reason, .. } = late(self.time(ask));
+                places(AnswerReply { verdict, reason, toml, ..shown })
+            })),
         }
     }
 
@@ -238,11 +239,4 @@ fn nearest_posture(arm: &Arm, tip: Point, near: Configuration) -> Option<Configu
         values(q, 0).into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| Configuration::new(a, b)))
     });
     branches.min_by(|&a, &b| topology.distance(a, near).total_cmp(&topology.distance(b, near)))
-}
-
-impl Figures {
-    /// Nothing but a size.
-    pub fn of_size(size: impl ToString) -> Self {
-        Self { size: Some(size.to_string()), ..Self::default() }
-    }
 }

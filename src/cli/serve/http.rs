@@ -11,7 +11,7 @@ use axum::response::{Html, IntoResponse, Response};
 use axum::routing::get;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use std::net::IpAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::net::TcpListener;
@@ -103,7 +103,7 @@ async fn guarded(State(host): State<Arc<Host>>, request: Request, next: Next) ->
 /// Why a request is refused, if it is.
 fn refusal(host: &Host, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
-    if !named.is_some_and(|named| is_ours(named, host)) {
+    if !named.is_some_and(|named| is_ours(named, host.address)) {
         return Some((StatusCode::MISDIRECTED_REQUEST, "this server goes by its address alone\n"));
     }
     // Only WebSockets and requests of other pages have one.
@@ -119,7 +119,7 @@ fn refusal(host: &Host, headers: &HeaderMap) -> Option<(StatusCode, &'static str
 
 /// Whether a Host header names this server by an address, or `localhost`. A name that a stranger's DNS server resolves to
 /// this machine (DNS rebinding) is none of ours.
-fn is_ours(named: &str, host: &Host) -> bool {
+fn is_ours(named: &str, here: SocketAddr) -> bool {
     let (name, port) = match named.rsplit_once(':') {
         Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
         _ => (named, Some(80)),
@@ -127,10 +127,10 @@ fn is_ours(named: &str, host: &Host) -> bool {
     let bare = name.strip_prefix('[').and_then(|name| name.strip_suffix(']')).unwrap_or(name);
     let address = bare.parse::<IpAddr>().ok();
     let known = match address {
-        Some(address) => !host.address.ip().is_loopback() || address.is_loopback(),
+        Some(address) => !here.ip().is_loopback() || address.is_loopback(),
         None => name.eq_ignore_ascii_case("localhost"),
     };
-    known && port == Some(host.address.port())
+    known && port == Some(here.port())
 }
 
 /// The WebSocket. Browsers always say where they come from, so who does not is none of ours.
@@ -150,24 +150,19 @@ async fn upgrade(State(host): State<Arc<Host>>, headers: HeaderMap, upgrade: Web
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::net::SocketAddr;
-
-    fn host(address: &str) -> Host {
-        Host::for_tests(address.parse::<SocketAddr>().unwrap())
-    }
 
     #[test]
     fn only_addresses_name_the_server() {
-        let local = host("127.0.0.1:7878");
+        let local: SocketAddr = "127.0.0.1:7878".parse().unwrap();
         for name in ["127.0.0.1:7878", "localhost:7878", "LOCALHOST:7878", "[::1]:7878"] {
-            assert!(is_ours(name, &local), "{name}");
+            assert!(is_ours(name, local), "{name}");
         }
         for name in
             ["evil.example:7878", "127.0.0.1", "127.0.0.1:80", "192.168.0.7:7878", "localhost.evil.example:7878", ""]
         {
-            assert!(!is_ours(name, &local), "{name}");
+            assert!(!is_ours(name, local), "{name}");
         }
-        let open = host("0.0.0.0:80");
-        assert!(is_ours("192.168.0.7", &open) && is_ours("[fe80::1]", &open) && !is_ours("evil.example", &open));
+        let open: SocketAddr = "0.0.0.0:80".parse().unwrap();
+        assert!(is_ours("192.168.0.7", open) && is_ours("[fe80::1]", open) && !is_ours("evil.example", open));
     }
 }

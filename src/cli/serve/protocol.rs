@@ -264,3 +264,10 @@ pub struct Figures {
     /// Time that it took to answer, milliseconds.
     pub milliseconds: f64,
 }
+
+impl Figures {
+    /// Nothing but a size.
+    pub fn of_size(size: impl ToString) -> Self {
+        Self { size: Some(size.to_string()), ..Self::default() }
+    }
+}

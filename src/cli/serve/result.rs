@@ -5,22 +5,22 @@ use super::protocol::{AnswerReply, Figures};
 use crate::certify::CertifiedCurve;
 use crate::cli::output;
 use crate::cli::plan;
-use crate::cli::planned::Planned;
+use crate::cli::planned::{self, Planned};
 use crate::cli::{task, task_summary};
 use crate::cspace::CObstacle;
 use crate::draw::{Ending, Picture, View};
 use crate::input::LoadedTask;
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Effort, Method, Verdict, solve};
-use crate::space::{Configuration, Path};
+use crate::space::Configuration;
 use crate::task::{Manner, TaskReport, TaskVerdict};
 use crate::trajectory::Report;
 use serde_json::value::RawValue;
 
-/// A scene with its configuration space, and no path.
-pub fn bare(scene: &Scene, start: Configuration, goals: &[Configuration]) -> AnswerReply {
+/// A scene with its configuration space, and no path: why not, in a word or two.
+pub fn bare(scene: &Scene, start: Configuration, goals: &[Configuration], status: &str) -> AnswerReply {
     let contours = output::contours(scene);
-    let picture = picture(scene, start, goals, &contours, &[]);
+    let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
     AnswerReply { view: drawn(&View::of_picture(&picture, Ending::Shown, Vec::new(), None)), ..AnswerReply::default() }
 }
 
@@ -31,17 +31,17 @@ pub fn quick(problem: &Problem, method: Method, effort: &Effort) -> AnswerReply 
     let contours = output::contours(&problem.scene);
     let mut reply = judged(&answer.verdict);
     reply.figures.size = Some(answer.run.size.to_string());
-    let mut paths = Vec::new();
+    let mut picture = Picture {
+        trace: Some(&answer.run.trace),
+        proof: answer.verdict.proof(),
+        status: planned::status(&answer.verdict).into(),
+        ..picture(&problem.scene, problem.start, &problem.goals, &contours)
+    };
     if let Verdict::Found(path) = &answer.verdict {
         reply.figures.length = Some(effort.metric.length(path.path()));
         reply.figures.clearance = Some(path.clearance()).filter(|clearance| clearance.is_finite());
-        paths.push((method.to_string(), path.path()));
+        picture.paths.push((method.to_string(), path.path()));
     }
-    let picture = Picture {
-        trace: Some(&answer.run.trace),
-        proof: answer.verdict.proof(),
-        ..picture(&problem.scene, problem.start, &problem.goals, &contours, &paths)
-    };
     let ending = ending(&answer.verdict);
     AnswerReply { view: drawn(&View::of_picture(&picture, ending, Vec::new(), None)), ..reply }
 }
@@ -51,19 +51,24 @@ fn picture<'a>(
     start: Configuration,
     goals: &'a [Configuration],
     c_obstacles: &'a [CObstacle],
-    paths: &[(String, &'a Path)],
 ) -> Picture<'a> {
     Picture {
-        title: vec![output::title_of(scene)],
+        title: vec![output::title_of(scene), arm_of(scene)],
         status: String::new(),
         scene,
         start,
         goals,
-        paths: paths.to_vec(),
+        paths: Vec::new(),
         trace: None,
         proof: &[],
         c_obstacles,
     }
+}
+
+/// What is planned for, in a line; so that a page keeps its lines while something moves.
+fn arm_of(scene: &Scene) -> String {
+    let [first, second] = scene.arm.joints.each_ref().map(|joint| joint.name.as_str());
+    format!("{} arm, joints {first} and {second}", scene.arm.kind())
 }
 
 fn ending(verdict: &Verdict) -> Ending {

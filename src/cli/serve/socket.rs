@@ -110,7 +110,7 @@ fn work(mailbox: &Mailbox, host: &Host, send: &mpsc::Sender<Message>) {
     tell(desk.world(None));
     while let Some((request, interrupt)) = mailbox.take() {
         let id = request.id();
-        let done = catch_unwind(AssertUnwindSafe(|| match request {
+        let failed = guarded(id, || match request {
             Request::Plan(ask) => desk.plan(&ask, &interrupt, &mut tell),
             Request::Load { id, text, options } => desk.load(id, &text, options, &interrupt, &mut tell),
             Request::Download { ask, format } => match desk.download(&ask, &format, &interrupt) {
@@ -119,10 +119,28 @@ fn work(mailbox: &Mailbox, host: &Host, send: &mpsc::Sender<Message>) {
                 }
                 Err(error) => tell(Reply::Failed { id, error }),
             },
-        }));
-        if done.is_err() {
-            let error = "the planner failed on this world: this is an error of cplan's; the page goes on".into();
-            tell(Reply::Failed { id, error });
+        });
+        if let Some(failed) = failed {
+            tell(failed);
         }
+    }
+}
+
+/// What to tell the page if the work panics. A desk changes nothing before all that can fail is done, so that it goes on
+/// with what it had.
+fn guarded(id: u64, work: impl FnOnce()) -> Option<Reply> {
+    let error = || "the planner failed on this world: that is an error of cplan's, and the page goes on".to_owned();
+    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| Reply::Failed { id, error: error() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told_and_ends_nothing() {
+        let told = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
+        assert!(matches!(told, Some(Reply::Failed { id: 7, .. })));
+        assert!(guarded(8, || ()).is_none());
     }
 }

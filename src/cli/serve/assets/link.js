@@ -91,8 +91,9 @@ class Link {
     const isAwaited = this.awaited && (message.id === this.awaited.id || message.id === 0);
     const since = this.awaited?.since;
     if (isLast && isAwaited) this.awaited = null;
-    this.hear(message, { isAwaited, since });
+    // The next plan is made while this one is drawn.
     this.pump();
+    this.hear(message, { isAwaited, since });
   }
 
   /** A file: four bytes tell the length of its head. */

@@ -86,8 +86,10 @@ class Live {
       this.tell(message.error);
       this.mark();
     } else if (about.isAwaited) {
-      if (message.done) this.show(message, about);
-      else this.preview(message);
+      clearTimeout(this.soon);
+      if (!message.done) this.soon = setTimeout(() => this.take(message), NOTICED);
+      else if (message.final || !this.view) this.show(message, about);
+      else this.showSoon(message, about);
     }
   }
 
@@ -104,14 +106,20 @@ class Live {
     if (world.id === null) this.plan(true);
   }
 
-  /** The configuration space before its plan: shown if that takes long. */
-  preview(message) {
-    clearTimeout(this.soon);
-    this.soon = setTimeout(() => this.take(message), NOTICED);
+  /** Draws the latest answer with the next picture of the screen. */
+  showSoon(message, about) {
+    const waits = this.latest;
+    this.latest = () => this.show(message, about);
+    if (waits) return;
+    requestAnimationFrame(() => {
+      const show = this.latest;
+      this.latest = null;
+      show?.();
+    });
   }
 
   show(message, { since }) {
-    clearTimeout(this.soon);
+    this.latest = null;
     if (!message.final) this.beats.push(performance.now());
     this.took = performance.now() - since;
     this.take(message);
@@ -139,12 +147,24 @@ class Live {
     }
     if (!message.view) return;
     if (!this.view) this.build(message.view);
-    else this.view.update(message.view);
+    else {
+      const light = !message.final;
+      // What holds for places along the way only would jump: facts come when all of them are known.
+      if (!message.view.facts.length) message.view.facts = this.view.model.facts;
+      this.view.light = light;
+      this.root.classList.toggle('light', light);
+      this.view.update(message.view);
+    }
     this.controls.follow();
   }
 
   /** The figures, in a line. */
-  sum({ figures, reason, final, verdict, certified }) {
+  sum({ figures, reason, final, verdict, certified, error }) {
+    this.root.classList.toggle('known', final && !error);
+    if (error) {
+      this.figures.textContent = '';
+      return;
+    }
     const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
     const parts = [
       verdict && (certified ? 'found and certified' : verdict === 'infeasible' ? 'no path: proven' : verdict),
