@@ -31,6 +31,8 @@
 //! Below all of it lie [`geometry`] (exact predicates, convex shapes, Minkowski differences) and [`space`]
 //! (configurations, and the only code that wraps them on circles).
 //!
+//! Long loops everywhere can be stopped from outside: [`interrupt`].
+//!
 //! Modules import downwards only; [`certify`] imports neither [`cspace`] nor [`plan`], so that it judges them
 //! independently. A test holds this table.
 //!
@@ -41,6 +43,7 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
+pub mod interrupt;
 pub mod geometry;
 pub mod space;
 pub mod model;

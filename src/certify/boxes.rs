@@ -2,6 +2,7 @@
 
 use super::chain::{Mosaic, Openness};
 use super::deviation::{Deviation, Posture};
+use crate::interrupt::checkpoint;
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, Topology};
 use std::f64::consts::PI;
@@ -328,6 +329,7 @@ fn index(at: usize) -> u32 {
 
 /// Decides a box by the pairs that are open in a box around it; `fixed` ones stay open unheard.
 fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
+    checkpoint();
     let posture = Posture::new(scene, cell.center());
     let deviation = Deviation::Box(cell.half());
     let mut open = fixed.to_vec();

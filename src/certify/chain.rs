@@ -2,6 +2,7 @@
 
 use super::boxes::{Cell, Door};
 use crate::geometry::Ordered;
+use crate::interrupt::checkpoint;
 use crate::space::{Configuration, Topology};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
@@ -73,6 +74,7 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (V
         if own == 0 { queue.push_front((0, start)) } else { queue.push_back((own, start)) }
     }
     while let Some((so_far, index)) = queue.pop_front() {
+        checkpoint();
         if so_far > cost[index as usize] {
             continue;
         }
@@ -146,6 +148,7 @@ fn short(
     let mut best = (f64::INFINITY, from);
     length[from as usize] = 0.0;
     while let Some(Reverse((Ordered(so_far), index))) = queue.pop() {
+        checkpoint();
         if so_far >= best.0 {
             break;
         }

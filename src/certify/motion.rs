@@ -4,6 +4,7 @@ use super::blends::CertifiedCurve;
 use super::deviation::{Deviation, Posture};
 use super::passage::along;
 use super::vicinity::Vicinity;
+use crate::interrupt::checkpoint;
 use crate::model::{Contact, Pair, Scene};
 use crate::space::{Blend, Configuration, HAIR, Path};
 
@@ -185,6 +186,7 @@ impl<'a> Search<'a> {
         // Parts of the curve as (middle, half width) of the parameter, the first one on top.
         let mut open = vec![(0.5, 0.5)];
         while let Some((middle, half)) = open.pop() {
+            checkpoint();
             let (at, deviation) = part(middle, half);
             let posture = Posture::new(self.scene, at);
             self.budget = self.budget.saturating_sub(1);

@@ -1,6 +1,7 @@
 //! Continuous collision check of a recorded motion: is it free, and if not, where does it hit first?
 
 use super::deviation::{Deviation, Posture};
+use crate::interrupt::checkpoint;
 use crate::model::{Contact, Pair, Scene};
 use crate::space::{Configuration, Piece, Recording};
 
@@ -207,6 +208,7 @@ impl Search<'_> {
         };
         let mut stack = vec![(all, self.scene.pairs().to_vec())];
         while let Some((span, mut pairs)) = stack.pop() {
+            checkpoint();
             if self.hit.as_ref().is_some_and(|(place, _)| span.start() >= *place) {
                 continue;
             }

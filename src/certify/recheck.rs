@@ -5,6 +5,7 @@
 
 use super::disconnection::{Disconnection, StuckBox};
 use crate::geometry::penetration_depth;
+use crate::interrupt::checkpoint;
 use crate::model::{Motion, Scene};
 use crate::space::{Configuration, Topology};
 use petgraph::unionfind::UnionFind;
@@ -71,6 +72,7 @@ pub fn recheck(
     let topology = scene.arm.topology();
     for (index, stuck) in stuck.iter().enumerate() {
         check_box(scene, &topology, index, stuck, clearance)?;
+        checkpoint();
     }
     let slabs = Slabs::new(&topology, stuck);
     // A start or goal inside a stuck box is not free: nothing leads there.
@@ -154,6 +156,7 @@ impl Slabs {
         let mut active: Vec<usize> = Vec::new();
         let (mut gaps, mut first) = (Vec::new(), vec![0]);
         for strip in ends.windows(2) {
+            checkpoint();
             active.retain(|&b| boxes[b].cell.upper[0] > strip[0]);
             while let Some(b) = waiting.next_if(|&b| boxes[b].cell.lower[0] <= strip[0]) {
                 active.push(b);

@@ -9,6 +9,7 @@ use super::boxes::Cell;
 use super::deviation::{Deviation, Posture};
 use super::disconnection::StuckBox;
 use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
+use crate::interrupt::checkpoint;
 use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::f64::consts::PI;
@@ -95,6 +96,7 @@ impl<'a> SecondLink<'a> {
     /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
     /// this `level`.
     pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
+        checkpoint();
         verdicts.outer.clear();
         verdicts.inner.clear();
         let middle = (from + to) / 2.0;
@@ -130,6 +132,7 @@ impl<'a> SecondLink<'a> {
         let begin = boxes.len();
         let mut open = vec![interval];
         while let Some([lower, upper]) = open.pop() {
+            checkpoint();
             let cell = Cell { lower: [from, lower], upper: [to, upper] };
             if is_stuck(self.scene, pair, &cell, self.clearance) {
                 boxes.push(StuckBox { cell, pair });

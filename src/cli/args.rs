@@ -8,6 +8,8 @@ use super::init::InitArgs;
 use super::man::ManArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
+#[cfg(feature = "serve")]
+use super::serve::ServeArgs;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -30,6 +32,7 @@ Examples:
   cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
@@ -64,6 +67,9 @@ pub enum Command {
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
+    /// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
+    #[cfg(feature = "serve")]
+    Serve(ServeArgs),
     /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
     Demo(DemoArgs),
     /// Write a commented world and a robot to start from.

@@ -22,6 +22,8 @@ mod planned;
 mod recheck;
 mod schema;
 mod search_args;
+#[cfg(feature = "serve")]
+mod serve;
 mod step_lines;
 mod summary;
 mod task;
@@ -61,6 +63,8 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
+        #[cfg(feature = "serve")]
+        (Some(Command::Serve(args)), _) => serve::run(args),
         (Some(Command::Demo(args)), _) => demo::run(args),
         (Some(Command::Init(args)), _) => init::run(args),
         (Some(Command::Completions(args)), _) => completions::run(args),

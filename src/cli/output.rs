@@ -124,15 +124,22 @@ pub fn contours(scene: &Scene) -> Vec<CObstacle> {
 /// # Errors
 /// I/O, or a program built without PNG.
 pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Result<(), Failure> {
-    match format {
-        PictureFormat::Svg => write_whole(path, draw::svg(picture).as_bytes())?,
+    Ok(write_whole(path, &drawn(format, picture)?)?)
+}
+
+/// A picture as a file holds it.
+///
+/// # Errors
+/// A program built without PNG.
+pub fn drawn(format: PictureFormat, picture: &Picture) -> Result<Vec<u8>, Failure> {
+    Ok(match format {
+        PictureFormat::Svg => draw::svg(picture).into_bytes(),
         #[cfg(feature = "png")]
-        PictureFormat::Png => write_whole(path, &draw::png(picture, PNG_SCALE)?)?,
+        PictureFormat::Png => draw::png(picture, PNG_SCALE)?,
         #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png(path)),
-        PictureFormat::Html => save_view(path, &View::of_picture(picture, Ending::Shown, Vec::new(), None))?,
-    }
-    Ok(())
+        PictureFormat::Png => return Err(without_png()),
+        PictureFormat::Html => draw::page(&View::of_picture(picture, Ending::Shown, Vec::new(), None)).into_bytes(),
+    })
 }
 
 /// Writes a page.
@@ -153,22 +160,33 @@ pub fn save_task_picture(
     picture: &TaskPicture,
     facts: impl FnOnce() -> Vec<[String; 2]>,
 ) -> Result<(), Failure> {
-    match format {
-        PictureFormat::Svg => write_whole(path, draw::task_svg(picture).as_bytes())?,
+    Ok(write_whole(path, &drawn_task(format, picture, facts)?)?)
+}
+
+/// A picture of a task as a file holds it.
+///
+/// # Errors
+/// A program built without PNG.
+pub fn drawn_task(
+    format: PictureFormat,
+    picture: &TaskPicture,
+    facts: impl FnOnce() -> Vec<[String; 2]>,
+) -> Result<Vec<u8>, Failure> {
+    Ok(match format {
+        PictureFormat::Svg => draw::task_svg(picture).into_bytes(),
         #[cfg(feature = "png")]
-        PictureFormat::Png => write_whole(path, &draw::task_png(picture, PNG_SCALE)?)?,
+        PictureFormat::Png => draw::task_png(picture, PNG_SCALE)?,
         #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png(path)),
+        PictureFormat::Png => return Err(without_png()),
         PictureFormat::Html => {
             let ending = match picture.answer.verdict {
                 TaskVerdict::Done => Ending::Found,
                 TaskVerdict::Infeasible(_) => Ending::Infeasible,
                 TaskVerdict::Unknown(_) => Ending::Unknown,
             };
-            save_view(path, &View::of_task(picture, ending, facts()))?;
+            draw::page(&View::of_task(picture, ending, facts())).into_bytes()
         }
-    }
-    Ok(())
+    })
 }
 
 /// Writes a picture of an arm in one configuration.
@@ -181,15 +199,15 @@ pub fn save_posture(format: PictureFormat, path: &Path, posture: &Posture) -> Re
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::posture_png(posture, PNG_SCALE)?)?,
         #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png(path)),
+        PictureFormat::Png => return Err(without_png()),
         PictureFormat::Html => save_view(path, &View::of_posture(posture))?,
     }
     Ok(())
 }
 
 #[cfg(not(feature = "png"))]
-fn without_png(path: &Path) -> Failure {
-    Failure::Option(format!("{}: this program was built without PNG; use .svg or .html", path.display()))
+fn without_png() -> Failure {
+    Failure::Option("this program was built without PNG; use .svg or .html".into())
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

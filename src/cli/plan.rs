@@ -108,7 +108,7 @@ pub fn effort(scene: &Scene, args: &PlanArgs, field: Option<FieldPlanner>) -> Re
 }
 
 /// The result file's content, and what the motion follows.
-fn report(
+pub(super) fn report(
     problem: &Problem,
     answer: &Answer,
     motion: &MotionArgs,

@@ -4,12 +4,21 @@ use super::failure::Failure;
 use super::output::{self, PictureFormat};
 use super::summary;
 use crate::certify::CertifiedCurve;
-use crate::draw::{Ending, Picture, View};
+use crate::draw::{Ending, Picture, View, page};
 use crate::model::Problem;
 use crate::plan::FieldPlanner;
 use crate::solve::{Answer, Verdict};
-use crate::trajectory::Report;
+use crate::trajectory::{Report, write_whole};
 use std::path::Path;
+
+/// A verdict in a word or two.
+pub fn status(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Found(_) => "found, certified",
+        Verdict::Infeasible(_) => "no path: proven",
+        Verdict::Unknown(_) => "unknown",
+    }
+}
 
 /// The answer to one problem.
 pub struct Planned<'a> {
@@ -26,13 +35,19 @@ impl Planned<'_> {
     /// Writes a picture of it.
     ///
     /// # Errors
-    /// I/O.
+    /// I/O, or a program built without PNG.
     pub fn save(&self, format: PictureFormat, path: &Path) -> Result<(), Failure> {
+        Ok(write_whole(path, &self.bytes(format)?)?)
+    }
+
+    /// A picture of it as a file holds it.
+    ///
+    /// # Errors
+    /// A program built without PNG.
+    pub fn bytes(&self, format: PictureFormat) -> Result<Vec<u8>, Failure> {
         match format {
-            PictureFormat::Html => output::save_view(path, &self.view()),
-            PictureFormat::Svg | PictureFormat::Png => {
-                self.with_picture(|picture| output::save_picture(format, path, picture))
-            }
+            PictureFormat::Html => Ok(page(&self.view()).into_bytes()),
+            PictureFormat::Svg | PictureFormat::Png => self.with_picture(|picture| output::drawn(format, picture)),
         }
     }
 
@@ -52,18 +67,17 @@ impl Planned<'_> {
         let scene = &problem.scene;
         let contours = output::contours(scene);
         let outline = self.curve.map(|curve| curve.curve().outline());
-        let (status, detail) = match (&answer.verdict, report.length) {
-            (Verdict::Found(_), Some(length)) => {
+        let detail = match report.length {
+            Some(length) => {
                 let clearance =
                     report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
-                ("found, certified", format!("{}: length {length:.4}, {clearance}", answer.method))
+                format!("{}: length {length:.4}, {clearance}", answer.method)
             }
-            (Verdict::Infeasible(_), _) => ("no path: proven", answer.method.to_string()),
-            _ => ("unknown", answer.method.to_string()),
+            None => answer.method.to_string(),
         };
         show(&Picture {
             title: vec![output::title(problem), detail],
-            status: status.into(),
+            status: status(&answer.verdict).into(),
             scene,
             start: problem.start,
             goals: &problem.goals,

@@ -72,7 +72,7 @@ pub fn run(
 }
 
 /// What a picture of the task shows.
-fn picture<'a>(loaded: &'a LoadedTask, answer: &'a TaskAnswer, report: &TaskReport) -> TaskPicture<'a> {
+pub(super) fn picture<'a>(loaded: &'a LoadedTask, answer: &'a TaskAnswer, report: &TaskReport) -> TaskPicture<'a> {
     let steps = counted(answer.legs.len(), "step");
     let (status, detail) = match (&answer.verdict, report.clearance()) {
         (TaskVerdict::Done, clearance) => {

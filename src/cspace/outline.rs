@@ -1,6 +1,7 @@
 //! Contours of a C-obstacle from its rows: adaptive flattening of curves that are known at each `q1` exactly.
 
 use crate::geometry::Point;
+use crate::interrupt::checkpoint;
 use std::f64::consts::{PI, TAU};
 
 /// All of `q2` where that turns.
@@ -103,6 +104,7 @@ struct Tracer<'r, S: Source> {
 
 impl<S: Source> Tracer<'_, S> {
     fn row(&mut self, at: Break) -> Row<S::End> {
+        checkpoint();
         self.scratch.clear();
         self.source.intervals(at.q1, &mut self.scratch);
         let full = self.how.turning && self.scratch.iter().any(|[lower, upper]| upper - lower >= TAU);

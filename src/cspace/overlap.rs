@@ -2,6 +2,7 @@
 
 use super::chord::PairMotion;
 use crate::geometry::{Convex, Point, Pose, Vector, common, perpendicular, segments_cross};
+use crate::interrupt::checkpoint;
 use crate::model::Arm;
 use crate::space::Configuration;
 use std::cell::Cell;
@@ -84,6 +85,7 @@ impl<'a> Overlaps<'a> {
     }
 
     fn halved(&self, quad: &[[Corner; 2]; 2], halvings: u32) -> bool {
+        checkpoint();
         self.looks.set(self.looks.get().saturating_sub(1));
         if self.follows(quad) {
             return true;

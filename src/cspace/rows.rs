@@ -1,6 +1,7 @@
 //! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
 
 use crate::geometry::{Convex, Features, Hits, Point, Vector, merge_in_place};
+use crate::interrupt::checkpoint;
 use crate::model::{Arm, Carried, Motion, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::collections::BTreeMap;
@@ -108,6 +109,7 @@ impl<'a> Rows<'a> {
     /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
     /// only. Reuses `row`'s memory. `O(m log m)` in the contacts.
     pub fn row(&self, q1: f64, grow: f64, row: &mut Row) {
+        checkpoint();
         row.clear();
         let (elbow, heading) = self.elbow(q1);
         for index in self.second_link_pairs() {

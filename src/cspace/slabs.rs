@@ -3,6 +3,7 @@
 use super::rows::Rows;
 use super::{Grid, Proves};
 use crate::geometry::ROUNDING;
+use crate::interrupt::checkpoint;
 use crate::model::{Scene, on_axis};
 use std::f64::consts::TAU;
 
@@ -70,6 +71,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     for (index, motion) in rows.second_link_pairs().zip(&motions) {
         let grow = kept + motion;
         reached.clear();
+        checkpoint();
         let hits = rows.reach_range(index, grow, &mut reached);
         on_axis(&scene.arm.joints[0], hits, &reached, |[start, end]| {
             // One row more at either end, for the rounding of the range.

@@ -2,6 +2,7 @@
 
 use super::Polygon;
 use crate::geometry::Point;
+use crate::interrupt::checkpoint;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
@@ -72,6 +73,7 @@ fn united_by_neighbors(contours: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
     let mut united = Vec::new();
     let mut parts = vec![&mut placed[..]];
     while let Some(part) = parts.pop() {
+        checkpoint();
         if part.len() > GROUP {
             // Halved across its longer side.
             let extent = |k: usize| {

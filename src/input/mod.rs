@@ -110,6 +110,22 @@ pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError
     among(world::read(world)?, urdf)
 }
 
+impl LoadedScene {
+    /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table
+    /// says the same: for worlds that are edited.
+    ///
+    /// # Errors
+    /// [`InputError`] for everything that is wrong with the texts themselves.
+    pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
+        let world = world::read(world)?;
+        if world.robot != self.world.robot {
+            return among(world, urdf.clone());
+        }
+        let scene = Scene::new(self.scene.arm.clone(), world.at_first());
+        Ok(Self { scene, world, robot: self.robot.clone() })
+    }
+}
+
 /// The arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, robot) = urdf::load(urdf, &world)?;

@@ -79,6 +79,19 @@ impl Source {
         Self { path: name.into(), text: text.into(), is_file: false }
     }
 
+    /// The text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The same with another text, as an editor holds one in place of a file's: what it refers to is looked for beside the
+    /// same file.
+    #[must_use]
+    pub fn with_text(&self, text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..self.clone() }
+    }
+
     /// Reads a file as UTF-8, without a byte order mark.
     ///
     /// # Errors

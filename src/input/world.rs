@@ -70,7 +70,7 @@ impl World {
 }
 
 /// What the URDF leaves open, and what goes over it. All keys are optional.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "robot")]
 pub(super) struct RobotTable {

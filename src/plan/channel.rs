@@ -4,6 +4,7 @@ use super::NONE;
 use super::decomposition::{Decomposition, Door};
 use super::terminals::Terminals;
 use crate::geometry::{Ordered, Point};
+use crate::interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -74,6 +75,7 @@ impl Adjacency {
             search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
         }
         while let Some(Reverse((_, node, Ordered(cost)))) = search.open.pop() {
+            checkpoint();
             if cost > search.nodes[node as usize].cost {
                 continue;
             }

@@ -4,6 +4,7 @@ use super::NONE;
 use super::boundary::Boundary;
 use super::status::Status;
 use crate::geometry::{Orientation, Point, orientation};
+use crate::interrupt::checkpoint;
 
 /// A trapezoid or triangle of free space between two sides and two verticals.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,6 +93,7 @@ impl Decomposition {
         let mut sweep = Sweep { boundary, status, cell_above, result: Decomposition::default() };
         let mut begin = 0;
         for event in boundary.vertices.chunk_by(|a, b| a.x == b.x) {
+            checkpoint();
             sweep.pass(begin, event.len());
             begin += event.len();
         }

@@ -4,6 +4,7 @@ use super::NONE;
 use super::boundary::{Boundary, Side};
 use super::status::Status;
 use crate::geometry::{Orientation, Point};
+use crate::interrupt::checkpoint;
 use std::cmp::Ordering;
 
 /// Sides that cross by no more than this, relative to the greatest coordinate, cross by rounding: a few units in the last
@@ -65,6 +66,7 @@ impl<'a> Sweep<'a> {
         let (status, below, hair) = (Status::new(sides), vec![NONE; vertices], HAIR * greatest);
         let mut sweep = Self { boundary, status, below, hair, cuts: Vec::new() };
         for v in 0..vertices {
+            checkpoint();
             sweep.pass(v);
         }
         sweep

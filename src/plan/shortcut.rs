@@ -2,6 +2,7 @@
 
 use super::grid_path::{Line, place};
 use crate::cspace::Grid;
+use crate::interrupt::checkpoint;
 
 /// A segment counts as passing through a cell that it comes as near as this to (in cells), so that touching a corner is
 /// passing both sides of it. Far above the rounding of lattice coordinates (1e-11 for a hundred thousand cells), far
@@ -47,6 +48,7 @@ fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut corners = vec![line[0]];
     let mut at = 0;
     while at + 1 < line.len() {
+        checkpoint();
         let (mut seen, mut hidden) = (at + 1, line.len());
         while seen + 1 < hidden {
             let ahead = (at + 2 * (seen - at)).min(line.len() - 1);

@@ -4,6 +4,7 @@ use super::NONE;
 use super::measure::Measure;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
 use crate::geometry::{Ordered, Orientation, Point, cross, orientation};
+use crate::interrupt::checkpoint;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -108,6 +109,7 @@ impl<'a> TautSearch<'a> {
         seen.dedup();
         seen.into_iter().for_each(|corner| self.see(0, corner));
         while let Some((.., step)) = self.open.pop() {
+            checkpoint();
             match step {
                 Step::Arrive(node) => return Some(self.waypoints(node)),
                 Step::Turn(node) => self.turn(node),

@@ -9,6 +9,7 @@ use super::order;
 use super::outlook::Outlook;
 use super::state::{Candidate, State};
 use crate::geometry::Ordered;
+use crate::interrupt::checkpoint;
 use crate::model::Task;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -103,6 +104,7 @@ impl<'a> Search<'a> {
         let mut told = 0;
         let budget = MOST_EXPANDED + EXPANDED_PER_STEP * self.task.steps().count();
         while let Some(Reverse((_, _, index))) = self.open.pop() {
+            checkpoint();
             if self.legs.planned() >= told + NEWS {
                 told = self.legs.planned();
                 progress(&format!("{told} motions planned, {} states seen", self.expanded));

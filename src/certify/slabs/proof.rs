@@ -4,6 +4,7 @@ use super::{ALIKE, Slab, Slabs, Span, half_of_level, index};
 use crate::certify::chain::Mosaic;
 use crate::certify::disconnection::{Disconnection, StuckBox};
 use crate::geometry::merge_in_place;
+use crate::interrupt::checkpoint;
 use crate::space::Configuration;
 
 impl Slabs<'_> {
@@ -43,6 +44,7 @@ impl Slabs<'_> {
         let reached = self.reached(places)?;
         let mut boxes = Vec::new();
         for number in 0..index(self.slabs.len()) {
+            checkpoint();
             let slab = self.slabs[number as usize];
             let own: Vec<u32> = self.spans_of(number).filter(|&s| reached[s as usize]).collect();
             let beside: Vec<u32> =

@@ -1,5 +1,6 @@
 //! Elimination in a network of unit resistances, without a subtraction.
 
+use crate::interrupt::checkpoint;
 use std::collections::VecDeque;
 
 /// No link, no node.
@@ -130,6 +131,7 @@ impl Network {
             row[n + 1..].copy_from_slice(&self.source[node]);
         }
         for k in 0..n {
+            checkpoint();
             let (done, left) = rows.split_at_mut((k + 1) * width);
             let row = &mut done[k * width..];
             row[k] = row[k + 1..=n].iter().sum();
@@ -179,6 +181,7 @@ impl Network {
             }
             done[i] = true;
             order.push(node);
+            checkpoint();
             around.clear();
             let mut pivot = self.ground[i];
             let mut at = self.first[i];

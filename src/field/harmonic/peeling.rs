@@ -15,6 +15,7 @@ use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
 use crate::field::multigrid::Ends;
+use crate::interrupt::checkpoint;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::LN_2;
@@ -121,6 +122,7 @@ impl<'a> Peeling<'a> {
 
     pub fn run(mut self) -> Self {
         while let Some(window) = self.gather() {
+            checkpoint();
             self.windows += 1;
             let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
             let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);

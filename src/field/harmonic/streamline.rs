@@ -2,6 +2,7 @@
 
 use super::potential::Scaled;
 use super::{Component, Potential};
+use crate::interrupt::checkpoint;
 
 /// Row and column of a cell on the unbounded lattice: on a circle counted on.
 pub type Place = [i64; 2];
@@ -63,6 +64,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> Interpolated<'a, F> {
         let mut spot = self.enter(from)?;
         // Each triangle is passed once, but for rounding.
         for _ in 0..=MOST_STEPS * self.component.len() {
+            checkpoint();
             points.push(point(spot));
             if let Some((goal, place)) = self.arrived(spot) {
                 return Some(Streamline { points, goal, place });

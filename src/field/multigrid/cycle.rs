@@ -7,6 +7,7 @@ use super::machine::{LANES, Machine};
 use super::smooth::{Smooth, Vectors};
 use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Corners, Rows, Transfer};
+use crate::interrupt::checkpoint;
 
 /// A level with at most this many cells is solved directly.
 const BOTTOM: usize = 40;
@@ -38,6 +39,7 @@ impl Hierarchy {
         while let Some(level) = levels.last()
             && level.frame.rows * level.frame.columns > BOTTOM
         {
+            checkpoint();
             let (transfer, next) = coarsen(m, level);
             transfers.push(transfer);
             levels.push(next);

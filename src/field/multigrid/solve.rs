@@ -6,6 +6,7 @@ use super::cycle::{Hierarchy, Stack};
 use super::frame::{Ends, Frame};
 use super::machine::{Machine, Portable};
 use super::stencil::FivePoint;
+use crate::interrupt::checkpoint;
 
 /// Evaluates an expression with the best machine that there is.
 macro_rules! on_this_machine {
@@ -161,6 +162,7 @@ impl Multigrid {
         let (mut before, mut product, mut energy) = (f64::INFINITY, 0.0, 0.0);
         let (mut error, mut step) = (f64::INFINITY, None);
         loop {
+            checkpoint();
             let moved = workspace.descend(m, &self.chequer, &hierarchy.corners, step);
             if step.is_some() {
                 *iterations += 1;

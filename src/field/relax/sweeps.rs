@@ -4,6 +4,7 @@ use super::relaxation::{Precision, Relaxation, Scheme};
 use super::stencil::{Altered, Mean, Stencil, Weighted};
 use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
+use crate::interrupt::checkpoint;
 use std::fmt;
 
 /// A relaxed field.
@@ -255,6 +256,7 @@ impl<'a> Engine<'a> {
         let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
         let mut before = f64::INFINITY;
         while !stage.converged && stage.sweeps < stopping.max_sweeps {
+            checkpoint();
             let total = match passes.len() {
                 0 => self.at_once::<S, T>(&step, &mut next),
                 count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),

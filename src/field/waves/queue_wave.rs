@@ -1,6 +1,7 @@
 //! The wave over eight neighbours, cell by cell.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
+use crate::interrupt::checkpoint;
 
 /// Labels of every cell that a wave from `sources` (free cells) reaches over the cells that share a side or a corner, and
 /// [`UNREACHED`] for all others.
@@ -24,6 +25,7 @@ pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u3
     let mut next = Vec::new();
     let mut level = 0;
     while !front.is_empty() {
+        checkpoint();
         next.resize(8 * front.len(), [0; 2]);
         let reached = advance(free, &front, level, &mut waiting, &mut labels, &mut next);
         next.truncate(reached);

@@ -1,6 +1,7 @@
 //! Textbook searches over the cells of a grid, which look no farther than they must.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
+use crate::interrupt::checkpoint;
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, VecDeque};
 use std::f64::consts::SQRT_2;
@@ -69,6 +70,9 @@ pub struct Search {
     pub labelled: usize,
 }
 
+/// So many cells are expanded in less than a millisecond.
+const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
+
 impl Search {
     /// Searches from all free cells among `sources` at once until `target` is expanded, or all that can be reached.
     ///
@@ -99,6 +103,9 @@ impl Search {
                 continue;
             }
             search.expanded += 1;
+            if search.expanded.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                checkpoint();
+            }
             if cell == target {
                 break;
             }

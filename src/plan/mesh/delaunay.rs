@@ -3,6 +3,7 @@
 use super::triangulation::HalfEdges;
 use super::{next, previous};
 use crate::geometry::{Orientation, Point, in_circle, orientation};
+use crate::interrupt::checkpoint;
 use crate::plan::NONE;
 
 /// Most flips a half-edge. Some two are usual; adversarial point sets could ask for a number that grows like the
@@ -16,6 +17,7 @@ pub(super) fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     let mut left = FLIPS * edges.origin.len();
     let mut stack: Vec<u32> = (0..edges.origin.len() as u32).filter(|&h| h < edges.twin[h as usize]).collect();
     while let Some(h) = stack.pop() {
+        checkpoint();
         let g = edges.twin[h as usize];
         if g == NONE {
             continue;

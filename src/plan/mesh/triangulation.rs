@@ -1,6 +1,7 @@
 //! Triangulation of polygonal free space by a sweep.
 
 use crate::geometry::{Orientation, Point, orientation};
+use crate::interrupt::checkpoint;
 use crate::plan::NONE;
 use crate::plan::boundary::Boundary;
 
@@ -30,6 +31,7 @@ pub(super) fn triangulate(boundary: &Boundary) -> HalfEdges {
     // The unfinished region above each floor.
     let mut regions: Vec<Option<Region>> = vec![None; boundary.sides.len()];
     for v in 0..boundary.vertices.len() {
+        checkpoint();
         sweep.pass(boundary, v, &mut regions);
     }
     sweep.result

@@ -47,6 +47,8 @@ class View {
     this.pinned = false;
     /** Who takes the pointer before the view does: { down, move, up }, each called with panel, value and event. */
     this.tool = null;
+    /** Whether to leave out what takes long to draw, while something moves. */
+    this.light = false;
     this.build();
     this.update(model);
     const themes = matchMedia('(prefers-color-scheme: dark)');

@@ -187,7 +187,7 @@ const Workspace = (() => {
     if (view.shows('regions')) regions(context, panel, world);
     if (view.shows('poses')) {
       const shown = view.pathsHere();
-      if (shown.length === 1) {
+      if (shown.length === 1 && !view.light) {
         for (const q of along(shown[0].points, 6).slice(1, -1)) {
           arm(context, panel, view, world, q, { fill: theme.faint, line: theme.pale, width: 0.8, alpha: 0.7 });
         }

@@ -1,0 +1,352 @@
+// Moving things: by pointer in both panels, and by keys.
+'use strict';
+
+/** How near a pointer has to be, pixels: a mouse, a finger. */
+const GRASP = { mouse: 9, pen: 12, touch: 20 };
+
+class Editor {
+  /** `changed(final)` is called when the scene has changed; `selected()` when something else is selected. */
+  constructor(view, { changed, selected, postures }) {
+    Object.assign(this, { view, changed, selected, postures });
+    this.scene = null;
+    /** What is selected: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
+    this.selection = null;
+    this.held = null;
+    view.tool = {
+      down: (panel, value, event) => this.down(panel, value, event),
+      move: (panel, value, event) => this.move(panel, value, event),
+      up: (panel, value, event) => this.up(event),
+    };
+    const { workspace, cspace } = view.panels;
+    workspace.overlays.push((context, panel) => this.drawWorkspace(context, panel));
+    cspace.overlays.push((context, panel) => this.drawCSpace(context, panel));
+    workspace.canvas.addEventListener('dblclick', (event) => this.insertCorner(workspace.value(workspace.spot(event)), workspace));
+    for (const panel of [workspace, cspace]) panel.canvas.addEventListener('keydown', (event) => this.key(event, panel), true);
+  }
+
+  use(scene) {
+    this.scene = scene;
+    this.held = null;
+    this.select(null);
+  }
+
+  select(selection) {
+    this.selection = selection;
+    this.selected();
+    this.redraw();
+  }
+
+  redraw() {
+    for (const panel of Object.values(this.view.panels)) panel.draw();
+  }
+
+  get obstacle() {
+    return this.selection?.kind === 'obstacle' ? this.scene.obstacles[this.selection.index] : null;
+  }
+
+  // Where things are.
+
+  get arm() {
+    return this.view.model.arm;
+  }
+
+  get start() {
+    return this.postures().start ?? this.view.model.start;
+  }
+
+  get goal() {
+    const { goal } = this.scene;
+    return goal?.joints ?? this.view.ends()[0] ?? this.postures().goals[0];
+  }
+
+  /** The tip at the start, and the place that it is to go to. */
+  get tips() {
+    const { start, goal, arm } = this;
+    const target = this.scene.goal?.tip ?? (goal ? Geometry.tipAt(arm, goal) : null);
+    return { start: start && Geometry.tipAt(arm, start), goal: target };
+  }
+
+  // The pointer.
+
+  /** What a pointer at a place of the workspace would take. */
+  find(panel, value, event) {
+    const near = GRASP[event.pointerType] ?? GRASP.mouse;
+    const reach = near / panel.pixels;
+    const apart = (p) => Math.hypot(p[0] - value[0], p[1] - value[1]);
+    const shape = this.obstacle?.shape;
+    if (shape) {
+      const { index } = this.selection;
+      const corners = Shapes.corners(shape) ?? [];
+      const corner = corners.findIndex((p) => apart(p) <= reach);
+      if (corner >= 0) return { kind: 'obstacle', index, corner };
+      if (shape.circle && Math.abs(apart(shape.circle.center) - shape.circle.radius) <= reach) return { kind: 'obstacle', index, corner: 'rim' };
+    }
+    const { tips } = this;
+    if (tips.goal && apart(tips.goal) <= 1.3 * reach) return { kind: 'goal' };
+    if (tips.start && apart(tips.start) <= 1.3 * reach) return { kind: 'start' };
+    for (let index = this.scene.obstacles.length - 1; index >= 0; index -= 1) {
+      const { shape: other } = this.scene.obstacles[index];
+      if (other && Shapes.holds(other, value, reach / 2)) return { kind: 'obstacle', index, corner: null };
+    }
+    return null;
+  }
+
+  /** The same in the configuration space. */
+  findPosture(panel, event) {
+    const near = 1.5 * (GRASP[event.pointerType] ?? GRASP.mouse);
+    const [x, y] = panel.spot(event);
+    const is = (q) => q && Math.hypot(...[0, 1].map((k) => CSpace.place(this.view, panel, q)[k] - [x, y][k])) <= near;
+    if (is(this.goal)) return { kind: 'goal' };
+    return is(this.start) ? { kind: 'start' } : null;
+  }
+
+  down(panel, value, event) {
+    if (!this.scene || this.scene.world.has_steps || event.button > 0) return false;
+    const inWorkspace = panel === this.view.panels.workspace;
+    const found = inWorkspace ? this.find(panel, value, event) : this.findPosture(panel, event);
+    if (!found) {
+      if (inWorkspace) this.select(null);
+      return false;
+    }
+    this.view.pause();
+    this.view.examine(null);
+    this.view.seek(0);
+    panel.canvas.focus({ preventScroll: true });
+    this.held = { panel, from: value, shape: this.scene.obstacles[found.index]?.shape, moved: false, ...found };
+    this.select(found);
+    return true;
+  }
+
+  move(panel, value, event) {
+    if (!this.held) {
+      if (!this.scene || this.scene.world.has_steps || event.pointerType !== 'mouse') return false;
+      const inWorkspace = panel === this.view.panels.workspace;
+      const found = inWorkspace ? this.find(panel, value, event) : this.findPosture(panel, event);
+      panel.canvas.style.cursor = found ? 'grab' : '';
+      return false;
+    }
+    if (this.held.panel !== panel) return true;
+    this.held.moved = true;
+    panel.canvas.style.cursor = 'grabbing';
+    this.place(value);
+    this.changed(false);
+    return true;
+  }
+
+  up() {
+    if (!this.held) return false;
+    const { moved, panel } = this.held;
+    this.held = null;
+    panel.canvas.style.cursor = '';
+    if (moved) this.changed(true);
+    return true;
+  }
+
+  /** Puts what is held to a place. */
+  place(value) {
+    const { kind, index, corner, shape, from, panel } = this.held;
+    const inWorkspace = panel === this.view.panels.workspace;
+    if (kind === 'obstacle') {
+      const of = this.scene.obstacles[index];
+      if (corner === 'rim') {
+        const { center } = shape.circle;
+        const radius = Math.max(1e-3, rounded4(Math.hypot(value[0] - center[0], value[1] - center[1])));
+        of.shape = { circle: { center, radius } };
+      } else if (corner !== null) {
+        of.shape = Shapes.cornered(shape, Shapes.corners(of.shape).map((p, i) => (i === corner ? roundedPoint(value) : p)));
+      } else {
+        of.shape = Shapes.moved(shape, [value[0] - from[0], value[1] - from[1]]);
+      }
+    } else if (inWorkspace) {
+      this.placeTip(kind, value);
+    } else {
+      this.placePosture(kind, value);
+    }
+    this.redraw();
+  }
+
+  placeTip(kind, value) {
+    if (kind === 'goal') this.scene.goal = { tip: roundedPoint(value) };
+    else this.scene.start = { tip: roundedPoint(value), near: this.start };
+  }
+
+  placePosture(kind, value) {
+    const joints = this.arm.joints.map((joint, k) => {
+      const [low, high] = joint.domain;
+      return joint.circle ? rounded4(Geometry.wrap(joint, value[k])) : rounded4(Math.min(high, Math.max(low, value[k])));
+    });
+    this.scene[kind] = { joints };
+  }
+
+  // Buttons and keys.
+
+  /** A place for something new of this size that leaves start and goal free. */
+  room(make) {
+    const { reach } = this.scene.world;
+    const { base, links } = this.arm;
+    const postures = [this.start, ...this.postures().goals].filter(Boolean);
+    const parts = postures.flatMap((q) => {
+      const at = Geometry.poses(this.arm, q);
+      return links.flatMap((link, k) => link.parts.map((part) => Geometry.placed(part, at[k])));
+    });
+    let first = null;
+    for (const share of [0.7, 0.5, 0.9, 1.2]) {
+      for (let turn = 0; turn < 16; turn += 1) {
+        const angle = Math.PI / 2 + (turn % 2 ? -1 : 1) * Math.ceil(turn / 2) * (Math.PI / 8);
+        const shape = make([base[0] + share * reach * Math.cos(angle), base[1] + share * reach * Math.sin(angle)].map(rounded4));
+        first ??= shape;
+        const free = Shapes.pieces(shape).every((piece) => parts.every((part) => Geometry.separation(part, piece) > 0.02 * reach));
+        if (free) return shape;
+      }
+    }
+    return first;
+  }
+
+  add(kind) {
+    const size = rounded4(this.scene.world.reach / 12);
+    const makers = {
+      polygon: ([x, y]) => ({ polygon: [[x - size, y - size], [x + size, y - size], [x + size, y + size], [x - size, y + size]].map(roundedPoint) }),
+      circle: (center) => ({ circle: { center, radius: size } }),
+      wall: ([x, y]) => ({ polyline: [[x - size, y], [x + size, y]].map(roundedPoint) }),
+    };
+    const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.room(makers[kind]));
+    this.select({ kind: 'obstacle', index, corner: null });
+    this.changed(true);
+  }
+
+  insertCorner(value, panel) {
+    const { obstacle } = this;
+    if (!obstacle?.shape || obstacle.shape.circle) return;
+    const corners = Shapes.corners(obstacle.shape);
+    let side = value ? Shapes.nearestSide(obstacle.shape, value) : null;
+    if (value && side.distance * panel.pixels > GRASP.touch) return;
+    if (!side) {
+      const length = ([a, b]) => Math.hypot(corners[b][0] - corners[a][0], corners[b][1] - corners[a][1]);
+      const [a, b] = Shapes.sides(obstacle.shape).reduce((best, s) => (length(s) > length(best) ? s : best));
+      side = { after: a, at: [0, 1].map((k) => (corners[a][k] + corners[b][k]) / 2) };
+    }
+    obstacle.shape = Shapes.cornered(obstacle.shape, corners.toSpliced(side.after + 1, 0, roundedPoint(side.at)));
+    this.select({ ...this.selection, corner: side.after + 1 });
+    this.changed(true);
+  }
+
+  /** Deletes the corner that is selected, else the obstacle. */
+  remove() {
+    const { obstacle, selection } = this;
+    if (!obstacle) return;
+    const corners = Shapes.corners(obstacle.shape);
+    const least = obstacle.shape?.polygon ? 3 : 2;
+    if (Number.isInteger(selection.corner) && corners.length > least) {
+      obstacle.shape = Shapes.cornered(obstacle.shape, corners.toSpliced(selection.corner, 1));
+      this.select({ ...selection, corner: null });
+    } else {
+      this.scene.obstacles.splice(selection.index, 1);
+      this.select(null);
+    }
+    this.changed(true);
+  }
+
+  key(event, panel) {
+    if (!this.selection || event.ctrlKey || event.metaKey || event.altKey) return;
+    const ways = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] };
+    const way = ways[event.key];
+    const { obstacle } = this;
+    if (way) this.nudge(way, event.shiftKey ? 10 : 1, panel);
+    else if (event.key === 'Delete' || event.key === 'Backspace') this.remove();
+    else if (event.key === 'c' && obstacle?.shape && !obstacle.shape.circle) {
+      const n = Shapes.corners(obstacle.shape).length;
+      const next = this.selection.corner === null ? 0 : this.selection.corner + 1;
+      this.select({ ...this.selection, corner: next < n ? next : null });
+    } else if (event.key === 'Escape') this.select(null);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  /** Arrow keys: five millimetres for an arm of a metre, half a degree. */
+  nudge([dx, dy], times, panel) {
+    const { kind, index, corner } = this.selection;
+    const inWorkspace = panel === this.view.panels.workspace;
+    const step = times * (inWorkspace ? rounded4(this.scene.world.reach / 200) : Math.PI / 360);
+    if (kind === 'obstacle') {
+      const { shape } = this.scene.obstacles[index];
+      if (!shape || !inWorkspace) return;
+      this.held = { kind, index, corner, shape, from: [0, 0], panel };
+      const at = Number.isInteger(corner) ? Shapes.corners(shape)[corner] : [0, 0];
+      if (corner === 'rim') {
+        const { center, radius } = shape.circle;
+        this.place([center[0] + Math.max(step, radius + (dx + dy) * step), center[1]]);
+      } else this.place([at[0] + dx * step, at[1] + dy * step]);
+    } else {
+      const at = inWorkspace ? this.tips[kind] : this[kind];
+      if (!at) return;
+      this.held = { kind, from: at, panel };
+      this.place([at[0] + dx * step, at[1] + dy * step]);
+    }
+    this.held = null;
+    this.changed(true);
+  }
+
+  // Drawing.
+
+  drawWorkspace(context, panel) {
+    if (!this.scene || this.scene.world.has_steps) return;
+    const { theme } = panel;
+    const { tips, selection, obstacle } = this;
+    if (obstacle?.shape) this.drawSelected(context, panel, obstacle.shape);
+    if (tips.goal) {
+      const [x, y] = panel.at(tips.goal);
+      context.strokeStyle = selection?.kind === 'goal' ? theme.accent : theme.ink;
+      context.lineWidth = 2;
+      for (const r of [4, 10]) {
+        context.beginPath();
+        context.arc(x, y, r, 0, 2 * Math.PI);
+        context.stroke();
+      }
+      for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) line(context, [[x + 7 * dx, y + 7 * dy], [x + 14 * dx, y + 14 * dy]]);
+    }
+    if (tips.start) {
+      const [x, y] = panel.at(tips.start);
+      context.beginPath();
+      context.arc(x, y, 7, 0, 2 * Math.PI);
+      context.strokeStyle = theme.accent;
+      context.lineWidth = selection?.kind === 'start' ? 4 : 2;
+      context.stroke();
+    }
+  }
+
+  drawSelected(context, panel, shape) {
+    const { theme } = panel;
+    context.beginPath();
+    if (shape.circle) rounded(context, panel, { core: shape.circle.center, radius: shape.circle.radius });
+    else trace(context, panel, Shapes.corners(shape).flat(), Boolean(shape.polygon));
+    context.setLineDash([5, 4]);
+    context.lineWidth = 2;
+    context.strokeStyle = theme.accent;
+    context.stroke();
+    context.setLineDash([]);
+    const { center, radius } = shape.circle ?? {};
+    const handles = shape.circle ? [[center[0] + radius, center[1]]] : Shapes.corners(shape);
+    handles.forEach((p, i) => {
+      const [x, y] = panel.at(p);
+      const chosen = this.selection.corner === i || this.selection.corner === 'rim';
+      context.fillStyle = chosen ? theme.accent : theme.paper;
+      context.lineWidth = 1.8;
+      context.fillRect(x - 5, y - 5, 10, 10);
+      context.strokeRect(x - 5, y - 5, 10, 10);
+    });
+  }
+
+  drawCSpace(context, panel) {
+    const kind = this.selection?.kind;
+    if (kind !== 'start' && kind !== 'goal') return;
+    const q = this[kind];
+    if (!q) return;
+    const [x, y] = CSpace.place(this.view, panel, q);
+    context.beginPath();
+    context.arc(x, y, 14, 0, 2 * Math.PI);
+    context.strokeStyle = panel.theme.accent;
+    context.lineWidth = 2.5;
+    context.stroke();
+  }
+}

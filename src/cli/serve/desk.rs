@@ -1,0 +1,242 @@
+//! What one page works on: a text, changed as the page says, and what comes of it.
+
+use super::Host;
+use super::document::Document;
+use super::files;
+use super::options::Options;
+use super::protocol::{AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
+use super::result::{self, Found};
+use crate::geometry::Point;
+use crate::input::{LoadedScene, Overrides};
+use crate::interrupt::{Interrupt, Interrupted};
+use crate::model::{Arm, inverse, within};
+use crate::solve::Method;
+use crate::space::{Axis, Configuration};
+use std::time::{Duration, Instant};
+
+/// The page is not to wait longer than this for what it shows while something is dragged.
+const DRAG_TIME: Duration = Duration::from_millis(150);
+
+/// Bisections towards a place that the tip does not reach.
+const BISECTIONS: usize = 24;
+
+/// A page's text and what it says.
+pub struct Desk<'a> {
+    host: &'a Host,
+    /// Number of the text.
+    base: u64,
+    document: Document,
+    scene: LoadedScene,
+}
+
+impl<'a> Desk<'a> {
+    /// A page that has just been opened: the program's own world.
+    pub fn new(host: &'a Host) -> Self {
+        Self { host, base: 1, document: host.document.clone(), scene: host.scene.clone() }
+    }
+
+    /// The world, for the page to change.
+    pub fn world(&self, id: Option<u64>) -> Reply {
+        let arm = &self.scene.scene.arm;
+        let names = self.scene.scene.workspace.obstacles.iter().map(|obstacle| obstacle.name.clone());
+        let pieces = names.zip(self.document.forms());
+        let limits = |axis: &Axis| match *axis {
+            Axis::Circle => None,
+            Axis::Interval { lower, upper } => Some([lower, upper]),
+        };
+        let joint = |k: usize| {
+            let joint = &arm.joints[k];
+            JointReply { name: joint.name.clone(), unit: joint.unit(), limits: limits(&joint.axis) }
+        };
+        Reply::World(Box::new(WorldReply {
+            id,
+            base: self.base,
+            name: self.scene.scene.workspace.name.clone(),
+            robot: format!("{} ({})", arm.name, arm.kind()),
+            obstacles: pieces.map(|(name, shape)| PieceReply { name, shape }).collect(),
+            start: self.document.start(),
+            goal: self.document.goal(),
+            clearance: self.scene.scene.workspace.clearance,
+            has_steps: self.scene.has_steps(),
+            joints: [0, 1].map(joint),
+            reach: arm.reach(),
+            planners: Method::ALL.iter().map(|method| method.name()).collect(),
+            options: id.is_none().then(|| self.host.options.clone()),
+            toml: self.document.text().to_owned(),
+        }))
+    }
+
+    /// Takes another text, if it is a world, and plans in it.
+    pub fn load(&mut self, id: u64, text: &str, options: String, interrupt: &Interrupt, tell: &mut dyn FnMut(Reply)) {
+        match self.host.read(text) {
+            Ok((document, scene)) => {
+                (self.document, self.scene) = (document, scene);
+                self.base += 1;
+                tell(self.world(Some(id)));
+                let ask = Ask { id, base: self.base, is_final: true, state: None, options };
+                self.plan(&ask, interrupt, tell);
+            }
+            Err(error) => tell(Reply::Failed { id, error }),
+        }
+    }
+
+    /// Plans, and tells what came of it; nothing if it was stopped.
+    pub fn plan(&self, ask: &Ask, interrupt: &Interrupt, tell: &mut dyn FnMut(Reply)) {
+        let begun = Instant::now();
+        let id = ask.id;
+        let mut tell = |mut answer: AnswerReply| {
+            (answer.id, answer.is_final) = (id, ask.is_final);
+            answer.figures.milliseconds = begun.elapsed().as_secs_f64() * 1e3;
+            tell(Reply::Answer(Box::new(answer)));
+        };
+        match self.answer(ask, interrupt, &mut tell) {
+            Ok(Some(answer)) => tell(AnswerReply { done: true, ..answer }),
+            Ok(None) => {}
+            Err(error) => tell(AnswerReply { done: true, error: Some(error), ..AnswerReply::default() }),
+        }
+    }
+
+    /// The answer; none if it was stopped. Tells the configuration space before it looks for a path, which may take long.
+    fn answer(
+        &self,
+        ask: &Ask,
+        interrupt: &Interrupt,
+        tell: &mut dyn FnMut(AnswerReply),
+    ) -> Result<Option<AnswerReply>, String> {
+        let options = Options::parse(&ask.options)?;
+        let text = self.text(ask)?;
+        let source = self.host.world.with_text(text.as_str());
+        let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
+        let toml = ask.is_final.then_some(text);
+        let deadline = Instant::now() + self.time(ask);
+        let limited = interrupt.clone().by(deadline);
+        let effort = options.effort(&loaded.scene)?;
+        if loaded.has_steps() {
+            let mut loaded = loaded.task(&Overrides::default()).map_err(|error| error.to_string())?;
+            options.override_limits(&mut loaded.task.arm.joints);
+            return match limited.run(|| result::of_task(&loaded, &options, effort)) {
+                Ok(answer) => Ok(Some(AnswerReply { toml, ..answer })),
+                Err(Interrupted::Set) => Ok(None),
+                Err(Interrupted::TimeUp) => Ok(Some(AnswerReply { toml, ..late(self.time(ask)) })),
+            };
+        }
+        let at = |q: Option<Pair>| q.map_or_else(Configuration::zeros, Configuration::from);
+        let start = ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
+        let problem = match loaded.clone().problem(&Overrides::default()) {
+            Ok(mut read) => {
+                options.override_limits(&mut read.problem.scene.arm.joints);
+                read.problem
+            }
+            Err(error) => {
+                let error = Some(error.to_string());
+                let shown = interrupt.run(|| result::bare(&loaded.scene, at(start), &[], "not planned")).ok();
+                return Ok(shown.map(|shown| AnswerReply { error, toml, start, ..shown }));
+            }
+        };
+        let (start, goals) = (problem.start, &problem.goals);
+        let places = |answer: AnswerReply| {
+            let goals = goals.iter().map(|&q| q.into()).collect();
+            AnswerReply { start: Some(start.into()), goals, ..answer }
+        };
+        let plan = || match ask.is_final {
+            true => Found::in_full(&problem, &options, &effort).answer(),
+            false => Ok(result::quick(&problem, options.method(), &effort)),
+        };
+        let bare = |status| interrupt.run(|| result::bare(&loaded.scene, start, goals, status));
+        if ask.is_final {
+            let Ok(shown) = bare("planning") else { return Ok(None) };
+            tell(places(shown));
+        }
+        match limited.run(plan) {
+            Ok(answer) => Ok(Some(AnswerReply { toml, ..places(answer?) })),
+            Err(Interrupted::Set) => Ok(None),
+            Err(Interrupted::TimeUp) => Ok(bare("unknown").ok().map(|shown| {
+                let AnswerReply { verdict, reason, .. } = late(self.time(ask));
+                places(AnswerReply { verdict, reason, toml, ..shown })
+            })),
+        }
+    }
+
+    /// How long a plan may take.
+    fn time(&self, ask: &Ask) -> Duration {
+        if ask.is_final { self.host.time } else { self.host.time.min(DRAG_TIME) }
+    }
+
+    /// The result as a file: its name and content.
+    ///
+    /// # Errors
+    /// In words.
+    pub fn download(&self, ask: &Ask, format: &str, interrupt: &Interrupt) -> Result<(String, Vec<u8>), String> {
+        let text = self.text(ask)?;
+        if format == "toml" {
+            return Ok(("world.toml".into(), text.into_bytes()));
+        }
+        let options = Options::parse(&ask.options)?;
+        let source = self.host.world.with_text(text.as_str());
+        let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
+        let limited = interrupt.clone().by(Instant::now() + self.host.time);
+        match limited.run(|| files::content(loaded, &options, format)) {
+            Ok(content) => Ok((format!("plan.{format}"), content?)),
+            Err(Interrupted::Set) => Err("the file is not made: the page has changed since".into()),
+            Err(Interrupted::TimeUp) => Err(format!("the file is not made: {}", time_up(self.host.time))),
+        }
+    }
+
+    /// The world that the page shows.
+    fn text(&self, ask: &Ask) -> Result<String, String> {
+        if ask.base != self.base {
+            return Err(format!("the page speaks of world {}, this is world {}", ask.base, self.base));
+        }
+        match &ask.state {
+            None => Ok(self.document.text().to_owned()),
+            Some(_) if self.scene.has_steps() => Err("a world with steps is shown, not changed; edit its text".into()),
+            Some(state) => self.document.changed(state, self.begin(state.start)),
+        }
+    }
+
+    /// Joint values of the start.
+    fn begin(&self, start: Option<Begin>) -> Option<Pair> {
+        Some(match start? {
+            Begin::Joints { joints } => joints,
+            Begin::Tip { tip, near } => follow(&self.scene.scene.arm, tip.into(), near.into()).into(),
+        })
+    }
+}
+
+/// What is said when the time is up.
+fn late(limit: Duration) -> AnswerReply {
+    AnswerReply { verdict: Some("unknown"), reason: Some(time_up(limit)), ..AnswerReply::default() }
+}
+
+fn time_up(limit: Duration) -> String {
+    format!("not decided within {} s", limit.as_secs_f64())
+}
+
+/// The posture within the limits that puts the tip at a place and is nearest to another posture; where it does not reach
+/// that far, as far as it can on the straight way from where the tip is then.
+fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
+    let reached = |tip: Point| nearest_posture(arm, tip, near);
+    if let Some(q) = reached(tip) {
+        return q;
+    }
+    let from = arm.tip_at(near);
+    let (mut best, mut low, mut high) = (near, 0.0, 1.0);
+    for _ in 0..BISECTIONS {
+        let middle = f64::midpoint(low, high);
+        match reached(from + (tip - from) * middle) {
+            Some(q) => (best, low) = (q, middle),
+            None => high = middle,
+        }
+    }
+    best
+}
+
+fn nearest_posture(arm: &Arm, tip: Point, near: Configuration) -> Option<Configuration> {
+    let topology = arm.topology();
+    let values = |q: Configuration, k: usize| within(arm.joints[k].axis, arm.joints[k].motion.is_revolute(), q[k]);
+    let branches = inverse(arm, tip, near).branches.into_iter().flat_map(|q| {
+        let second = values(q, 1);
+        values(q, 0).into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| Configuration::new(a, b)))
+    });
+    branches.min_by(|&a, &b| topology.distance(a, near).total_cmp(&topology.distance(b, near)))
+}

@@ -1,0 +1,366 @@
+//! A world's text, changed as the page says: comments, names, heights and all that the page does not know stay.
+
+use super::protocol::{Begin, End, Form, MOST_CORNERS, MOST_OBSTACLES, Pair, Piece, State};
+use std::collections::BTreeSet;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+
+/// A text and what it says, without any check but that it is TOML.
+#[derive(Debug, Clone)]
+pub struct Document {
+    text: String,
+    toml: DocumentMut,
+}
+
+impl Document {
+    /// Reads a text. `None` if it is no TOML: the input layer says what is wrong with it.
+    pub fn parse(text: &str) -> Option<Self> {
+        Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Files that the text names.
+    pub fn files(&self) -> BTreeSet<String> {
+        let map = self.toml.get("map").and_then(Item::as_table_like);
+        let of_map = ["file", "preferences"].into_iter().filter_map(|key| map?.get(key)?.as_str());
+        let tables = self.obstacles().unwrap_or_default();
+        let images = tables.iter().filter_map(|table| table.get("image")?.as_str());
+        of_map.chain(images).map(str::to_owned).collect()
+    }
+
+    /// Its `[[obstacle]]`s; none if they are something else.
+    fn obstacles(&self) -> Option<ArrayOfTables> {
+        match self.toml.get("obstacle") {
+            None => Some(ArrayOfTables::new()),
+            Some(item) => item.clone().into_array_of_tables().ok(),
+        }
+    }
+
+    /// Joint values of its start.
+    pub fn start(&self) -> Option<Pair> {
+        pair(self.toml.get("start")?.get("joints"))
+    }
+
+    /// Its goal.
+    pub fn goal(&self) -> Option<End> {
+        let goal = self.toml.get("goal")?;
+        pair(goal.get("joints")).map(End::Joints).or_else(|| pair(goal.get("tip")).map(End::Tip))
+    }
+
+    /// Shapes of the obstacles that the page can change, in order.
+    pub fn forms(&self) -> Vec<Option<Form>> {
+        self.obstacles().unwrap_or_default().iter().map(form).collect()
+    }
+
+    /// The text with what the state says; the same text where it says the same.
+    ///
+    /// # Errors
+    /// In words, if the state is too large or speaks of obstacles that the text does not have.
+    pub fn changed(&self, state: &State, start: Option<Pair>) -> Result<String, String> {
+        let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
+        if state.obstacles.len() > MOST_OBSTACLES || corners > MOST_CORNERS {
+            return Err(format!(
+                "the live page takes at most {MOST_OBSTACLES} obstacles with {MOST_CORNERS} corners in all; there are {} \
+                 with {corners}",
+                state.obstacles.len()
+            ));
+        }
+        let mut toml = self.toml.clone();
+        let mut touched = self.change_obstacles(&mut toml, &state.obstacles)?;
+        let clearance = toml.get("clearance").and_then(number).unwrap_or(0.0);
+        if clearance != state.clearance {
+            put(toml.as_table_mut(), "clearance", value(state.clearance));
+            touched = true;
+        }
+        let joints = start.or(match state.start {
+            Some(Begin::Joints { joints }) => Some(joints),
+            _ => None,
+        });
+        touched |= joints.is_some_and(|q| change_place(&mut toml, "start", "joints", q));
+        touched |= match state.goal {
+            Some(End::Joints(q)) => change_place(&mut toml, "goal", "joints", q),
+            Some(End::Tip(p)) => change_place(&mut toml, "goal", "tip", p),
+            None => false,
+        };
+        Ok(if touched { toml.to_string() } else { self.text.clone() })
+    }
+
+    /// Whether anything changed.
+    fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
+        let before = self.obstacles().ok_or("the text's obstacles are no [[obstacle]] tables")?;
+        let same = pieces.len() == before.len()
+            && pieces.iter().zip(&before).enumerate().all(|(i, (piece, table))| {
+                let keeps = |shape: &Form| form(table).as_ref() == Some(shape);
+                piece.from == Some(i) && piece.shape.as_ref().is_none_or(keeps) && !renames(table, piece)
+            });
+        if same {
+            return Ok(false);
+        }
+        let mut after = ArrayOfTables::new();
+        // Tables are written in the order of their positions; those without one follow what came before.
+        let last = before.iter().filter_map(Table::position).max();
+        let places: Vec<_> = before.iter().map(Table::position).collect();
+        for (k, piece) in pieces.iter().enumerate() {
+            let mut table = match piece.from {
+                Some(from) => before.get(from).cloned().ok_or(format!("the text has no obstacle {}", from + 1))?,
+                None => Table::new(),
+            };
+            if let Some(shape) = piece.shape.as_ref().filter(|shape| form(&table).as_ref() != Some(*shape)) {
+                for key in ["polygon", "circle", "polyline"] {
+                    if key != key_of(shape) {
+                        table.remove(key);
+                    }
+                }
+                put(&mut table, key_of(shape), Item::Value(written(shape)));
+            }
+            if let Some(name) = piece.name.as_ref().filter(|_| renames(&table, piece)) {
+                put(&mut table, "name", value(name));
+                if piece.from.is_none() {
+                    table.sort_values_by(|a, _, b, _| (a.get() != "name").cmp(&(b.get() != "name")));
+                }
+            }
+            if piece.from.is_none() {
+                table.decor_mut().set_prefix("\n");
+            }
+            table.set_position(places.get(k).copied().flatten().or(last));
+            after.push(table);
+        }
+        if after.is_empty() {
+            toml.remove("obstacle");
+        } else {
+            toml.insert("obstacle", Item::ArrayOfTables(after));
+        }
+        Ok(true)
+    }
+}
+
+/// Whether the piece has a name that is not the table's; an unnamed obstacle goes by its number.
+fn renames(table: &Table, piece: &Piece) -> bool {
+    piece.name.as_deref().is_some_and(|name| table.get("name").and_then(Item::as_str) != Some(name))
+}
+
+/// Sets a value, in the place and between the comments of the one before.
+fn put(table: &mut Table, key: &str, item: Item) {
+    match (table.get_mut(key).and_then(Item::as_value_mut), item) {
+        (Some(old), Item::Value(mut new)) => {
+            *new.decor_mut() = old.decor().clone();
+            *old = new;
+        }
+        (_, item) => {
+            table.insert(key, item);
+        }
+    }
+}
+
+/// Writes `key = [a, b]` as all that the table `name` says. Whether that is a change.
+fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> bool {
+    let other = if key == "joints" { "tip" } else { "joints" };
+    let now = toml.get(name).and_then(Item::as_table_like);
+    if now.is_some_and(|table| pair(table.get(key)) == Some([a, b]) && table.get(other).is_none()) {
+        return false;
+    }
+    let new = Value::from(Array::from_iter([a, b]));
+    match toml.get_mut(name).and_then(Item::as_table_like_mut) {
+        Some(table) => {
+            table.remove(other);
+            match table.get_mut(key).and_then(Item::as_value_mut) {
+                Some(old) => {
+                    let decor = old.decor().clone();
+                    *old = new;
+                    *old.decor_mut() = decor;
+                }
+                None => {
+                    table.insert(key, Item::Value(new));
+                }
+            }
+        }
+        None => {
+            let mut table = Table::new();
+            table.insert(key, Item::Value(new));
+            table.decor_mut().set_prefix("\n");
+            toml.insert(name, Item::Table(table));
+        }
+    }
+    true
+}
+
+fn key_of(shape: &Form) -> &'static str {
+    match shape {
+        Form::Polygon(_) => "polygon",
+        Form::Circle { .. } => "circle",
+        Form::Polyline(_) => "polyline",
+    }
+}
+
+fn written(shape: &Form) -> Value {
+    let points = |points: &[Pair]| points.iter().map(|&[x, y]| Array::from_iter([x, y])).collect::<Array>();
+    match shape {
+        Form::Polygon(corners) | Form::Polyline(corners) => Value::from(points(corners)),
+        Form::Circle { center, radius } => {
+            let mut table = InlineTable::new();
+            table.insert("center", Array::from_iter(*center).into());
+            table.insert("radius", (*radius).into());
+            Value::from(table)
+        }
+    }
+}
+
+/// The shape of an `[[obstacle]]`, if it has exactly one that the page can change.
+fn form(table: &Table) -> Option<Form> {
+    let corners = |key: &str| -> Option<Vec<Pair>> {
+        table.get(key)?.as_array()?.iter().map(|p| pair_of(p.as_array()?)).collect()
+    };
+    let circle = || {
+        let circle = table.get("circle")?.as_table_like()?;
+        Some(Form::Circle { center: pair(circle.get("center"))?, radius: number(circle.get("radius")?)? })
+    };
+    let mut forms = corners("polygon").map(Form::Polygon).into_iter().chain(circle());
+    let first = forms.next().or_else(|| corners("polyline").map(Form::Polyline));
+    let shapes = ["polygon", "circle", "polyline", "image"].into_iter().filter(|key| table.contains_key(key)).count();
+    first.filter(|_| shapes == 1)
+}
+
+fn pair(item: Option<&Item>) -> Option<Pair> {
+    pair_of(item?.as_array()?)
+}
+
+fn pair_of(array: &Array) -> Option<Pair> {
+    let mut numbers = array.iter().map(|x| x.as_float().or_else(|| x.as_integer().map(|i| i as f64)));
+    match (numbers.next(), numbers.next(), numbers.next()) {
+        (Some(Some(a)), Some(Some(b)), None) => Some([a, b]),
+        _ => None,
+    }
+}
+
+fn number(item: &Item) -> Option<f64> {
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "\
+# A world.
+name = \"w\" # its name
+clearance = 0
+
+[start]
+joints = [0, 1.5] # here
+
+[goal]
+tip = [1.0, 2.0]
+
+# The first.
+[[obstacle]]
+name = \"a\"
+polygon = [[0, 0], [1, 0], [0, 1]] # three corners
+height = [0, 1]
+
+[[obstacle]] # the second
+circle = { center = [3.0, 4.0], radius = 0.5 }
+
+[[obstacle]]
+image = \"map.yaml\"
+";
+
+    fn document() -> Document {
+        Document::parse(TEXT).unwrap()
+    }
+
+    fn state(pieces: Vec<Piece>) -> State {
+        State {
+            obstacles: pieces,
+            start: Some(Begin::Joints { joints: [0.0, 1.5] }),
+            goal: Some(End::Tip([1.0, 2.0])),
+            clearance: 0.0,
+        }
+    }
+
+    fn kept(from: usize) -> Piece {
+        Piece { from: Some(from), ..Piece::default() }
+    }
+
+    #[test]
+    fn what_says_the_same_changes_no_byte() {
+        let document = document();
+        let forms = document.forms();
+        let pieces = forms.into_iter().enumerate().map(|(i, shape)| Piece { shape, ..kept(i) }).collect();
+        assert_eq!(document.changed(&state(pieces), None).unwrap(), TEXT);
+    }
+
+    #[test]
+    fn a_moved_corner_changes_that_shape_and_nothing_else() {
+        let moved = Form::Polygon(vec![[0.0, 0.0], [1.25, 0.0], [0.0, 1.0]]);
+        let text = document().changed(&state(vec![Piece { shape: Some(moved), ..kept(0) }, kept(1), kept(2)]), None);
+        let expected = TEXT.replace("[[0, 0], [1, 0], [0, 1]]", "[[0.0, 0.0], [1.25, 0.0], [0.0, 1.0]]");
+        assert_eq!(text.unwrap(), expected);
+    }
+
+    #[test]
+    fn obstacles_come_and_go() {
+        let wall =
+            Piece { name: Some("wall".into()), shape: Some(Form::Polyline(vec![[0.0, 0.0], [1.0, 1.0]])), from: None };
+        let text = document().changed(&state(vec![kept(1), wall]), None).unwrap();
+        let after = Document::parse(&text).unwrap();
+        let wall = Form::Polyline(vec![[0.0, 0.0], [1.0, 1.0]]);
+        assert_eq!(after.forms(), [Some(Form::Circle { center: [3.0, 4.0], radius: 0.5 }), Some(wall)]);
+        assert!(text.ends_with("\n[[obstacle]]\nname = \"wall\"\npolyline = [[0.0, 0.0], [1.0, 1.0]]\n"), "{text}");
+        assert!(text.starts_with("# A world.\nname = \"w\" # its name\n"), "{text}");
+        let none = document().changed(&state(Vec::new()), None).unwrap();
+        assert!(!none.contains("obstacle"), "{none}");
+    }
+
+    #[test]
+    fn places_change_their_kind() {
+        let state = State {
+            start: Some(Begin::Joints { joints: [0.25, 1.5] }),
+            goal: Some(End::Joints([0.5, 0.75])),
+            clearance: 0.125,
+            ..state(vec![kept(0), kept(1), kept(2)])
+        };
+        let text = document().changed(&state, None).unwrap();
+        let expected = TEXT
+            .replace("clearance = 0", "clearance = 0.125")
+            .replace("[0, 1.5] # here", "[0.25, 1.5] # here")
+            .replace("tip = [1.0, 2.0]", "joints = [0.5, 0.75]");
+        assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn a_text_without_them_gets_its_tables() {
+        let empty = Document::parse("").unwrap();
+        let disc = Piece { shape: Some(Form::Circle { center: [1.0, 0.0], radius: 0.5 }), ..Piece::default() };
+        let text = empty.changed(&state(vec![disc]), None).unwrap();
+        let again = Document::parse(&text).unwrap();
+        assert_eq!(again.forms().len(), 1);
+        assert_eq!(pair(again.toml["start"].get("joints")), Some([0.0, 1.5]));
+        assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
+    }
+
+    #[test]
+    fn inline_obstacles_are_obstacles() {
+        let inline = Document::parse("obstacle = [{ polygon = [[0, 0], [1, 0], [0, 1]] }]\n").unwrap();
+        assert_eq!(inline.forms().len(), 1);
+        let text = inline.changed(&state(vec![kept(0), kept(0)]), None).unwrap();
+        assert_eq!(Document::parse(&text).unwrap().forms().len(), 2, "{text}");
+    }
+
+    #[test]
+    fn too_much_and_what_is_not_there_are_refused() {
+        let error = document().changed(&state(vec![kept(3)]), None).unwrap_err();
+        assert_eq!(error, "the text has no obstacle 4");
+        let error = document().changed(&state(vec![kept(0); MOST_OBSTACLES + 1]), None).unwrap_err();
+        assert!(error.contains("at most"), "{error}");
+    }
+
+    #[test]
+    fn files_are_those_of_maps() {
+        assert_eq!(document().files().into_iter().collect::<Vec<_>>(), ["map.yaml"]);
+        let map = Document::parse("map = { file = \"a.map\", preferences = \"b.map\" }").unwrap();
+        assert_eq!(map.files().into_iter().collect::<Vec<_>>(), ["a.map", "b.map"]);
+    }
+}

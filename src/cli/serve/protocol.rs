@@ -1,0 +1,273 @@
+//! What page and server tell each other: JSON objects, one a message.
+
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+
+/// Most obstacles in the page's state.
+pub const MOST_OBSTACLES: usize = 1000;
+
+/// Most corners of all obstacles in the page's state.
+pub const MOST_CORNERS: usize = 20_000;
+
+/// A point of the plane, metres, or joint values.
+pub type Pair = [f64; 2];
+
+/// What the page asks.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Request {
+    /// Plan in the world that the page shows.
+    Plan(Ask),
+    /// Take another text for the world, and plan in it.
+    Load {
+        /// Number of the request; answers name it.
+        id: u64,
+        /// TOML.
+        text: String,
+        /// As in [`Ask`].
+        options: String,
+    },
+    /// Plan, and send the result as a file.
+    Download {
+        /// What is planned.
+        ask: Ask,
+        /// Which file: `toml`, `json`, `csv`, `yaml`, `svg`, ...
+        format: String,
+    },
+}
+
+impl Request {
+    /// The number of the request.
+    pub fn id(&self) -> u64 {
+        match self {
+            Self::Plan(ask) | Self::Download { ask, .. } => ask.id,
+            Self::Load { id, .. } => *id,
+        }
+    }
+}
+
+/// A plan that is asked for.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ask {
+    /// Number of the request; answers name it.
+    pub id: u64,
+    /// The text of the world that `state` is a change of; see [`Reply::World`].
+    pub base: u64,
+    /// Whether this is what the user stops at, not a place on the way there: all that can be known is wanted.
+    #[serde(rename = "final")]
+    pub is_final: bool,
+    /// What the page shows; none for the text as it is.
+    pub state: Option<State>,
+    /// Planner and options, as on the command line: `visibility --gap 0.001`.
+    pub options: String,
+}
+
+/// The part of a world that the page can change, as a whole.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    /// All obstacles in order; those of the text that are not among them are deleted.
+    pub obstacles: Vec<Piece>,
+    /// Where the arm begins.
+    pub start: Option<Begin>,
+    /// Where it is to go.
+    pub goal: Option<End>,
+    /// Least distance to keep, metres.
+    pub clearance: f64,
+}
+
+/// One obstacle.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piece {
+    /// Which obstacle of the text it was, from 0; none for a new one.
+    pub from: Option<usize>,
+    /// Its name, if it is to have one.
+    pub name: Option<String>,
+    /// Its shape; none for one that keeps its own.
+    #[serde(flatten)]
+    pub shape: Option<Form>,
+}
+
+/// A shape that the page can change.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Form {
+    /// Corners in order round it.
+    Polygon(Vec<Pair>),
+    /// A disc.
+    Circle {
+        /// Where its centre is.
+        center: Pair,
+        /// Its radius, metres.
+        radius: f64,
+    },
+    /// A wall without thickness.
+    Polyline(Vec<Pair>),
+}
+
+impl Form {
+    /// Its corners; a disc counts as one.
+    pub fn corners(&self) -> usize {
+        match self {
+            Self::Polygon(corners) | Self::Polyline(corners) => corners.len(),
+            Self::Circle { .. } => 1,
+        }
+    }
+}
+
+/// Where the arm begins.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, untagged)]
+pub enum Begin {
+    /// At these joint values.
+    Joints {
+        /// Base to tip.
+        joints: Pair,
+    },
+    /// Where the tip is here, in the posture nearest to another one.
+    Tip {
+        /// Place of the tip.
+        tip: Pair,
+        /// Joint values to be near to.
+        near: Pair,
+    },
+}
+
+/// Where it is to go.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum End {
+    /// To these joint values.
+    Joints(Pair),
+    /// To any posture that puts the tip here.
+    Tip(Pair),
+}
+
+/// What the server tells.
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum Reply {
+    /// The world to begin with, or another that was loaded: what the page can change of it, and what it is changed in.
+    World(Box<WorldReply>),
+    /// What became of a plan.
+    Answer(Box<AnswerReply>),
+    /// What was asked makes no sense, or went wrong; the page keeps what it has.
+    Failed {
+        /// The request.
+        id: u64,
+        /// In words.
+        error: String,
+    },
+}
+
+/// A world.
+#[derive(Debug, Serialize)]
+pub struct WorldReply {
+    /// The request that loaded it; none for the first.
+    pub id: Option<u64>,
+    /// Number of the text: states are changes of one text.
+    pub base: u64,
+    /// Title.
+    pub name: String,
+    /// The robot, and the kind of its joints: `RR`.
+    pub robot: String,
+    /// Obstacles of the text, in order.
+    pub obstacles: Vec<PieceReply>,
+    /// Where the arm begins.
+    pub start: Option<Pair>,
+    /// Where it is to go.
+    pub goal: Option<End>,
+    /// Least distance to keep, metres.
+    pub clearance: f64,
+    /// Whether it is a task, which the page shows and does not change.
+    pub has_steps: bool,
+    /// The joints, base to tip.
+    pub joints: [JointReply; 2],
+    /// Length of the stretched arm, metres.
+    pub reach: f64,
+    /// Planners to choose from.
+    pub planners: Vec<&'static str>,
+    /// Planner and options to begin with; none with a world that was loaded.
+    pub options: Option<String>,
+    /// The text.
+    pub toml: String,
+}
+
+/// One obstacle of a world.
+#[derive(Debug, Serialize)]
+pub struct PieceReply {
+    /// Its name.
+    pub name: String,
+    /// Its shape; none for one that the page cannot change, such as a map.
+    #[serde(flatten)]
+    pub shape: Option<Form>,
+}
+
+/// A joint.
+#[derive(Debug, Serialize)]
+pub struct JointReply {
+    /// Name in the URDF.
+    pub name: String,
+    /// `rad` or `m`.
+    pub unit: &'static str,
+    /// Least and greatest value; none for one that turns without end.
+    pub limits: Option<Pair>,
+}
+
+/// What became of a plan.
+#[derive(Debug, Default, Serialize)]
+pub struct AnswerReply {
+    /// The request.
+    pub id: u64,
+    /// Whether all that can be known was wanted.
+    #[serde(rename = "final")]
+    pub is_final: bool,
+    /// Whether nothing more follows for this request.
+    pub done: bool,
+    /// What is wrong with the world, start or goal, in words; then there is no verdict.
+    pub error: Option<String>,
+    /// `found`, `infeasible` or `unknown`; none with an error, and where the plan is not done.
+    pub verdict: Option<&'static str>,
+    /// Whether the whole motion is proven free.
+    pub certified: bool,
+    /// Why there is no path, or none is known.
+    pub reason: Option<String>,
+    /// Figures of the plan.
+    pub figures: Figures,
+    /// The start, whose joint values the page may not know.
+    pub start: Option<Pair>,
+    /// Postures that fulfil the goal.
+    pub goals: Vec<Pair>,
+    /// The world as text; of final answers.
+    pub toml: Option<String>,
+    /// What to draw; none where there is no scene.
+    pub view: Option<Box<RawValue>>,
+}
+
+/// Figures of a plan.
+#[derive(Debug, Default, Serialize)]
+pub struct Figures {
+    /// Length of the path in the metric asked for.
+    pub length: Option<f64>,
+    /// No path is shorter: proven.
+    pub lower_bound: Option<f64>,
+    /// Distance that the motion keeps from all obstacles, proven, metres; none where nothing can be hit.
+    pub clearance: Option<f64>,
+    /// What comes nearest.
+    pub closest: Option<String>,
+    /// Duration of the motion, seconds.
+    pub duration: Option<f64>,
+    /// Size of what the planner looked at, in words.
+    pub size: Option<String>,
+    /// Time that it took to answer, milliseconds.
+    pub milliseconds: f64,
+}
+
+impl Figures {
+    /// Nothing but a size.
+    pub fn of_size(size: impl ToString) -> Self {
+        Self { size: Some(size.to_string()), ..Self::default() }
+    }
+}

@@ -1,0 +1,191 @@
+//! Stopping long computations from outside: a flag, a deadline, and the places where work looks at them.
+//!
+//! A plan is a deep call of pure functions, any of which may take long. To stop it, one runs it under an [`Interrupt`];
+//! long loops below call [`checkpoint`], which unwinds the stack back to there once the interrupt is set. So half a result
+//! can never be taken for a whole one: what is stopped returns [`Interrupted`] and nothing else.
+//!
+//! ```
+//! use cplan::interrupt::{Interrupt, Interrupted, checkpoint};
+//!
+//! let interrupt = Interrupt::new();
+//! assert_eq!(interrupt.run(|| (1..=3).inspect(|_| checkpoint()).sum::<i32>()), Ok(6));
+//! interrupt.set();
+//! assert_eq!(interrupt.run(|| (1..=3).inspect(|_| checkpoint()).sum::<i32>()), Err(Interrupted::Set));
+//! ```
+
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Why work was stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum Interrupted {
+    /// Somebody called [`Interrupt::set`].
+    #[error("interrupted")]
+    Set,
+    /// The deadline of [`Interrupt::by`] passed.
+    #[error("interrupted: the time is up")]
+    TimeUp,
+}
+
+/// A handle to stop work with, from any thread. Clones are handles to the same.
+#[derive(Debug, Clone, Default)]
+pub struct Interrupt {
+    flag: Arc<AtomicBool>,
+    deadline: Option<Instant>,
+}
+
+/// What [`checkpoint`] unwinds with: the depth of the interrupt that is set, so that only its own [`Interrupt::run`]
+/// catches it.
+struct Unwinding {
+    depth: usize,
+    why: Interrupted,
+}
+
+thread_local! {
+    /// The interrupts that this thread works under, the outermost first.
+    static ACTIVE: RefCell<Vec<Interrupt>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Interrupt {
+    /// One that is not set and has no deadline.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// This handle with a deadline of its own; handles cloned before have none.
+    #[must_use]
+    pub fn by(self, deadline: Instant) -> Self {
+        Self { deadline: Some(deadline), ..self }
+    }
+
+    /// Stops the work that runs under any handle to this interrupt, now and later.
+    pub fn set(&self) {
+        self.flag.store(true, Ordering::Relaxed);
+    }
+
+    /// Why work under this handle is to stop, if it is.
+    #[must_use]
+    pub fn why(&self) -> Option<Interrupted> {
+        if self.flag.load(Ordering::Relaxed) {
+            return Some(Interrupted::Set);
+        }
+        self.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Interrupted::TimeUp)
+    }
+
+    /// Does `work` on this thread until it is done or the interrupt is set. Runs may be nested: the outermost interrupt
+    /// that is set counts.
+    ///
+    /// How soon work stops is a matter of how often it comes by a [`checkpoint`]; work that never does is finished. Values
+    /// that `work` owns are dropped; those it only borrows and changes are its caller's to mend.
+    ///
+    /// # Errors
+    /// [`Interrupted`] if it was stopped.
+    ///
+    /// # Panics
+    /// As `work` does. Needs `panic = "unwind"`, which is Cargo's default.
+    pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Interrupted> {
+        let depth = ACTIVE.with_borrow_mut(|active| {
+            active.push(self.clone());
+            active.len()
+        });
+        let done = catch_unwind(AssertUnwindSafe(work));
+        ACTIVE.with_borrow_mut(|active| active.truncate(depth - 1));
+        done.map_err(|payload| match payload.downcast::<Unwinding>() {
+            Ok(unwinding) if unwinding.depth == depth => unwinding.why,
+            Ok(outer) => resume_unwind(outer),
+            Err(panic) => resume_unwind(panic),
+        })
+    }
+}
+
+/// A place where work may stop: returns unless an interrupt that the thread works under is set. Some nanoseconds; some tens
+/// with a deadline. Outside of [`Interrupt::run`] it does nothing.
+#[inline]
+pub fn checkpoint() {
+    let set = ACTIVE.with_borrow(|active| {
+        let why = |(depth, interrupt): (usize, &Interrupt)| Some(Unwinding { depth, why: interrupt.why()? });
+        (1..).zip(active).find_map(why)
+    });
+    if let Some(unwinding) = set {
+        // Not a panic: no message, no hook.
+        resume_unwind(Box::new(unwinding));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn counted_to(n: usize, also: impl Fn(usize)) -> usize {
+        (0..n)
+            .inspect(|&i| {
+                also(i);
+                checkpoint();
+            })
+            .count()
+    }
+
+    #[test]
+    fn work_stops_at_the_next_checkpoint() {
+        let interrupt = Interrupt::new();
+        let reached = std::cell::Cell::new(0);
+        let result = interrupt.run(|| {
+            counted_to(100, |i| {
+                reached.set(i);
+                if i == 7 {
+                    interrupt.set();
+                }
+            })
+        });
+        assert_eq!((result, reached.get()), (Err(Interrupted::Set), 7));
+        assert_eq!(counted_to(3, |_| ()), 3, "nothing is left of it outside");
+    }
+
+    #[test]
+    fn a_deadline_that_has_passed_stops_work_and_one_to_come_does_not() {
+        let now = Instant::now();
+        assert_eq!(Interrupt::new().by(now).run(|| counted_to(3, |_| ())), Err(Interrupted::TimeUp));
+        let later = Interrupt::new().by(now + Duration::from_secs(1000));
+        assert_eq!(later.run(|| counted_to(3, |_| ())), Ok(3));
+    }
+
+    #[test]
+    fn nested_runs_end_where_their_own_interrupt_is_set() {
+        let (outer, inner) = (Interrupt::new(), Interrupt::new());
+        inner.set();
+        let result = outer.run(|| (inner.run(|| counted_to(3, |_| ())), counted_to(3, |_| ())));
+        assert_eq!(result, Ok((Err(Interrupted::Set), 3)));
+        let inner = Interrupt::new();
+        let result = outer.run(|| inner.run(|| counted_to(3, |_| outer.set())));
+        assert_eq!(result, Err(Interrupted::Set), "the outer one ends both");
+    }
+
+    #[test]
+    fn panics_pass_through() {
+        let interrupt = Interrupt::new();
+        let panic = catch_unwind(|| interrupt.run(|| resume_unwind(Box::new("a panic")))).unwrap_err();
+        assert_eq!(*panic.downcast::<&str>().unwrap(), "a panic");
+        interrupt.set();
+        assert_eq!(counted_to(3, |_| ()), 3, "the thread works under no interrupt any more");
+    }
+
+    #[test]
+    fn another_thread_can_set_it() {
+        let interrupt = Interrupt::new();
+        let handle = interrupt.clone();
+        let setter = std::thread::spawn(move || handle.set());
+        let result = interrupt.run(|| {
+            loop {
+                checkpoint();
+                std::thread::yield_now();
+            }
+        });
+        setter.join().unwrap();
+        assert_eq!(result, Err::<(), _>(Interrupted::Set));
+    }
+}

@@ -1,0 +1,97 @@
+//! Plans that are stopped: nothing comes of them but that they were, and nothing is left of them.
+
+use cplan::certify::{connectivity, slab_connectivity};
+use cplan::input::{Overrides, load, load_scene};
+use cplan::interrupt::{Interrupt, Interrupted};
+use cplan::model::Problem;
+use cplan::plan::Outcome;
+use cplan::solve::{Answer, Effort, Method, Verdict, solve};
+use cplan::task::{Manner, plan};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+fn problem(world: &str) -> Problem {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let world = root.join("workspaces").join(world);
+    load(&root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
+}
+
+fn effort() -> Effort {
+    Effort { cells: 64, levels: 2, ..Effort::default() }
+}
+
+/// What an answer says, without the times it took.
+fn said(answer: &Answer) -> (Outcome, String) {
+    let verdict = match &answer.verdict {
+        Verdict::Found(path) => format!("{:?}", path.path().waypoints()),
+        Verdict::Infeasible(proof) => format!("{:?}", proof.stuck()),
+        Verdict::Unknown(reason) => reason.clone(),
+    };
+    (answer.run.outcome.clone(), verdict)
+}
+
+#[test]
+fn every_planner_comes_by_a_checkpoint() {
+    let problem = problem("crowd.toml");
+    for method in Method::ALL {
+        let interrupt = Interrupt::new();
+        interrupt.set();
+        let stopped = interrupt.run(|| solve(&problem, method, &effort(), &mut |_| ()));
+        assert_eq!(stopped.err(), Some(Interrupted::Set), "{method}");
+    }
+}
+
+/// At whatever checkpoint a plan is stopped, it is stopped or it is the plan; and the next one is not disturbed.
+#[test]
+fn a_stopped_plan_says_nothing_and_leaves_nothing() {
+    for world in ["shelf.toml", "crowd.toml", "singular_closed.toml"] {
+        let problem = problem(world);
+        for method in Method::ALL {
+            let begun = Instant::now();
+            let expected = said(&solve(&problem, method, &effort(), &mut |_| ()));
+            let took = begun.elapsed();
+            let mut stopped = 0;
+            for part in 0..12 {
+                let deadline = Instant::now() + took.mul_f64(f64::from(part) / 10.0);
+                match Interrupt::new().by(deadline).run(|| solve(&problem, method, &effort(), &mut |_| ())) {
+                    Ok(answer) => assert_eq!(said(&answer), expected, "{world} {method}"),
+                    Err(why) => {
+                        assert_eq!(why, Interrupted::TimeUp);
+                        stopped += 1;
+                    }
+                }
+            }
+            assert!(stopped > 0, "{world} {method}: the first deadline has passed when the plan begins");
+        }
+    }
+}
+
+/// A search for a proof that would take minutes ends when another thread says so.
+#[test]
+fn proofs_and_tasks_stop_too() {
+    let problem = problem("thin_wall_closed.toml");
+    let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+    let stopped = |work: &mut dyn FnMut()| {
+        let interrupt = Interrupt::new();
+        let handle = interrupt.clone();
+        let setter = std::thread::spawn(move || {
+            std::thread::sleep(Duration::from_millis(20));
+            handle.set();
+        });
+        let result = interrupt.run(|| {
+            loop {
+                work();
+            }
+        });
+        setter.join().unwrap();
+        result.map(|()| ()) == Err(Interrupted::Set)
+    };
+    assert!(stopped(&mut || drop(slab_connectivity(scene, start, goals, 0.0, usize::MAX))));
+    assert!(stopped(&mut || drop(connectivity(scene, start, goals, 0.0, usize::MAX))));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));
+    let task = load_scene(&robot, &world).unwrap().task(&Overrides::default()).unwrap().task;
+    let drive = cplan::trajectory::Drive::default();
+    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive };
+    assert!(stopped(&mut || drop(plan(&task, &manner, &mut |_| ()))));
+}

@@ -1,0 +1,141 @@
+//! A page's side of the WebSocket.
+
+use super::server::Server;
+use serde_json::{Value, json};
+use std::net::TcpStream;
+use tungstenite::client::IntoClientRequest;
+use tungstenite::http::HeaderValue;
+use tungstenite::{Error, Message, WebSocket};
+
+pub struct Page {
+    socket: WebSocket<TcpStream>,
+    /// Number of the last request.
+    id: u64,
+    /// The text that states are changes of.
+    pub base: u64,
+    /// What the server said first.
+    pub world: Value,
+}
+
+impl Page {
+    /// Opens a page, and hears what it is to show.
+    pub fn open(server: &Server) -> Self {
+        Self::try_open(server).unwrap()
+    }
+
+    /// The same; the status if the server refuses.
+    pub fn try_open(server: &Server) -> Result<Self, u16> {
+        let mut request = format!("ws://{}/live", server.address).into_client_request().unwrap();
+        let origin = HeaderValue::from_str(&format!("http://{}", server.address)).unwrap();
+        request.headers_mut().insert("Origin", origin);
+        let (socket, _) = tungstenite::client(request, server.connect()).map_err(|error| match error {
+            tungstenite::HandshakeError::Failure(Error::Http(response)) => response.status().as_u16(),
+            other => panic!("{other}"),
+        })?;
+        let mut page = Self { socket, id: 0, base: 0, world: Value::Null };
+        page.world = page.next();
+        assert_eq!(page.world["kind"], "world", "{}", page.world);
+        page.base = page.world["base"].as_u64().unwrap();
+        Ok(page)
+    }
+
+    pub fn send(&mut self, message: &str) {
+        self.socket.send(Message::text(message)).unwrap();
+    }
+
+    /// The next message.
+    pub fn next(&mut self) -> Value {
+        loop {
+            match self.socket.read().unwrap() {
+                Message::Text(text) => return serde_json::from_str(&text).unwrap(),
+                Message::Binary(_) => panic!("a file that nobody asked for"),
+                Message::Close(_) => panic!("closed"),
+                _ => {}
+            }
+        }
+    }
+
+    fn ask(&mut self, state: Option<Value>, is_final: bool, options: &str) -> Value {
+        self.id += 1;
+        json!({ "id": self.id, "base": self.base, "final": is_final, "state": state, "options": options })
+    }
+
+    /// Asks for a plan without waiting for it; its number.
+    pub fn post(&mut self, state: Option<Value>, is_final: bool, options: &str) -> u64 {
+        let mut ask = self.ask(state, is_final, options);
+        ask["do"] = "plan".into();
+        self.send(&ask.to_string());
+        self.id
+    }
+
+    /// The last word on the request of this number; what is said of others before is passed over.
+    pub fn answer(&mut self, id: u64) -> Value {
+        loop {
+            let message = self.next();
+            let is_last = message["kind"] == "failed" || message["done"] == true;
+            if message["id"] == id && is_last {
+                return message;
+            }
+        }
+    }
+
+    /// Asks for a plan of what the user stops at, and waits for it.
+    pub fn plan(&mut self, state: Option<Value>, options: &str) -> Value {
+        let id = self.post(state, true, options);
+        self.answer(id)
+    }
+
+    /// Takes another text, and waits for its plan.
+    pub fn load(&mut self, text: &str) -> Value {
+        self.id += 1;
+        self.send(&json!({ "do": "load", "id": self.id, "text": text, "options": "visibility" }).to_string());
+        loop {
+            let message = self.next();
+            if message["id"] != self.id {
+                continue;
+            }
+            if message["kind"] == "world" {
+                self.base = message["base"].as_u64().unwrap();
+                self.world = message;
+            } else if message["kind"] == "failed" || message["done"] == true {
+                return message;
+            }
+        }
+    }
+
+    /// A file: its name and content, or what is wrong.
+    pub fn download(&mut self, state: Option<Value>, options: &str, format: &str) -> Result<(String, Vec<u8>), String> {
+        let ask = self.ask(state, true, options);
+        self.send(&json!({ "do": "download", "ask": ask, "format": format }).to_string());
+        loop {
+            match self.socket.read().unwrap() {
+                Message::Binary(bytes) => {
+                    let (length, rest) = bytes.split_at(4);
+                    let length = u32::from_be_bytes(length.try_into().unwrap()) as usize;
+                    let head: Value = serde_json::from_slice(&rest[..length]).unwrap();
+                    assert_eq!(head["id"], self.id);
+                    return Ok((head["name"].as_str().unwrap().to_owned(), rest[length..].to_vec()));
+                }
+                Message::Text(text) => {
+                    let message: Value = serde_json::from_str(&text).unwrap();
+                    if message["id"] == self.id {
+                        assert_eq!(message["kind"], "failed", "{message}");
+                        return Err(message["error"].as_str().unwrap().to_owned());
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Whether the server ends the connection, rather than to answer.
+    pub fn is_closed(&mut self) -> bool {
+        loop {
+            match self.socket.read() {
+                Ok(Message::Close(_)) | Err(_) => return true,
+                Ok(Message::Text(_) | Message::Binary(_)) => return false,
+                Ok(_) => {}
+            }
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What is served, to whom, and how it ends.
+
+use super::client::Page;
+use super::server::{Server, shipped};
+use std::net::TcpStream;
+use std::process::{Command, Stdio};
+
+#[test]
+fn the_page_is_served_and_nothing_else() {
+    let server = Server::start(&[]);
+    let page = server.get("/");
+    assert_eq!(page.status(), 200);
+    assert!(page.body().contains("<!DOCTYPE html>"));
+    assert!(page.header("content-type").starts_with("text/html"));
+    // Nothing comes from anywhere else: there is no address in the page.
+    for remote in ["src=\"http", "href=\"http", "url(http", "import("] {
+        assert!(!page.body().contains(remote), "{remote}");
+    }
+    for path in [
+        "/live.js",
+        "/robots/scara.urdf",
+        "/../Cargo.toml",
+        "/%2e%2e/Cargo.toml",
+        "//etc/passwd",
+        "/live/",
+        "/favicon.ico",
+    ] {
+        let other = server.get(path);
+        assert_eq!((other.status(), other.body()), (404, ""), "{path}");
+    }
+    let post = server.raw("POST / HTTP/1.1\r\nHost: HOST\r\nContent-Length: 0\r\nConnection: close\r\n\r\n");
+    assert_eq!(post.status(), 405);
+}
+
+#[test]
+fn every_answer_says_what_browsers_may_do_with_it() {
+    let server = Server::start(&[]);
+    for path in ["/", "/elsewhere", "/live"] {
+        let answer = server.get(path);
+        let policy = answer.header("content-security-policy");
+        assert!(policy.starts_with("default-src 'none';") && policy.contains("frame-ancestors 'none'"), "{policy}");
+        assert!(!policy.contains("http") && !policy.contains('*'), "{policy}");
+        assert_eq!(answer.header("x-content-type-options"), "nosniff");
+        assert_eq!(answer.header("referrer-policy"), "no-referrer");
+        assert_eq!(answer.header("cache-control"), "no-store");
+    }
+}
+
+#[test]
+fn other_names_and_other_pages_are_refused() {
+    let server = Server::start(&[]);
+    let port = server.address.port();
+    let status = |host: &str, more: &str| {
+        let request = format!("GET / HTTP/1.1\r\nHost: {host}\r\n{more}Connection: close\r\n\r\n");
+        server.raw(&request).status()
+    };
+    assert_eq!(status("HOST", ""), 200);
+    assert_eq!(status(&format!("localhost:{port}"), ""), 200);
+    // A stranger's name that leads to this machine (DNS rebinding).
+    assert_eq!(status(&format!("evil.example:{port}"), ""), 421);
+    assert_eq!(status("127.0.0.1:1", ""), 421);
+    assert_eq!(status("HOST", "Origin: http://evil.example\r\n"), 403);
+    assert_eq!(status("HOST", "Origin: null\r\n"), 403);
+    let none = server.raw("GET / HTTP/1.0\r\n\r\n");
+    assert_eq!(none.status(), 421);
+}
+
+#[test]
+fn the_socket_is_for_the_page_alone() {
+    let server = Server::start(&[]);
+    let status = |origin: &str| {
+        let request = format!(
+            "GET /live HTTP/1.1\r\nHost: HOST\r\n{origin}Connection: Upgrade\r\nUpgrade: websocket\r\n\
+             Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+        );
+        server.raw(&request).status()
+    };
+    assert_eq!(status("Origin: http://evil.example\r\n"), 403);
+    assert_eq!(status(&format!("Origin: https://{}\r\n", server.address)), 403);
+    assert_eq!(status(""), 403);
+    Page::open(&server);
+}
+
+#[test]
+fn a_page_more_than_there_is_room_for_is_refused() {
+    let server = Server::start(&[]);
+    let pages: Vec<Page> = (0..8).map(|_| Page::open(&server)).collect();
+    assert_eq!(Page::try_open(&server).err(), Some(503));
+    assert_eq!(server.get("/").status(), 200);
+    drop(pages);
+    // Room is made as soon as the server has noticed.
+    while Page::try_open(&server).is_err() {
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn wrong_command_lines_are_said_so() {
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_cplan"))
+            .arg("serve")
+            .args(arguments)
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert!(output.stdout.is_empty(), "{arguments:?}");
+        (output.status.code().unwrap(), stderr)
+    };
+    let (code, error) = run(&["--with", "fastest"]);
+    assert!(code == 2 && error.contains("--with: ") && error.contains("no planner is called"), "{error}");
+    let (code, error) = run(&["--time-limit", "0"]);
+    assert!(code == 2 && error.contains("from 0.01 to 3600"), "{error}");
+    let (code, error) = run(&["arm.urdf"]);
+    assert!(code == 2 && error.contains("WORLD"), "{error}");
+    let (code, error) = run(&[&shipped("robots/planar_2r.urdf"), "missing.toml"]);
+    assert!(code == 1 && error.contains("missing.toml: cannot be read"), "{error}");
+    let taken = Server::start(&[]);
+    let (code, error) = run(&["--port", &taken.address.port().to_string()]);
+    assert!(code == 1 && error.contains("cannot listen") && error.contains("--port 0"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn control_c_ends_it_well() {
+    for signal in ["-INT", "-TERM"] {
+        let mut server = Server::start(&[]);
+        // An open page, and a connection that says nothing, do not keep it.
+        let _page = Page::open(&server);
+        let _silent = TcpStream::connect(server.address).unwrap();
+        let sent = Command::new("kill").args([signal, &server.child.id().to_string()]).status().unwrap();
+        assert!(sent.success());
+        assert_eq!(server.child.wait().unwrap().code(), Some(0), "{signal}");
+    }
+}

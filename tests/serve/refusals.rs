@@ -1,0 +1,115 @@
+//! What makes no sense is answered with a message, and the page goes on.
+
+use super::client::Page;
+use super::server::Server;
+use super::{shelf_moved, shelf_state};
+use serde_json::json;
+
+const WORLD: &str = "workspaces/shelf.toml";
+
+fn error_of(answer: &serde_json::Value) -> &str {
+    answer["error"].as_str().unwrap_or_else(|| panic!("no error: {answer}"))
+}
+
+#[test]
+fn large_requests_are_refused() {
+    let server = Server::start(&[]);
+    let body = "x".repeat(1 << 20);
+    let length = body.len();
+    let post = server.raw(&format!("POST / HTTP/1.1\r\nHost: HOST\r\nContent-Length: {length}\r\n\r\n{body}"));
+    assert_eq!(post.status(), 413);
+    let head = server.raw(&format!("GET / HTTP/1.1\r\nHost: HOST\r\nX: {body}\r\n\r\n"));
+    assert_eq!(head.status(), 431);
+    let mut page = Page::open(&server);
+    page.send(&json!({ "do": "load", "id": 1, "text": "#".repeat(2 << 20), "options": "visibility" }).to_string());
+    assert!(page.is_closed());
+    assert_eq!(Page::open(&server).plan(None, "visibility")["verdict"], "found");
+}
+
+#[test]
+fn what_is_no_request_is_answered() {
+    let server = Server::start(&[]);
+    let mut page = Page::open(&server);
+    for nonsense in ["", "{", "[]", "{\"do\":\"stop\"}", "{\"do\":\"plan\"}", &"[".repeat(100_000)] {
+        page.send(nonsense);
+        let answer = page.next();
+        assert!(answer["kind"] == "failed" && error_of(&answer).starts_with("no request"), "{answer}");
+    }
+    assert_eq!(page.plan(None, "visibility")["verdict"], "found");
+}
+
+#[test]
+fn a_bad_text_is_explained_and_the_last_good_one_stays() {
+    let server = Server::planar(WORLD, &[]);
+    let mut page = Page::open(&server);
+    let base = page.base;
+    for (text, parts) in [
+        ("name = ", &["shelf.toml: line 1"][..]),
+        ("nam = \"x\"", &["unknown key", "^^^"]),
+        ("[[obstacle]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\n", &["line 2", "not a simple polygon"]),
+        ("[[obstacle]]\ncircle = { center = [0, 0], radius = -1 }\n", &["radius must be positive"]),
+        ("[map]\nfile = \"store_room.map\"\n", &["\"store_room.map\"", "start the server with this world"]),
+        ("[[obstacle]]\nimage = \"../workspaces/den.yaml\"\n", &["den.yaml"]),
+        ("obstacle = [{ image = \"den.yaml\" }]\n", &["den.yaml"]),
+    ] {
+        let answer = page.load(text);
+        assert_eq!(answer["kind"], "failed", "{text}");
+        for part in parts {
+            assert!(error_of(&answer).contains(part), "{part}: {answer}");
+        }
+    }
+    assert_eq!(page.base, base);
+    let answer = page.plan(Some(shelf_state(json!({ "from": 0 }))), "visibility");
+    assert_eq!((&answer["verdict"], &answer["certified"]), (&json!("found"), &json!(true)));
+}
+
+#[test]
+fn a_start_in_an_obstacle_is_explained_and_drawn() {
+    let server = Server::planar(WORLD, &[]);
+    let mut page = Page::open(&server);
+    let blocking = json!({ "from": 0, "circle": { "center": [0.6, -0.6], "radius": 0.2 } });
+    for is_final in [false, true] {
+        let id = page.post(Some(shelf_state(blocking.clone())), is_final, "visibility");
+        let answer = page.answer(id);
+        assert!(error_of(&answer).contains("the start"), "{answer}");
+        assert!(answer["verdict"].is_null() && answer["certified"] == false, "{answer}");
+        let world = &answer["view"]["worlds"][0];
+        assert!(!world["c_obstacles"].as_array().unwrap().is_empty(), "the page shows where it is");
+        assert_eq!(answer["view"]["paths"], json!([]));
+    }
+    assert_eq!(page.plan(Some(shelf_state(shelf_moved([0.0, 0.0]))), "visibility")["verdict"], "found");
+}
+
+#[test]
+fn states_that_make_no_sense_are_refused() {
+    let server = Server::planar(WORLD, &[]);
+    let mut page = Page::open(&server);
+    let crossed = json!({ "from": 0, "polygon": [[1.0, 0.0], [1.5, 0.5], [1.5, 0.0], [1.0, 0.5]] });
+    let flat = json!({ "from": 0, "polygon": [[1.0, 0.0], [1.5, 0.5]] });
+    for (obstacles, part) in [
+        (json!([{ "from": 9 }]), "no obstacle 10"),
+        (json!([crossed]), "not a simple polygon"),
+        (json!([flat]), "not a simple polygon"),
+        (json!(vec![json!({ "from": 0 }); 2000]), "at most 1000 obstacles"),
+        (json!([{ "from": 0, "polygon": vec![[0.0, 0.0]; 30_000] }]), "20000 corners"),
+        (json!([{ "name": "empty" }]), "exactly one shape"),
+    ] {
+        let mut state = shelf_state(json!({ "from": 0 }));
+        state["obstacles"] = obstacles;
+        let answer = page.plan(Some(state), "visibility");
+        assert!(error_of(&answer).contains(part), "{part}: {answer}");
+    }
+    for (options, part) in
+        [("fastest", "no planner is called"), ("harmonic --gap 0.1", "--gap needs"), ("", "<PLANNER>")]
+    {
+        let answer = page.plan(None, options);
+        assert!(error_of(&answer).contains(part), "{part}: {answer}");
+    }
+    let mut stale = shelf_state(json!({ "from": 0 }));
+    stale["clearance"] = json!(-1.0);
+    assert!(error_of(&page.plan(Some(stale), "visibility")).contains("must not be negative"));
+    page.base += 1;
+    assert!(error_of(&page.plan(None, "visibility")).contains("speaks of world 2"));
+    page.base -= 1;
+    assert_eq!(page.plan(None, "visibility")["verdict"], "found");
+}

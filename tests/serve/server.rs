@@ -1,0 +1,99 @@
+//! The server as a process.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
+
+/// Far longer than anything takes: a test that hangs fails.
+pub const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A file of the repository.
+pub fn shipped(file: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+/// A server that is killed when it is dropped.
+pub struct Server {
+    pub child: Child,
+    pub address: SocketAddr,
+}
+
+impl Server {
+    /// Starts one on a free port.
+    pub fn start(arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_cplan"))
+            .args(["serve", "--port", "0"])
+            .args(arguments)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let address = line.trim_end().strip_prefix("http://").and_then(|rest| rest.strip_suffix('/'));
+        let address = address.unwrap_or_else(|| panic!("no address: {line:?}")).parse().unwrap();
+        Self { child, address }
+    }
+
+    /// With `planar_2r` in a shipped world.
+    pub fn planar(world: &str, more: &[&str]) -> Self {
+        let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
+        let mut arguments: Vec<&str> = files.iter().map(String::as_str).collect();
+        arguments.extend(more);
+        Self::start(&arguments)
+    }
+
+    pub fn connect(&self) -> TcpStream {
+        let stream = TcpStream::connect(self.address).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        stream
+    }
+
+    /// The answer to a request that is written as it is; `HOST` stands for the address.
+    pub fn raw(&self, request: &str) -> Response {
+        let mut stream = self.connect();
+        stream.write_all(request.replace("HOST", &self.address.to_string()).as_bytes()).unwrap();
+        let mut bytes = Vec::new();
+        // A server that refuses may close before it has read everything.
+        let _ = stream.read_to_end(&mut bytes);
+        Response(String::from_utf8_lossy(&bytes).into_owned())
+    }
+
+    /// The answer to a GET.
+    pub fn get(&self, path: &str) -> Response {
+        self.raw(&format!("GET {path} HTTP/1.1\r\nHost: HOST\r\nConnection: close\r\n\r\n"))
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// What came back.
+pub struct Response(pub String);
+
+impl Response {
+    pub fn status(&self) -> u16 {
+        self.0
+            .split(' ')
+            .nth(1)
+            .and_then(|status| status.parse().ok())
+            .unwrap_or_else(|| panic!("no status: {:?}", self.0))
+    }
+
+    pub fn header(&self, name: &str) -> &str {
+        let head = self.0.split("\r\n\r\n").next().unwrap();
+        let value = |line: &'_ str| -> bool { line.to_ascii_lowercase().starts_with(&format!("{name}: ")) };
+        head.lines().find(|line| value(line)).map_or("", |line| &line[name.len() + 2..])
+    }
+
+    pub fn body(&self) -> &str {
+        self.0.split_once("\r\n\r\n").map_or("", |(_, body)| body)
+    }
+}
