@@ -1,13 +1,11 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{escaped, number, shortened};
+use super::markup::{escaped, margin, number, shortened};
 use crate::report::{Measure, Spread, Study};
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
 const WIDTH: f64 = 460.0;
-/// Left of the plot, for the names.
-const LEFT: f64 = 104.0;
 /// Right of the plot.
 const RIGHT: f64 = 14.0;
 /// Height of a planner's line.
@@ -28,7 +26,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let base = (measure == Measure::OverOptimum).then_some(1.0);
     let axis = Axis::over(values.iter().flatten().copied(), base)?;
     let height = TOP + LINE * values.len() as f64 + BOTTOM;
-    let x = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * axis.place(value);
+    let left = margin(&study.planners());
+    let x = |value: f64| left + (WIDTH - left - RIGHT) * axis.place(value);
     let floor = height - BOTTOM;
     let mut svg = format!(
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Box plots: {}\">\n",
@@ -45,7 +44,7 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         let middle = TOP + LINE * (i as f64 + 0.5);
         svg += &format!(
             "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
-            number(LEFT - 10.0),
+            number(left - 10.0),
             number(middle + 4.0),
             escaped(&shortened(name))
         );
@@ -116,7 +115,8 @@ mod tests {
     fn boxes_stand_where_the_axis_has_their_values() {
         let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
         // From 0.84 to 5.16: the values and a twenty-fifth of their range on either side.
-        let x = |value: f64| LEFT + (WIDTH - LEFT - RIGHT) * (value - 0.84) / 4.32;
+        let left = margin(&["<planner>"]);
+        let x = |value: f64| left + (WIDTH - left - RIGHT) * (value - 0.84) / 4.32;
         assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));
         let width: f64 = attribute(&svg, "box", "width").parse().unwrap();
         assert!((width - (x(4.0) - x(2.0))).abs() < 0.01);

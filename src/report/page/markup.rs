@@ -20,15 +20,21 @@ pub fn escaped(text: &str) -> String {
     escaped
 }
 
-/// Characters of a planner's name that fit in front of its line in a chart.
-const NAME: usize = 15;
+/// Characters of a planner's name that a chart has room for, at the most.
+const NAME: usize = 24;
 
-/// A name that fits in front of a line.
+/// A name that fits in front of a chart's line: of a long one its end, in which planners with options differ.
 pub fn shortened(name: &str) -> String {
     match name.chars().count() {
-        n if n > NAME => name.chars().take(NAME - 1).chain(['\u{2026}']).collect(),
+        n if n > NAME => ['\u{2026}'].into_iter().chain(name.chars().skip(n - NAME + 1)).collect(),
         _ => name.to_owned(),
     }
+}
+
+/// Pixels that the longest of these names takes in front of a chart's lines.
+pub fn margin(names: &[&str]) -> f64 {
+    let longest = names.iter().map(|name| name.chars().count().min(NAME)).fold(8, usize::max);
+    18.0 + 7.4 * longest as f64
 }
 
 /// A coordinate: two decimals at the most.
@@ -95,6 +101,15 @@ mod tests {
     fn nothing_escapes() {
         assert_eq!(escaped("<b>&\"'\u{1}"), "&lt;b&gt;&amp;&quot;&#39;\u{fffd}");
         assert!(!image_source("<svg a=\"b\" c='#'>%\n\u{e9}</svg>").contains(['<', '>', '"', '\'', '#', '\n']));
+    }
+
+    #[test]
+    fn long_names_keep_their_end() {
+        assert_eq!(shortened("subdivision"), "subdivision");
+        let long = shortened("harmonic --field oriented --epsilon 0.5");
+        assert_eq!(long, "\u{2026}d oriented --epsilon 0.5");
+        assert_eq!(long.chars().count(), NAME);
+        assert_eq!(margin(&["harmonic --field oriented --epsilon 0.5"]), margin(&[long.as_str()]));
     }
 
     #[test]

@@ -1,12 +1,10 @@
 //! What became of each problem: bars, and a matrix.
 
-use super::markup::{escaped, number, shortened};
+use super::markup::{escaped, margin, number, shortened};
 use crate::report::{Comparison, Measure, Outcome, Row, Study};
 
 /// Width of the bars, pixels.
 const WIDTH: f64 = 460.0;
-/// Left of them, for the names.
-const LEFT: f64 = 104.0;
 /// Height of a planner's line.
 const LINE: f64 = 28.0;
 /// Pixels that a number and a sign need.
@@ -22,18 +20,19 @@ pub fn bars(study: &Study) -> String {
         number(WIDTH),
         number(height)
     );
+    let from = margin(&planners);
     let all = study.comparisons.len().max(1) as f64;
     for (i, name) in planners.iter().enumerate() {
         let top = LINE * i as f64 + 4.0;
         svg += &format!(
             "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
-            LEFT - 10.0,
+            number(from - 10.0),
             number(top + 15.0),
             escaped(&shortened(name))
         );
-        let mut left = LEFT;
+        let mut left = from;
         for (outcome, count) in Outcome::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
-            let width = (WIDTH - LEFT) * count as f64 / all;
+            let width = (WIDTH - from) * count as f64 / all;
             svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", escaped(name));
             svg += &format!(
                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"20\"/>",
