@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
 use super::demo::DemoArgs;
 use super::field_args::FieldArgs;
@@ -9,7 +10,6 @@ use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
-use super::variant::Variant;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::solve::{Effort, Method};
 use crate::space::Metric;
@@ -31,6 +31,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
   cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
+  cplan compare --suite workspaces --output report.html
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
@@ -56,7 +57,7 @@ pub struct Cli {
 /// Jobs with a word of their own.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Run every planner on the same problem, side by side.
+    /// Run every planner on the same problem, or on many, side by side.
     Compare(CompareArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
@@ -262,44 +263,6 @@ pub struct PlanArgs {
     // Last, because its heading is for all that follows.
     #[command(flatten)]
     pub field: FieldArgs,
-}
-
-/// Arguments of `compare`.
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --picture paths.svg
-
-Exit codes: that of the best answer: 0 found, 3 proven that there is no path, 4 unknown; 1 bad input or I/O, 2 wrong
-command line.")]
-pub struct CompareArgs {
-    #[command(flatten)]
-    pub files: Files,
-    #[command(flatten)]
-    pub query: QueryArgs,
-    #[command(flatten)]
-    pub effort: EffortArgs,
-    #[command(flatten)]
-    pub motion: MotionArgs,
-    /// Only these planners; can be repeated.
-    #[arg(long, value_name = "NAME")]
-    pub planner: Vec<Method>,
-    /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
-    /// --direction 0,-1"; can be repeated.
-    #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
-    pub with: Vec<Variant>,
-    /// Print the table as JSON.
-    #[arg(long, conflicts_with = "csv")]
-    pub json: bool,
-    /// Print the table as CSV.
-    #[arg(long)]
-    pub csv: bool,
-    /// Draw all paths in one picture: .svg, .png or .html. Can be repeated.
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
-    pub picture: Vec<PathBuf>,
-    /// No progress.
-    #[arg(long)]
-    pub quiet: bool,
 }
 
 /// Arguments of `check`.

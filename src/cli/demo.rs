@@ -69,7 +69,10 @@ pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
 
 fn next(picture: &Path) -> String {
     let lines = [
-        format!("open {} in a browser: the arm and its configuration space", word(picture)),
+        format!(
+            "open {} in a browser: move the arm, play the motion, see both in its configuration space",
+            word(picture)
+        ),
         "cplan demo --planner harmonic --force     the same cell with another planner".into(),
         "cplan init --kind scara                   the files of this cell, to change".into(),
         "cplan init                                a small arm and world, every line explained".into(),

@@ -13,6 +13,7 @@ mod init;
 mod inspect;
 mod inspect_text;
 mod man;
+mod memory;
 mod motion;
 mod names;
 mod output;
@@ -30,6 +31,8 @@ mod task_files;
 mod task_summary;
 mod variant;
 mod verify;
+
+pub use memory::MemoryMeter;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser, error::ErrorKind};
@@ -49,12 +52,13 @@ const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2.
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. `meter` counts the
+/// process's memory, if anything does.
 #[must_use]
-pub fn run() -> ExitCode {
+pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     let mut cli = Cli::parse();
     let done = match (&mut cli.command, &cli.files) {
-        (Some(Command::Compare(args)), _) => compare::run(args),
+        (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
@@ -73,4 +77,36 @@ pub fn run() -> ExitCode {
         output::say(&format!("error: {failure}"));
         failure.exit_code()
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All examples of all helps are command lines; `tests/cli/help.rs` runs those that end soon.
+    #[test]
+    fn examples_are_command_lines() {
+        let mut command = Cli::command();
+        command.build();
+        let helps = std::iter::once(&command).chain(command.get_subcommands());
+        let text: String = helps.filter_map(|c| c.get_after_help()).map(|help| format!("{help}\n")).collect();
+        let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
+        assert!(examples.len() > 30, "{examples:?}");
+        for example in examples {
+            // Words in quotes are one; what follows `>` is the shell's.
+            let quoted = example.split('"').enumerate();
+            let parts = quoted.flat_map(|(i, part)| match i % 2 {
+                1 => vec![part],
+                _ => part.split_whitespace().collect(),
+            });
+            let words: Vec<&str> = parts.take_while(|word| ![">", ">>", "|"].contains(word)).collect();
+            let parsed = Cli::try_parse_from(words);
+            assert!(parsed.is_ok(), "{example}: {}", parsed.err().map_or(String::new(), |e| e.to_string()));
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
 }

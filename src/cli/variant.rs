@@ -36,8 +36,12 @@ impl Variant {
         let words: Vec<&str> = text.split_whitespace().collect();
         let Grammar { planner, field, search } = Grammar::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();
-            let line = text.lines().next().unwrap_or_default();
-            line.strip_prefix("error: ").unwrap_or(line).to_owned()
+            // The first line says what is wrong, the next one, where it is so, what would be right.
+            let mut lines = text.lines();
+            let first = lines.next().unwrap_or_default();
+            let values = lines.next().map(str::trim).filter(|line| line.starts_with('['));
+            let words: Vec<&str> = [first.strip_prefix("error: ").unwrap_or(first)].into_iter().chain(values).collect();
+            words.join(" ")
         })?;
         field.planner(planner)?;
         match search.conflict(planner) {

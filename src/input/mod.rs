@@ -29,6 +29,7 @@ mod schema;
 mod sequence;
 mod source;
 mod step;
+mod suite;
 mod table;
 mod task;
 mod trajectory;
@@ -48,6 +49,7 @@ pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectang
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use schema::world_schema;
 pub use source::{Position, Source};
+pub use suite::{MANIFEST, Member, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};

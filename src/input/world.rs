@@ -247,7 +247,7 @@ fn steps(
 }
 
 /// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
-fn in_toml_words(message: &str) -> String {
+pub(super) fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")
         .replace("missing field", "missing key")

@@ -1,32 +1,10 @@
 //! Several planners on one problem.
 
-use super::table::{Align, Column, Table};
-use crate::plan::{Note, Size};
-
-/// What one planner did. What it did not come to is missing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Row {
-    /// Name on the command line.
-    pub planner: String,
-    /// How it ended: `found`, `infeasible` or `unknown`.
-    pub outcome: String,
-    /// Euclidean length in joint space (rad and m as they come).
-    pub length: Option<f64>,
-    /// Proven least distance between arm and obstacles along the path, metres.
-    pub clearance: Option<f64>,
-    /// Time that the motion takes, seconds.
-    pub duration: Option<f64>,
-    /// How much was built.
-    pub size: Option<Size>,
-    /// Computing time to prepare the space, seconds.
-    pub build: Option<f64>,
-    /// Computing time to answer the query, seconds.
-    pub query: Option<f64>,
-    /// Computing time of the certificate, seconds.
-    pub certify: Option<f64>,
-    /// What the planner has to add.
-    pub note: Option<Note>,
-}
+use super::row::{Outcome, Row};
+use super::table::{Align, Column, Table, fixed, quoted};
+use crate::plan::Size;
+use crate::space::Configuration;
+use serde_json::{Value, json};
 
 /// The rows, and what they are about.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,6 +13,10 @@ pub struct Comparison {
     pub problem: String,
     /// Unit of the lengths: `rad`, `m`, or both for an arm with a joint of each kind.
     pub length_unit: String,
+    /// Start and goal, where they are not the world's.
+    pub query: Option<[Configuration; 2]>,
+    /// No motion from start to goal is shorter: proven. Unit as the lengths; none where nothing is known.
+    pub bound: Option<f64>,
     /// One a planner, in the order of the table.
     pub rows: Vec<Row>,
 }
@@ -50,16 +32,46 @@ impl Comparison {
     /// the start) is as good as any other such path, and no other has a ratio to it.
     #[must_use]
     pub fn ratio(&self, row: &Row) -> Option<f64> {
-        let (length, best) = (row.length?, self.best()?);
-        if length == best { Some(1.0) } else { Some(length / best).filter(|r| r.is_finite()) }
+        quotient(row.length?, self.best()?)
+    }
+
+    /// How many times as long as the proven bound this row's path is: it is longer than the optimum by no more than that.
+    #[must_use]
+    pub fn over_optimum(&self, row: &Row) -> Option<f64> {
+        quotient(row.length?, self.bound?)
+    }
+
+    /// Whether one planner has a certified path and another a proof that there is none: one of the two is wrong.
+    #[must_use]
+    pub fn is_contradictory(&self) -> bool {
+        let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
+        has(Outcome::Found) && has(Outcome::Infeasible)
+    }
+
+    /// The contradiction in words, if there is one.
+    #[must_use]
+    pub fn alarm(&self) -> Option<String> {
+        let named = |outcome| {
+            let names = self.rows.iter().filter(|row| row.outcome == outcome).map(|row| row.planner.as_str());
+            names.collect::<Vec<_>>().join(", ")
+        };
+        self.is_contradictory().then(|| {
+            format!(
+                "the planners contradict each other on {}: {} found a certified path, {} proved that there is none; one \
+                 of them is wrong, and that is a defect of cplan: please report it with the robot and the world",
+                self.problem,
+                named(Outcome::Found),
+                named(Outcome::Infeasible)
+            )
+        })
     }
 
     /// An aligned table for a terminal, units in the header, `-` where there is nothing; below it the planners' notes,
     /// a line each. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let noted = self.rows.iter().filter_map(|row| row.note.map(|note| format!("{}: {note}\n", row.planner)));
-        self.table().to_text() + &noted.collect::<String>()
+        let remarks = self.rows.iter().flat_map(Row::remarks).map(|line| line + "\n");
+        self.table().to_text() + &remarks.collect::<String>()
     }
 
     /// The same table in Markdown.
@@ -71,193 +83,188 @@ impl Comparison {
     /// Comma-separated values (RFC 4180) in SI units with full precision; empty where there is nothing.
     #[must_use]
     pub fn to_csv(&self) -> String {
-        const HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
-                              build_s,query_s,certify_s,note\n";
-        let mut text = HEADER.to_owned();
-        for row in &self.rows {
-            let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
-            let [nodes, edges, cells, sweeps, expanded] =
-                counts(row.size).map(|n| n.map_or_else(String::new, |n| n.to_string()));
-            let fields = [
-                quoted(&row.planner),
-                quoted(&row.outcome),
-                number(row.length),
-                number(self.ratio(row)),
-                number(row.clearance),
-                number(row.duration),
-                nodes,
-                edges,
-                cells,
-                sweeps,
-                expanded,
-                number(row.build),
-                number(row.query),
-                number(row.certify),
-                row.note.map_or_else(String::new, |note| quoted(&note.to_string())),
-            ];
-            text.push_str(&fields.join(","));
-            text.push('\n');
-        }
-        text
+        let rows = self.rows.iter().map(|row| self.csv_row(row) + "\n");
+        format!("{CSV_HEADER}\n{}", rows.collect::<String>())
+    }
+
+    /// A row's fields in the order of [`CSV_HEADER`].
+    pub(super) fn csv_row(&self, row: &Row) -> String {
+        let number = |v: Option<f64>| v.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string());
+        let counts = row.counts().map(|n| n.map_or_else(String::new, |n| n.to_string()));
+        let mut fields = vec![quoted(&row.planner), row.outcome.name().to_owned()];
+        fields.extend([row.length, self.ratio(row), row.clearance, row.duration].map(number));
+        fields.extend(counts);
+        fields.extend([row.build, row.query, row.certify].map(number));
+        fields.push(row.note.map_or_else(String::new, |note| quoted(&note.to_string())));
+        fields.extend([self.bound, self.over_optimum(row), row.prove, row.total].map(number));
+        fields.push(row.memory.map_or_else(String::new, |bytes| bytes.to_string()));
+        fields.push(row.reason.as_deref().map_or_else(String::new, quoted));
+        fields.join(",")
     }
 
     /// A JSON object in SI units; null where there is nothing.
     #[must_use]
-    pub fn to_json(&self) -> serde_json::Value {
-        let row = |row: &Row| {
-            let size = match row.size {
-                None => serde_json::Value::Null,
-                Some(Size::Graph { nodes, edges }) => serde_json::json!({ "nodes": nodes, "edges": edges }),
-                Some(Size::Windows { cells, windows }) => serde_json::json!({ "cells": cells, "windows": windows }),
-                Some(Size::Grid { cells, sweeps }) => serde_json::json!({ "cells": cells, "sweeps": sweeps }),
-                Some(Size::Search { expanded, labelled }) => {
-                    serde_json::json!({ "cells": labelled, "expanded": expanded })
-                }
-            };
-            serde_json::json!({
-                "planner": row.planner,
-                "outcome": row.outcome,
-                "length": row.length,
-                "ratio": self.ratio(row),
-                "clearance": row.clearance,
-                "duration": row.duration,
-                "size": size,
-                "time": { "build": row.build, "query": row.query, "certify": row.certify },
-                "note": row.note.map(|note| note.to_string()),
-            })
-        };
-        serde_json::json!({
+    pub fn to_json(&self) -> Value {
+        let mut object = json!({
             "problem": self.problem,
             "length_unit": self.length_unit,
-            "planners": self.rows.iter().map(row).collect::<Vec<_>>(),
+            "lower_bound": self.bound,
+            "contradictory": self.is_contradictory(),
+            "planners": self.rows.iter().map(|row| self.json_row(row)).collect::<Vec<_>>(),
+        });
+        if let Some([start, goal]) = self.query {
+            object["start"] = json!([start[0], start[1]]);
+            object["goal"] = json!([goal[0], goal[1]]);
+        }
+        object
+    }
+
+    fn json_row(&self, row: &Row) -> Value {
+        let size = match row.size {
+            None => Value::Null,
+            Some(Size::Graph { nodes, edges }) => json!({ "nodes": nodes, "edges": edges }),
+            Some(Size::Windows { cells, windows }) => json!({ "cells": cells, "windows": windows }),
+            Some(Size::Grid { cells, sweeps }) => json!({ "cells": cells, "sweeps": sweeps }),
+            Some(Size::Search { expanded, labelled }) => json!({ "cells": labelled, "expanded": expanded }),
+        };
+        json!({
+            "planner": row.planner,
+            "outcome": row.outcome.name(),
+            "length": row.length,
+            "ratio": self.ratio(row),
+            "over_optimum": self.over_optimum(row),
+            "pieces": row.pieces,
+            "clearance": row.clearance,
+            "duration": row.duration,
+            "size": size,
+            "time": {
+                "build": row.build,
+                "query": row.query,
+                "certify": row.certify,
+                "prove": row.prove,
+                "total": row.total,
+            },
+            "memory": row.memory,
+            "note": row.note.map(|note| note.to_string()),
+            "reason": row.reason,
         })
     }
 
-    fn table(&self) -> Table {
+    pub(super) fn table(&self) -> Table {
         let length = format!("length [{}]", self.length_unit);
-        let right = [length.as_str(), "ratio", "clearance [mm]", "motion [s]"];
-        let times = ["build [ms]", "query [ms]", "certify [ms]"];
+        let right = [length.as_str(), "ratio", "over optimum", "clearance [mm]", "motion [s]"];
+        let costs = ["build [ms]", "query [ms]", "certify [ms]", "total [ms]", "memory [MiB]"];
         let mut columns = vec![Column::new("planner", Align::Left), Column::new("outcome", Align::Left)];
         columns.extend(right.map(|name| Column::new(name, Align::Right)));
         columns.push(Column::new("size", Align::Left));
-        columns.extend(times.map(|name| Column::new(name, Align::Right)));
+        columns.extend(costs.map(|name| Column::new(name, Align::Right)));
+        let milliseconds = |v: Option<f64>| fixed(v.map(|v| v * 1e3), 3);
         let cells = |row: &Row| {
             vec![
                 Some(row.planner.clone()),
-                Some(row.outcome.clone()),
+                Some(row.outcome.to_string()),
                 fixed(row.length, 4),
                 fixed(self.ratio(row), 3),
+                fixed(self.over_optimum(row), 4),
                 fixed(row.clearance.map(|v| v * 1e3), 3),
                 fixed(row.duration, 3),
                 row.size.map(|size| size.to_string()),
-                fixed(row.build.map(|v| v * 1e3), 3),
-                fixed(row.query.map(|v| v * 1e3), 3),
-                fixed(row.certify.map(|v| v * 1e3), 3),
+                milliseconds(row.build),
+                milliseconds(row.query),
+                milliseconds(row.certify),
+                milliseconds(row.total),
+                fixed(row.memory.map(|bytes| bytes as f64 / f64::from(1 << 20)), 2),
             ]
         };
         Table { columns, rows: self.rows.iter().map(cells).collect() }
     }
 }
 
-fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
-    value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
-}
+/// Names of the columns of [`Comparison::to_csv`].
+pub(super) const CSV_HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
+                                     build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason";
 
-/// Nodes, edges, cells, sweeps, expanded cells.
-fn counts(size: Option<Size>) -> [Option<usize>; 5] {
-    match size {
-        None => [None; 5],
-        Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None, None],
-        Some(Size::Windows { cells, .. }) => [None, None, Some(cells), None, None],
-        Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps), None],
-        Some(Size::Search { expanded, labelled }) => [None, None, Some(labelled), None, Some(expanded)],
-    }
-}
-
-/// A text field of a CSV file.
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+/// `a / b`, and 1 where both are the same; none where that is no number.
+fn quotient(a: f64, b: f64) -> Option<f64> {
+    if a == b { Some(1.0) } else { Some(a / b).filter(|r| r.is_finite()) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plan::Note;
+    use crate::report::Family;
 
     fn example() -> Comparison {
+        let visibility = Row {
+            length: Some(4.0),
+            pieces: Some(12),
+            clearance: Some(0.0011),
+            duration: Some(3.25),
+            size: Some(Size::Graph { nodes: 512, edges: 2300 }),
+            build: Some(0.0021),
+            query: Some(0.000_412),
+            certify: Some(0.001),
+            total: Some(0.0036),
+            memory: Some(3 << 19),
+            ..Row::new("visibility", Family::Roadmap, Outcome::Found)
+        };
+        let harmonic = Row {
+            length: Some(5.0),
+            clearance: Some(0.0125),
+            duration: Some(4.0),
+            size: Some(Size::Grid { cells: 65_536, sweeps: 40 }),
+            build: Some(0.0),
+            query: Some(1.5),
+            note: Some(Note::Unconverged { sweeps: 40, change: 2.5e-4 }),
+            ..Row::new("harmonic", Family::Field, Outcome::Found)
+        };
+        let odd = Row {
+            query: Some(f64::NAN),
+            prove: Some(0.25),
+            reason: Some("too coarse, or \"so\"".to_owned()),
+            ..Row::new("a, \"b\" | c", Family::Field, Outcome::Unknown)
+        };
         Comparison {
             problem: "shelf".to_owned(),
             length_unit: "rad".to_owned(),
-            rows: vec![
-                Row {
-                    planner: "visibility".to_owned(),
-                    outcome: "found".to_owned(),
-                    length: Some(4.0),
-                    clearance: Some(0.0011),
-                    duration: Some(3.25),
-                    size: Some(Size::Graph { nodes: 512, edges: 2300 }),
-                    build: Some(0.0021),
-                    query: Some(0.000_412),
-                    certify: Some(0.001),
-                    note: None,
-                },
-                Row {
-                    planner: "harmonic".to_owned(),
-                    outcome: "found".to_owned(),
-                    length: Some(5.0),
-                    clearance: Some(0.0125),
-                    duration: Some(4.0),
-                    size: Some(Size::Grid { cells: 65_536, sweeps: 40 }),
-                    build: Some(0.0),
-                    query: Some(1.5),
-                    certify: None,
-                    note: Some(Note::Unconverged { sweeps: 40, change: 2.5e-4 }),
-                },
-                Row {
-                    planner: "a, \"b\" | c".to_owned(),
-                    outcome: "unknown".to_owned(),
-                    length: None,
-                    clearance: None,
-                    duration: None,
-                    size: None,
-                    build: None,
-                    query: Some(f64::NAN),
-                    certify: None,
-                    note: None,
-                },
-            ],
+            query: None,
+            bound: Some(3.2),
+            rows: vec![visibility, harmonic, odd],
         }
     }
 
     #[test]
     fn text_is_aligned() {
         insta::assert_snapshot!(example().to_text(), @r#"
-    planner     outcome  length [rad]  ratio  clearance [mm]  motion [s]  size                    build [ms]  query [ms]  certify [ms]
-    ----------  -------  ------------  -----  --------------  ----------  ----------------------  ----------  ----------  ------------
-    visibility  found          4.0000  1.000           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000
-    harmonic    found          5.0000  1.250          12.500       4.000  65536 cells, 40 sweeps       0.000    1500.000             -
-    a, "b" | c  unknown             -      -               -           -  -                                -           -             -
+    planner     outcome  length [rad]  ratio  over optimum  clearance [mm]  motion [s]  size                    build [ms]  query [ms]  certify [ms]  total [ms]  memory [MiB]
+    ----------  -------  ------------  -----  ------------  --------------  ----------  ----------------------  ----------  ----------  ------------  ----------  ------------
+    visibility  found          4.0000  1.000        1.2500           1.100       3.250  512 nodes, 2300 edges        2.100       0.412         1.000       3.600          1.50
+    harmonic    found          5.0000  1.250        1.5625          12.500       4.000  65536 cells, 40 sweeps       0.000    1500.000             -           -             -
+    a, "b" | c  unknown             -      -             -               -           -  -                                -           -             -           -             -
     harmonic: not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4
+    a, "b" | c: unknown: too coarse, or "so"
     "#);
     }
 
     #[test]
     fn markdown_has_a_rule_with_alignment_and_escaped_bars() {
         insta::assert_snapshot!(example().to_markdown(), @r#"
-    | planner     | outcome | length [rad] | ratio | clearance [mm] | motion [s] | size                   | build [ms] | query [ms] | certify [ms] |
-    | ----------- | ------- | -----------: | ----: | -------------: | ---------: | ---------------------- | ---------: | ---------: | -----------: |
-    | visibility  | found   |       4.0000 | 1.000 |          1.100 |      3.250 | 512 nodes, 2300 edges  |      2.100 |      0.412 |        1.000 |
-    | harmonic    | found   |       5.0000 | 1.250 |         12.500 |      4.000 | 65536 cells, 40 sweeps |      0.000 |   1500.000 |            - |
-    | a, "b" \| c | unknown |            - |     - |              - |          - | -                      |          - |          - |            - |
+    | planner     | outcome | length [rad] | ratio | over optimum | clearance [mm] | motion [s] | size                   | build [ms] | query [ms] | certify [ms] | total [ms] | memory [MiB] |
+    | ----------- | ------- | -----------: | ----: | -----------: | -------------: | ---------: | ---------------------- | ---------: | ---------: | -----------: | ---------: | -----------: |
+    | visibility  | found   |       4.0000 | 1.000 |       1.2500 |          1.100 |      3.250 | 512 nodes, 2300 edges  |      2.100 |      0.412 |        1.000 |      3.600 |         1.50 |
+    | harmonic    | found   |       5.0000 | 1.250 |       1.5625 |         12.500 |      4.000 | 65536 cells, 40 sweeps |      0.000 |   1500.000 |            - |          - |            - |
+    | a, "b" \| c | unknown |            - |     - |            - |              - |          - | -                      |          - |          - |            - |          - |            - |
     "#);
     }
 
     #[test]
     fn csv_is_quoted_and_has_empty_fields() {
         insta::assert_snapshot!(example().to_csv(), @r#"
-    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,build_s,query_s,certify_s,note
-    visibility,found,4,1,0.0011,3.25,512,2300,,,,0.0021,0.000412,0.001,
-    harmonic,found,5,1.25,0.0125,4,,,65536,40,,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4"
-    "a, ""b"" | c",unknown,,,,,,,,,,,,,
+    planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason
+    visibility,found,4,1,0.0011,3.25,512,2300,,,,0.0021,0.000412,0.001,,3.2,1.25,,0.0036,1572864,
+    harmonic,found,5,1.25,0.0125,4,,,65536,40,,0,1.5,,"not converged: relaxation stopped after 40 sweeps, at a relative change of 2.5e-4",3.2,1.5625,,,,
+    "a, ""b"" | c",unknown,,,,,,,,,,,,,,3.2,,0.25,,,"too coarse, or ""so"""
     "#);
     }
 
@@ -265,10 +272,13 @@ mod tests {
     fn json_has_nulls() {
         let json = example().to_json();
         assert_eq!(json["planners"][0]["size"]["nodes"], 512);
+        assert_eq!(json["planners"][0]["memory"], 3 << 19);
         assert_eq!(json["planners"][1]["ratio"], 1.25);
+        assert_eq!(json["planners"][1]["over_optimum"], 1.5625);
         assert_eq!(json["planners"][1]["size"]["sweeps"], 40);
         assert!(json["planners"][2]["length"].is_null() && json["planners"][2]["size"].is_null());
         assert!(json["planners"][2]["time"]["query"].is_null(), "what is not a number is null");
+        assert!(json.get("start").is_none());
     }
 
     #[test]
@@ -277,10 +287,23 @@ mod tests {
         let ratios: Vec<Option<f64>> = all.rows.iter().map(|r| all.ratio(r)).collect();
         assert_eq!(ratios, [Some(1.0), Some(1.25), None]);
         all.rows[1].length = Some(0.0);
-        let ratios: Vec<Option<f64>> = all.rows.iter().map(|r| all.ratio(r)).collect();
-        assert_eq!(ratios, [None, Some(1.0), None]);
+        all.bound = Some(0.0);
+        let ratios: Vec<_> = all.rows.iter().map(|r| [all.ratio(r), all.over_optimum(r)]).collect();
+        assert_eq!(ratios, [[None; 2], [Some(1.0); 2], [None; 2]]);
         all.rows.clear();
         assert_eq!(all.best(), None);
         assert_eq!(all.to_text().lines().count(), 2);
+    }
+
+    #[test]
+    fn a_path_and_a_proof_are_a_contradiction() {
+        let mut all = example();
+        assert!(!all.is_contradictory() && all.alarm().is_none());
+        all.rows[2].outcome = Outcome::Infeasible;
+        let alarm = all.alarm().unwrap();
+        assert!(alarm.contains("on shelf: visibility, harmonic found") && alarm.contains("| c proved"), "{alarm}");
+        all.rows.remove(0);
+        all.rows.remove(0);
+        assert!(!all.is_contradictory(), "proofs alone agree");
     }
 }

@@ -1,6 +1,30 @@
-//! Comparisons as tables: for people, for spreadsheets, for programs.
+//! Comparisons of planners, on one problem or on many: for people, for spreadsheets, for programs.
+//!
+//! ```text
+//! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)
+//!                                      |                                   |
+//!                        table, Markdown, CSV, JSON        the same, with distributions and words;
+//!                                                          a page with charts; a log for Planner Arena
+//! ```
 
+mod arena;
 mod comparison;
+mod measure;
+mod page;
+mod row;
+mod sign;
+mod spread;
+mod study;
+mod study_files;
 mod table;
+mod words;
 
-pub use comparison::{Comparison, Row};
+pub use comparison::Comparison;
+pub use measure::Measure;
+pub use page::{Overlay, Page, Picture, Spot};
+pub use row::{Family, Outcome, Row};
+pub use sign::sign_test;
+pub use spread::Spread;
+pub use study::{Sampling, Study};
+pub use table::{Align, Column, Table};
+pub use words::words;

@@ -21,6 +21,18 @@ impl Column {
     pub fn new(name: &str, align: Align) -> Self {
         Self { name: name.to_owned(), align }
     }
+
+    /// What stands above it.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// To which side its cells are moved.
+    #[must_use]
+    pub fn align(&self) -> Align {
+        self.align
+    }
 }
 
 /// Columns and rows of cells; a missing cell is shown as `-`.
@@ -93,4 +105,14 @@ impl Table {
 
 fn shown(row: &[Option<String>]) -> Vec<&str> {
     row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
+}
+
+/// A number with so many decimals; none where it is not finite.
+pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
+    value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
+}
+
+/// A text field of a CSV file.
+pub(super) fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

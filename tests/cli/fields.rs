@@ -177,7 +177,7 @@ fn compare_takes_rows_with_options() {
         ("harmonic --field oriented", "needs --epsilon and --direction"),
         ("wavefront --field bvp", "needs --planner harmonic"),
         ("harmonic --search bfs", "needs --planner wavefront"),
-        ("magic", "no planner is called"),
+        ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: visibility, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
         ("", "not provided"),
     ] {

@@ -1,6 +1,7 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
 mod commands;
+mod compare;
 mod fields;
 mod first;
 mod help;

@@ -1,0 +1,1 @@
+"""cplan beside what people use now: the same problems, in one run."""

@@ -1,0 +1,46 @@
+"""Building configuration spaces: cplan's rows beside parry2d's collision tests."""
+
+from __future__ import annotations
+
+from .figures import median, spread, times
+from .problem import ARM, PROBLEMS
+from .settings import Settings, say
+from .table import Lead, Table
+
+
+def tables(settings: Settings) -> list[Table]:
+    """One table: problems A and W20, two sizes."""
+    table = Table(
+        "Building a configuration space",
+        "One core, one process, milliseconds: median (quartiles). parry2d: a collision test at the centre of every "
+        "cell, whole rows settled by the first link, discs before the exact test, first hit counts. cplan bitmap and "
+        "rows: the same question, a bit or a byte a cell, from exact contact angles. Outer: free cells are free all "
+        "over. Polygons: the free space with a margin of 1 mm, whatever the number of cells.",
+        [
+            "problem",
+            "cells",
+            "parry2d",
+            "cplan bitmap",
+            "cplan rows",
+            "cplan outer",
+            "cplan polygons",
+            "parry2d over bitmap",
+        ],
+    )
+    for name in ("A", "W20"):
+        for cells, rounds in ((360, settings.choose(20, 4)), (2048, settings.choose(3, 1))):
+            say(f"  configuration space of {name}, {cells} x {cells}")
+            world = str(PROBLEMS / f"{name.lower()}.toml")
+            report = settings.rust("cspace", str(ARM), world, str(cells), str(rounds))
+            clock = report["times"]
+            ratio = median(clock["parry2d"]) / median(clock["bitmap"])
+            kinds = ("parry2d", "bitmap", "rows", "outer", "regions")
+            row = [name, f"{cells} x {cells}", *(spread(clock[kind]) for kind in kinds), times(ratio)]
+            table.rows.append(row)
+            table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
+            table.note(
+                f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells blocked; parry2d, in "
+                f"single precision, says otherwise in {report['differ']} of them; in {report['differ_double']} of "
+                "these so does its double precision."
+            )
+    return [table]

@@ -1,0 +1,153 @@
+//! The problems to compare on: one, a suite's, random ones.
+
+use super::args::CompareArgs;
+use super::pairs::free_pairs;
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::input::{self, Overrides, Suite};
+use crate::model::{Goal, Problem};
+use crate::report::Sampling;
+use crate::space::Configuration;
+use std::borrow::Cow;
+use std::path::Path;
+use std::sync::Arc;
+
+/// All that is to be compared, read and checked.
+pub struct Cases {
+    /// What it is about.
+    pub title: String,
+    /// At least one.
+    pub cases: Vec<Case>,
+    /// Random queries instead of the worlds' own.
+    pub sampling: Option<Sampling>,
+    /// What was left out, and why; a line each.
+    pub left_out: Vec<String>,
+    /// What may surprise about the robots; a line each.
+    pub warnings: Vec<String>,
+}
+
+/// One problem.
+pub struct Case {
+    /// For tables.
+    pub name: String,
+    /// Which of the worlds it is in, from 0.
+    pub world: usize,
+    /// With the world's own start and goal, or with any where they are drawn.
+    base: Arc<Problem>,
+    /// Start and goal that were drawn.
+    pub query: Option<[Configuration; 2]>,
+}
+
+impl Case {
+    /// The problem itself. A copy of the scene where start and goal are drawn: there may be a million of them.
+    pub fn problem(&self) -> Cow<'_, Problem> {
+        match self.query {
+            None => Cow::Borrowed(&self.base),
+            Some([start, goal]) => Cow::Owned(asked(&self.base, start, goal)),
+        }
+    }
+
+    /// The problem before start and goal are drawn: its scene is the case's.
+    pub fn base(&self) -> &Problem {
+        &self.base
+    }
+}
+
+fn asked(base: &Problem, start: Configuration, goal: Configuration) -> Problem {
+    Problem { scene: base.scene.clone(), start, goal: Goal::Joints(goal), goals: vec![goal] }
+}
+
+impl Cases {
+    /// Reads what the arguments name.
+    ///
+    /// # Errors
+    /// Every defect of all files at once.
+    pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
+        let suite = match (&args.urdf, &args.world, &args.suite) {
+            (Some(urdf), Some(world), _) => one(urdf, world)?,
+            (Some(urdf), None, Some(folder)) => input::load_folder(urdf, folder)?,
+            (_, _, Some(place)) => input::load_suite(place)?,
+            _ => return Err(Failure::Usage("URDF and WORLD are required, or --suite".into())),
+        };
+        let left_out = |path: &std::path::PathBuf| {
+            format!("{} is left out: it has steps, and only `cplan ROBOT WORLD` plans those", path.display())
+        };
+        let left_out = suite.with_steps.iter().map(left_out).collect();
+        let mut warnings: Vec<String> = Vec::new();
+        for warning in suite.members.iter().flat_map(|member| &member.scene.robot.warnings) {
+            if !warnings.contains(warning) {
+                warnings.push(warning.clone());
+            }
+        }
+        let mut name = suite.name.clone();
+        let overrides = args.query.overrides();
+        let mut bases = if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
+        for (_, problem) in &mut bases {
+            args.motion.override_limits(&mut problem.scene.arm.joints);
+        }
+        if let [(_, only)] = &bases[..]
+            && args.suite.is_none()
+        {
+            name = output::title(only);
+        }
+        let sampling = args.queries.map(|queries| Sampling { queries: queries as usize, seed: args.seed });
+        let mut cases = Vec::new();
+        for (world, (name, problem)) in bases.into_iter().enumerate() {
+            let name = if args.is_single() { output::title(&problem) } else { name };
+            cases.extend(drawn(name, world, Arc::new(problem), sampling)?);
+        }
+        let title = match sampling {
+            Some(Sampling { queries, seed }) if args.suite.is_some() => {
+                format!("{name}: {queries} random queries a world, seed {seed}")
+            }
+            Some(Sampling { queries, seed }) => format!("{name}: {queries} random queries, seed {seed}"),
+            None => name,
+        };
+        Ok(Self { title, cases, sampling, left_out, warnings })
+    }
+}
+
+/// A robot in a world as a suite of one.
+fn one(urdf: &Path, world: &Path) -> Result<Suite, Failure> {
+    let scene = input::load_scene(urdf, world)?;
+    let name = scene.scene.workspace.name.clone();
+    Ok(Suite { name: name.clone(), members: vec![input::Member { name, scene }], with_steps: Vec::new() })
+}
+
+/// With the worlds' own start and goal, or those of the command line.
+fn problems(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>, Failure> {
+    Ok(suite.problems(overrides)?.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect())
+}
+
+/// Scenes whose start and goal nobody will look at: the worlds' own may be missing or blocked.
+fn scenes(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>, Failure> {
+    let scene = |member: input::Member| {
+        // Only a world that was named by itself can have steps here; asked for its goal it says so.
+        if member.scene.has_steps() {
+            member.scene.clone().problem(overrides)?;
+        }
+        let mut scene = member.scene.scene;
+        if let Some(clearance) = overrides.clearance {
+            scene.workspace.clearance = input::clearance(clearance).map_err(input::InputError::from)?;
+        }
+        let nowhere = Configuration::zeros();
+        Ok((member.name, Problem { scene, start: nowhere, goal: Goal::Joints(nowhere), goals: vec![nowhere] }))
+    };
+    suite.members.into_iter().map(scene).collect()
+}
+
+/// The problem, or as many random ones in its scene.
+fn drawn(name: String, world: usize, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, Failure> {
+    let Some(Sampling { queries, seed }) = sampling else { return Ok(vec![Case { name, world, base, query: None }]) };
+    let Some(pairs) = free_pairs(&base.scene, queries, seed) else {
+        return Err(Failure::Option(format!(
+            "--queries: {name} has hardly a configuration that keeps the clearance of {} m; a smaller --clearance or \
+             other obstacles leave room for random queries",
+            base.scene.workspace.clearance
+        )));
+    };
+    let width = queries.to_string().len();
+    let case =
+        |(i, pair)| Case { name: format!("{name} #{:0width$}", i + 1), world, base: base.clone(), query: Some(pair) };
+    Ok(pairs.into_iter().enumerate().map(case).collect())
+}

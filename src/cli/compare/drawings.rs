@@ -1,0 +1,118 @@
+//! Pictures of the paths, for files and for the page.
+
+use super::cases::{Case, Cases};
+use super::runner::Compared;
+use crate::cli::failure::Failure;
+use crate::cli::output;
+use crate::cspace::CObstacle;
+use crate::draw::{self, Picture};
+use crate::model::{Problem, Scene};
+use crate::report::{self, Comparison, Outcome, Overlay, Study};
+use crate::space::Path;
+
+/// Problems that a page draws one by one where start and goal are random.
+const DRAWN_QUERIES: usize = 6;
+
+/// Problems that a page draws one by one where each has a world of its own.
+const DRAWN_WORLDS: usize = 60;
+
+/// Queries whose paths lie over each other in a page.
+const OVERLAID: usize = 300;
+
+/// Share of the arm's reach by which contours may deviate in a page's small panels.
+const COARSE: f64 = 4e-3;
+
+/// Draws the paths of one problem into a file.
+///
+/// # Errors
+/// I/O.
+pub fn save(
+    case: &Case,
+    comparison: &Comparison,
+    paths: &[Option<Path>],
+    format: output::PictureFormat,
+    file: &std::path::Path,
+) -> Result<(), Failure> {
+    let problem = case.problem();
+    let contours = output::contours(&problem.scene);
+    output::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
+}
+
+/// The page's pictures: workspace and configuration space of each problem; of random queries, those on which the planners'
+/// lengths differ most.
+pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Picture> {
+    let mut chosen: Vec<usize> = (0..study.comparisons.len()).collect();
+    if cases.sampling.is_some() {
+        let longest = |i: &usize| {
+            let comparison = &study.comparisons[*i];
+            comparison.rows.iter().filter_map(|row| comparison.ratio(row)).fold(0.0, f64::max)
+        };
+        chosen.sort_by(|a, b| longest(b).total_cmp(&longest(a)));
+        chosen.truncate(DRAWN_QUERIES);
+    }
+    let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
+        let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
+        let problem = case.problem();
+        let contours = output::contours(&problem.scene);
+        let svg = draw::svg(&picture(&problem, comparison, &done.paths[i], &contours));
+        report::Picture { title: case.name.clone(), svg }
+    });
+    drawn.collect()
+}
+
+/// All paths of each planner over each other, for each world with random queries.
+pub fn overlays(cases: &Cases, study: &Study, done: &Compared) -> Vec<Overlay> {
+    let Some(sampling) = cases.sampling else { return Vec::new() };
+    let worlds = cases.cases.chunks(sampling.queries).zip(done.paths.chunks(sampling.queries));
+    worlds.filter_map(|(world, paths)| Some(overlay(world.first()?, study, paths))).collect()
+}
+
+fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay {
+    let scene = &first.base().scene;
+    let shown = &paths[..paths.len().min(OVERLAID)];
+    let of = |planner: usize| {
+        let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());
+        found.map(|path| path.waypoints().iter().map(|q| [q[0], q[1]]).collect()).collect()
+    };
+    let axes = scene.arm.topology().axes;
+    Overlay {
+        title: output::title_of(scene),
+        joints: scene.arm.joints.each_ref().map(|joint| {
+            let around = if joint.axis.is_circle() { ", wraps around" } else { "" };
+            format!("{} [{}{around}]", joint.name, joint.unit())
+        }),
+        window: axes.map(|axis| axis.domain()),
+        circles: axes.map(|axis| axis.is_circle()),
+        blocked: blocked(scene),
+        planners: study.planners().into_iter().enumerate().map(|(i, name)| (name.to_owned(), of(i))).collect(),
+        note: (shown.len() < paths.len()).then(|| format!("The first {} of {} queries.", shown.len(), paths.len())),
+    }
+}
+
+fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
+    let tolerance = COARSE * scene.arm.reach();
+    let contours = crate::cspace::c_obstacles(scene, tolerance, tolerance);
+    contours.into_iter().map(|c| c.contour.iter().map(|p| [p.x, p.y]).collect()).collect()
+}
+
+fn picture<'a>(
+    problem: &'a Problem,
+    comparison: &Comparison,
+    paths: &'a [Option<Path>],
+    contours: &'a [CObstacle],
+) -> Picture<'a> {
+    let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
+    let paths: Vec<_> = named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect();
+    let found = comparison.rows.iter().filter(|row| row.outcome == Outcome::Found).count();
+    Picture {
+        title: vec![output::title(problem), format!("lengths in {}", comparison.length_unit)],
+        status: format!("{found} of {} found a certified path", comparison.rows.len()),
+        scene: &problem.scene,
+        start: problem.start,
+        goals: &problem.goals,
+        paths,
+        trace: None,
+        proof: &[],
+        c_obstacles: contours,
+    }
+}

@@ -1,0 +1,173 @@
+//! `cplan compare`: every planner on the same problems, side by side.
+
+mod args;
+mod cases;
+mod drawings;
+mod pairs;
+mod progress;
+mod runner;
+mod sink;
+mod started;
+
+pub use args::CompareArgs;
+
+use super::failure::Failure;
+use super::memory::MemoryMeter;
+use super::output::{self, Sink};
+use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
+use crate::report::{Comparison, Page, Study};
+use crate::solve::{Effort, Method};
+use crate::trajectory::write_whole_set;
+use cases::{Case, Cases};
+use progress::Progress;
+use runner::{Compared, Entry, Runner};
+use sink::{ReportFormat, report_sinks};
+
+/// Compares, and returns the exit code: that of the best answer to a single problem, and 1 if planners contradict each
+/// other.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
+    let sinks = report_sinks(&args.output)?;
+    let pictures = output::sinks(&[], &args.picture)?;
+    let cases = Cases::load(args)?;
+    let entries = entries(args, &cases)?;
+    cases.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    if !args.quiet {
+        cases.left_out.iter().for_each(|line| output::say(&format!("note: {line}")));
+    }
+    let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
+    let progress = Progress::new(total, args.is_single(), args.quiet);
+    let jobs = usize::from(args.jobs);
+    let meter = runner::meter(meter, jobs, args.quiet);
+    let runner = Runner { entries: &entries, motion: &args.motion, jobs, meter, progress: &progress };
+    let started = started::now();
+    let mut done = runner.run(&cases).map_err(|(name, error)| match error {
+        error if args.is_single() => Failure::Trajectory(error),
+        error => Failure::Option(format!("{name}: {error}")),
+    })?;
+    let study = Study {
+        title: cases.title.clone(),
+        sampling: cases.sampling,
+        comparisons: std::mem::take(&mut done.comparisons),
+        left_out: cases.left_out.clone(),
+    };
+    for sink in &pictures {
+        if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
+            drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;
+        }
+    }
+    let results = Results { args, cases: &cases, study: &study, done: &done, started };
+    let written: Result<Vec<_>, Failure> =
+        sinks.iter().map(|sink| Ok((sink.path.clone(), results.content(sink.format)?))).collect();
+    write_whole_set(&written?)?;
+    output::print(&match (args.json, args.csv, args.markdown) {
+        (true, ..) => results.content(ReportFormat::Json)?,
+        (_, true, _) => results.content(ReportFormat::Csv)?,
+        (.., true) => results.content(ReportFormat::Markdown)?,
+        _ => results.single().map_or_else(|| study.to_text(), Comparison::to_text),
+    })?;
+    let alarms = study.alarms();
+    alarms.iter().for_each(|alarm| output::say(&format!("error: {alarm}")));
+    Ok(exit_code(&study, args.is_single()))
+}
+
+/// A contradiction is a failure; otherwise the code is that of a single problem's best answer.
+fn exit_code(study: &Study, is_single: bool) -> u8 {
+    match study.settled() {
+        _ if !study.alarms().is_empty() => BAD_INPUT,
+        _ if !is_single => DONE,
+        [0, 0, _] => UNKNOWN,
+        [0, ..] => INFEASIBLE,
+        _ => DONE,
+    }
+}
+
+/// The planners for each world.
+///
+/// # Errors
+/// Options of a planner that need something of a world which it lacks.
+fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
+    // Bounds are measured by themselves, for all planners alike.
+    let effort = Effort { bounded: false, ..args.effort.effort() };
+    let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
+    let of = |case: &Case| {
+        let plain = methods.iter().map(|&method| Entry { label: method.to_string(), method, effort });
+        let mut entries: Vec<Entry> = plain.collect();
+        for variant in &args.with {
+            let preferences = &case.base().scene.workspace.preferences;
+            let effort = variant.effort(effort, preferences).map_err(|lack| {
+                Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) })
+            })?;
+            entries.push(Entry { label: variant.label.clone(), method: variant.method, effort });
+        }
+        Ok(entries)
+    };
+    cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
+}
+
+/// All that there is to write.
+struct Results<'a> {
+    args: &'a CompareArgs,
+    cases: &'a Cases,
+    study: &'a Study,
+    done: &'a Compared,
+    started: String,
+}
+
+impl Results<'_> {
+    /// The only problem, if one was asked for.
+    fn single(&self) -> Option<&Comparison> {
+        self.study.comparisons.first().filter(|_| self.args.is_single())
+    }
+
+    /// A file's content.
+    fn content(&self, format: ReportFormat) -> Result<String, Failure> {
+        let (single, study) = (self.single(), self.study);
+        Ok(match format {
+            ReportFormat::Markdown => single.map_or_else(|| study.to_markdown(), Comparison::to_markdown),
+            ReportFormat::Csv => single.map_or_else(|| study.to_csv(), Comparison::to_csv),
+            ReportFormat::Json => {
+                let json = single.map_or_else(|| study.to_json(), Comparison::to_json);
+                serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))? + "\n"
+            }
+            ReportFormat::Html => {
+                let overlays = drawings::overlays(self.cases, study, self.done);
+                let pictures = drawings::pictures(self.cases, study, self.done);
+                Page { study, overlays: &overlays, pictures: &pictures }.html()
+            }
+            ReportFormat::Arena => study.to_arena_log(&self.started, self.done.elapsed.as_secs_f64()),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{Family, Outcome, Row};
+
+    fn study(outcomes: &[&[Outcome]]) -> Study {
+        let comparison = |outcomes: &&[Outcome]| Comparison {
+            problem: "p".to_owned(),
+            length_unit: "rad".to_owned(),
+            query: None,
+            bound: None,
+            rows: outcomes.iter().map(|outcome| Row::new("planner", Family::Field, *outcome)).collect(),
+        };
+        let comparisons = outcomes.iter().map(comparison).collect();
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+    }
+
+    #[test]
+    fn the_exit_code_is_the_best_answers_and_1_for_contradictions() {
+        use Outcome::{Found, Infeasible, Unknown};
+        let single = |outcomes: &[Outcome]| exit_code(&study(&[outcomes]), true);
+        assert_eq!([single(&[Unknown, Found]), single(&[Found])], [DONE; 2]);
+        assert_eq!([single(&[Unknown, Infeasible]), single(&[Unknown])], [INFEASIBLE, UNKNOWN]);
+        assert_eq!(single(&[Found, Unknown, Infeasible]), BAD_INPUT);
+        assert_eq!(exit_code(&study(&[&[Unknown], &[Infeasible]]), false), DONE);
+        assert_eq!(exit_code(&study(&[&[Found, Found], &[Infeasible, Found]]), false), BAD_INPUT);
+        assert_eq!(study(&[&[Found, Found], &[Infeasible, Found]]).alarms().len(), 1);
+    }
+}

@@ -1,0 +1,137 @@
+//! Random start-goal pairs.
+
+use crate::model::Scene;
+use crate::space::Configuration;
+
+/// Draws before a world counts as one without free configurations: a free share of a ten-thousandth is found still.
+const MOST_DRAWS: usize = 200_000;
+
+/// Sebastiano Vigna's SplitMix64: 64 bits of state, the same numbers on every machine. Written out here so that no
+/// release of a library can change what a seed stands for.
+#[derive(Debug, Clone)]
+pub struct SplitMix64(u64);
+
+impl SplitMix64 {
+    /// The next 64 bits.
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in `[0, 1)`, a multiple of 2^-53.
+    fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// `count` pairs of free configurations, all independent and uniform over the free part of the joint space (a turn on
+/// circles): start, goal, start, goal and so on out of one sequence of draws, joint 1 first, those that are not free
+/// dropped. Free is what keeps more than the scene's clearance from every obstacle. Fewer pairs are the first of more.
+///
+/// None if hardly anything is free.
+pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configuration; 2]>> {
+    let mut random = SplitMix64(seed);
+    (0..count).map(|_| Some([free(scene, &mut random)?, free(scene, &mut random)?])).collect()
+}
+
+fn free(scene: &Scene, random: &mut SplitMix64) -> Option<Configuration> {
+    let axes = scene.arm.topology().axes;
+    (0..MOST_DRAWS).find_map(|_| {
+        let [q1, q2] = axes.map(|axis| {
+            let (lower, upper) = axis.domain();
+            (lower + (upper - lower) * random.unit()).clamp(lower, upper)
+        });
+        let q = Configuration::new(q1, q2);
+        (scene.clearance(q) > scene.workspace.clearance).then_some(q)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::load_scene;
+    use std::path::Path;
+
+    fn scene(robot: &str, world: &str) -> Scene {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let urdf = root.join("robots").join(robot).with_extension("urdf");
+        load_scene(&urdf, &root.join("workspaces").join(world).with_extension("toml")).unwrap().scene
+    }
+
+    #[test]
+    fn the_published_sequence() {
+        let mut random = SplitMix64(1_234_567);
+        let numbers: Vec<u64> = (0..5).map(|_| random.next()).collect();
+        let published = [
+            6_457_827_717_110_365_317,
+            3_203_168_211_198_807_973,
+            9_817_491_932_198_370_423,
+            4_593_380_528_125_082_431,
+            16_408_922_859_458_223_821,
+        ];
+        assert_eq!(numbers, published);
+    }
+
+    #[test]
+    fn units_fill_the_interval_evenly() {
+        let mut random = SplitMix64(7);
+        let mut counts = [0_i32; 10];
+        for _ in 0..100_000 {
+            let unit = random.unit();
+            assert!((0.0..1.0).contains(&unit));
+            counts[(unit * 10.0) as usize] += 1;
+        }
+        // Five standard deviations of a binomial count: 5 sqrt(100000 * 0.09).
+        assert!(counts.iter().all(|n| (n - 10_000).abs() < 475), "{counts:?}");
+    }
+
+    #[test]
+    fn pairs_are_free_within_the_limits_and_follow_from_the_seed() {
+        let scene = scene("planar_2r", "shelf");
+        let pairs = free_pairs(&scene, 40, 3).unwrap();
+        for q in pairs.iter().flatten() {
+            assert!(scene.arm.topology().contains(*q) && scene.clearance(*q) > 0.0, "{q:?}");
+        }
+        assert_eq!(free_pairs(&scene, 40, 3).unwrap(), pairs);
+        assert_eq!(free_pairs(&scene, 7, 3).unwrap(), pairs[..7]);
+        assert_ne!(free_pairs(&scene, 40, 4).unwrap(), pairs);
+        assert_ne!(pairs[0][0], pairs[0][1]);
+    }
+
+    /// Which share of the samples lies in a quarter of the joint space is, within five standard deviations, which share
+    /// of the free space does: counted on a grid.
+    #[test]
+    fn pairs_are_uniform_over_the_free_space_of_a_torus() {
+        let scene = scene("planar_2r_continuous", "torus_open");
+        let quarter = |q: &Configuration| usize::from(q[0] > 0.0) + 2 * usize::from(q[1] > 0.0);
+        let (mut area, mut all) = ([0.0; 4], 0.0);
+        for i in 0..200 {
+            for k in 0..200 {
+                let at = |i: usize| -std::f64::consts::PI + (i as f64 + 0.5) * std::f64::consts::TAU / 200.0;
+                let q = Configuration::new(at(i), at(k));
+                if scene.clearance(q) > scene.workspace.clearance {
+                    area[quarter(&q)] += 1.0;
+                    all += 1.0;
+                }
+            }
+        }
+        let pairs = free_pairs(&scene, 2000, 11).unwrap();
+        let mut counts = [0.0; 4];
+        pairs.iter().flatten().for_each(|q| counts[quarter(q)] += 1.0);
+        for (area, count) in area.into_iter().zip(counts) {
+            let share: f64 = area / all;
+            let deviation = (4000.0 * share * (1.0 - share)).sqrt();
+            assert!((count - 4000.0 * share).abs() < 5.0 * deviation + 20.0, "{share} {count}");
+        }
+    }
+
+    #[test]
+    fn a_world_without_room_has_no_pairs() {
+        let mut scene = scene("planar_2r", "shelf");
+        scene.workspace.clearance = 1e3;
+        assert_eq!(free_pairs(&scene, 1, 1), None);
+    }
+}

@@ -1,0 +1,165 @@
+//! Progress of many runs, on stderr.
+
+use crate::cli::output;
+use std::io::{IsTerminal, Write};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Time between lines where nobody watches a terminal.
+const INTERVAL: Duration = Duration::from_secs(10);
+
+/// Characters of the bar.
+const BAR: usize = 16;
+
+/// Characters of a line: narrower than any terminal, since a line that is broken cannot be taken back.
+const WIDTH: usize = 78;
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    /// Not at all.
+    Silent,
+    /// What happens, line by line: of one problem.
+    Told,
+    /// A bar that is drawn over and over.
+    Bar,
+    /// A line now and then.
+    Lines,
+}
+
+/// Counts runs and shows how many there are.
+#[derive(Debug)]
+pub struct Progress {
+    manner: Manner,
+    total: usize,
+    started: Instant,
+    state: Mutex<State>,
+}
+
+#[derive(Debug)]
+struct State {
+    done: usize,
+    now: String,
+    /// When something was shown last.
+    shown: Instant,
+}
+
+impl Progress {
+    /// For `total` runs. Those of a single problem are told line by line, with whatever the planners have to say; of
+    /// several there is a bar on a terminal, elsewhere a line every ten seconds.
+    pub fn new(total: usize, single: bool, quiet: bool) -> Self {
+        let manner = match (quiet, single) {
+            (true, _) => Manner::Silent,
+            (false, true) => Manner::Told,
+            (false, false) if std::io::stderr().is_terminal() => Manner::Bar,
+            (false, false) => Manner::Lines,
+        };
+        let now = Instant::now();
+        Self { manner, total, started: now, state: Mutex::new(State { done: 0, now: String::new(), shown: now }) }
+    }
+
+    /// A run begins.
+    pub fn begin(&self, problem: &str, planner: &str) {
+        match self.manner {
+            Manner::Silent | Manner::Lines => {}
+            Manner::Told => output::say(&format!("{planner} ...")),
+            Manner::Bar => {
+                let mut state = self.state();
+                state.now = format!("{planner} on {problem}");
+                self.draw(&state);
+            }
+        }
+    }
+
+    /// What a planner has to say on its way.
+    pub fn say(&self, text: &str) {
+        if self.manner == Manner::Told {
+            output::say(text);
+        }
+    }
+
+    /// A run has ended.
+    pub fn done(&self) {
+        let mut state = self.state();
+        state.done += 1;
+        match self.manner {
+            // The next run draws the bar.
+            Manner::Silent | Manner::Told | Manner::Bar => {}
+            Manner::Lines if state.shown.elapsed() >= INTERVAL => {
+                state.shown = Instant::now();
+                output::say(&line(state.done, self.total, self.started.elapsed()));
+            }
+            Manner::Lines => {}
+        }
+    }
+
+    /// All have ended: the bar goes, or a last line says so.
+    pub fn end(&self) {
+        match self.manner {
+            Manner::Silent | Manner::Told => {}
+            Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
+            Manner::Lines => output::say(&line(self.state().done, self.total, self.started.elapsed())),
+        }
+    }
+
+    fn draw(&self, state: &State) {
+        put(&format!("\r{}", bar(state.done, self.total, self.started.elapsed(), &state.now)));
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Nobody may be listening; that stops no job.
+fn put(text: &str) {
+    let mut stderr = std::io::stderr().lock();
+    let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+}
+
+/// Runs a second, and seconds that are left at that rate, if it can be told.
+fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<f64>) {
+    let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
+    (rate, (done > 0 && done < total).then(|| ((total - done) as f64 / rate).ceil()))
+}
+
+/// `37 of 1000 runs, 12.3 a second, 78 s left`.
+fn line(done: usize, total: usize, elapsed: Duration) -> String {
+    let (rate, left) = rate(done, total, elapsed);
+    let left = left.map_or_else(String::new, |left| format!(", {left:.0} s left"));
+    format!("{done} of {total} runs, {rate:.1} a second{left}")
+}
+
+/// A bar, the same numbers in short, and what runs now, as far as there is room; as wide each time.
+fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
+    let full = (BAR * done).checked_div(total).unwrap_or(BAR).min(BAR);
+    let (rate, left) = rate(done, total, elapsed);
+    let left = left.map_or_else(String::new, |left| format!(" {left:.0} s left"));
+    let text = format!("[{}{}] {done}/{total} {rate:.1}/s{left}  {now}", "#".repeat(full), ".".repeat(BAR - full));
+    let cut: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(WIDTH).collect();
+    format!("{cut:WIDTH$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_are_as_wide_as_the_line_and_fill_up() {
+        let second = Duration::from_secs(1);
+        for (done, full) in [(0, 0), (5, 8), (10, 16)] {
+            let bar = bar(done, 10, second, "a planner with a very long name on a problem with a very long name");
+            assert_eq!((bar.chars().count(), bar.matches('#').count()), (WIDTH, full), "{bar}");
+        }
+        assert_eq!(bar(0, 0, second, "\n").chars().count(), WIDTH);
+    }
+
+    #[test]
+    fn lines_tell_the_rate_and_what_is_left() {
+        assert_eq!(line(20, 100, Duration::from_secs(4)), "20 of 100 runs, 5.0 a second, 16 s left");
+        assert_eq!(line(100, 100, Duration::from_secs(4)), "100 of 100 runs, 25.0 a second");
+        let bar = bar(20, 100, Duration::from_secs(4), "visibility on shelf");
+        assert_eq!(bar.trim_end(), "[###.............] 20/100 5.0/s 16 s left  visibility on shelf");
+        assert_eq!(line(0, 9, Duration::ZERO), "0 of 9 runs, 0.0 a second");
+    }
+}

@@ -1,0 +1,215 @@
+//! Runs every planner on every problem, several at a time if asked to.
+
+use super::cases::{Case, Cases};
+use super::progress::Progress;
+use crate::cli::memory::MemoryMeter;
+use crate::cli::motion::MotionArgs;
+use crate::cli::output;
+use crate::model::Problem;
+use crate::report::{Comparison, Family, Outcome, Row};
+use crate::solve::{Effort, Method, Verdict, bound, solve};
+use crate::space::{Metric, Path};
+use crate::trajectory::{Timed, TimingError};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// A planner to compare.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// For tables.
+    pub label: String,
+    /// The planner.
+    pub method: Method,
+    /// How hard to try.
+    pub effort: Effort,
+}
+
+/// What is there when all is done.
+pub struct Compared {
+    /// One a case.
+    pub comparisons: Vec<Comparison>,
+    /// Of each case, the path of each planner that found one.
+    pub paths: Vec<Vec<Option<Path>>>,
+    /// Computing time of all of it, by the clock on the wall.
+    pub elapsed: Duration,
+}
+
+/// How to run.
+pub struct Runner<'a> {
+    /// For each world its planners, the same number for all.
+    pub entries: &'a [Vec<Entry>],
+    /// How to drive along paths.
+    pub motion: &'a MotionArgs,
+    /// Runs at the same time.
+    pub jobs: usize,
+    /// What counts bytes, for one run at a time only.
+    pub meter: Option<MemoryMeter>,
+    /// Where progress is shown.
+    pub progress: &'a Progress,
+}
+
+/// A run's row, and its path.
+type Ran = Result<(Row, Option<Path>), TimingError>;
+
+/// Levels of the bound at the most: each has a quarter of the margin of the one before.
+const BOUND_LEVELS: i32 = 3;
+
+/// Boxes of the run before all others.
+const WARMING: usize = 1000;
+
+/// A bound that is no farther below the shortest path found, as a share of it, is good enough.
+const BOUND_GAP: f64 = 1e-3;
+
+impl Runner<'_> {
+    /// Runs them all. Results come in the order of the cases, whatever is done when.
+    ///
+    /// # Errors
+    /// Motions that cannot be timed as asked, the first of them in that order.
+    pub fn run(&self, cases: &Cases) -> Result<Compared, (String, TimingError)> {
+        let clock = Instant::now();
+        let width = self.entries.first().map_or(0, Vec::len);
+        // Each problem begins with another planner: the first one pays for what the others find in the caches.
+        let runs = self.all(cases.cases.len() * width, |i| {
+            let (number, turn) = (i / width, i % width);
+            let case = &cases.cases[number];
+            self.one(case, &self.entries[case.world][(number + turn) % width], i == 0)
+        });
+        let mut runs = runs.into_iter();
+        let mut comparisons = Vec::new();
+        let mut paths = Vec::new();
+        for (number, case) in cases.cases.iter().enumerate() {
+            let of_case: Result<Vec<_>, _> = runs.by_ref().take(width).collect();
+            let mut of_case = of_case.map_err(|error| (case.name.clone(), error))?;
+            of_case.rotate_right(number % width);
+            let (rows, found): (Vec<Row>, Vec<Option<Path>>) = of_case.into_iter().unzip();
+            comparisons.push(Comparison {
+                problem: case.name.clone(),
+                length_unit: length_unit(case.base()),
+                query: case.query,
+                bound: None,
+                rows,
+            });
+            paths.push(found);
+        }
+        let bounds = self.all(cases.cases.len(), |i| {
+            let case = &cases.cases[i];
+            let effort = self.entries[case.world].first()?.effort;
+            lower_bound(&case.problem(), &effort, paths[i].iter().flatten())
+        });
+        for (comparison, bound) in comparisons.iter_mut().zip(bounds) {
+            comparison.bound = bound;
+        }
+        self.progress.end();
+        Ok(Compared { comparisons, paths, elapsed: clock.elapsed() })
+    }
+
+    /// `count` pieces of work on as many threads as there are jobs; the results in order.
+    fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        if self.jobs == 1 {
+            return (0..count).map(work).collect();
+        }
+        let next = AtomicUsize::new(0);
+        let results = Mutex::new(Vec::with_capacity(count));
+        std::thread::scope(|scope| {
+            for _ in 0..self.jobs.min(count) {
+                scope.spawn(|| {
+                    loop {
+                        let i = next.fetch_add(1, Ordering::Relaxed);
+                        if i >= count {
+                            break;
+                        }
+                        let result = work(i);
+                        results.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, result));
+                    }
+                });
+            }
+        });
+        let mut results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+        results.sort_by_key(|(i, _)| *i);
+        results.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// One run, measured. A coarse one goes before the very first, which would else pay for loading the program.
+    fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> Ran {
+        self.progress.begin(&case.name, &entry.label);
+        let problem = case.problem();
+        if is_first {
+            let _ = solve(&problem, entry.method, &Effort { levels: 1, boxes: WARMING, ..entry.effort }, &mut |_| {});
+        }
+        let mut said = |text: &str| self.progress.say(text);
+        let mut work = || {
+            let clock = Instant::now();
+            let answer = solve(&problem, entry.method, &entry.effort, &mut said);
+            (answer, clock.elapsed())
+        };
+        let ((answer, elapsed), memory) = match self.meter {
+            Some(meter) => {
+                let (done, bytes) = meter.measure(work);
+                (done, Some(bytes))
+            }
+            None => (work(), None),
+        };
+        let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
+        let stages = answer.stages;
+        let mut row = Row {
+            size: Some(answer.run.size),
+            build: seconds(stages.build),
+            query: seconds(stages.query),
+            certify: seconds(stages.certify),
+            prove: seconds(stages.prove),
+            total: seconds(elapsed),
+            memory,
+            note: answer.run.note,
+            ..Row::new(entry.label.clone(), Family::from(entry.method), Outcome::Unknown)
+        };
+        let mut path = None;
+        match answer.verdict {
+            Verdict::Found(certified) => {
+                let Timed { curve, trajectory } = self.motion.drive().along(&problem.scene, &certified, 1.0)?;
+                row.outcome = Outcome::Found;
+                row.length = Some(certified.path().length());
+                row.pieces = Some(certified.path().segments().count());
+                row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
+                row.duration = Some(trajectory.duration());
+                path = Some(certified.path().clone());
+            }
+            Verdict::Infeasible(_) => row.outcome = Outcome::Infeasible,
+            Verdict::Unknown(reason) => row.reason = Some(reason),
+        }
+        self.progress.done();
+        Ok((row, path))
+    }
+}
+
+/// What no motion is shorter than: the best of a few bounds, with finer and finer obstacles until the shortest of these
+/// paths is near enough to it; none without a path.
+fn lower_bound<'a>(problem: &Problem, effort: &Effort, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
+    let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
+    let mut lower: f64 = 0.0;
+    for level in 0..BOUND_LEVELS {
+        let margin = effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level);
+        let bound = bound(problem, shortest, Metric::Euclidean, margin);
+        lower = lower.max(bound.lower);
+        if bound.upper - lower <= BOUND_GAP * bound.upper {
+            break;
+        }
+    }
+    Some(lower)
+}
+
+/// The unit of lengths in joint space.
+pub fn length_unit(problem: &Problem) -> String {
+    let units = problem.scene.arm.joints.each_ref().map(|j| j.unit());
+    if units[0] == units[1] { units[0].into() } else { units.join(", ") }
+}
+
+/// Says why there is no memory to tell, if there is none.
+pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
+    if jobs > 1 && meter.is_some() && !quiet {
+        output::say(
+            "note: memory is told for --jobs 1 only: what several runs allocate at a time cannot be told apart",
+        );
+    }
+    meter.filter(|_| jobs == 1)
+}

@@ -1,0 +1,23 @@
+//! How much memory a piece of work takes, where the program can tell.
+
+/// What counts the bytes that the process has allocated: the program's allocator, which a library cannot choose.
+#[derive(Debug, Clone, Copy)]
+pub struct MemoryMeter {
+    /// Bytes that are allocated now.
+    pub current: fn() -> usize,
+    /// Bytes that were allocated at the same time since the last restart, at the most.
+    pub peak: fn() -> usize,
+    /// Forgets the peak: it is what is allocated now.
+    pub restart: fn(),
+}
+
+impl MemoryMeter {
+    /// Does the work, and tells how many bytes more than before it had allocated at the same time, at the most. Whatever
+    /// other threads allocate meanwhile counts, too.
+    pub fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, u64) {
+        (self.restart)();
+        let before = (self.current)();
+        let result = work();
+        (result, (self.peak)().saturating_sub(before) as u64)
+    }
+}

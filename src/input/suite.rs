@@ -1,0 +1,233 @@
+//! Many problems: those that a manifest lists, or all worlds of a folder with one robot.
+
+use super::error::{Defect, InputError};
+use super::source::Source;
+use super::world::in_toml_words;
+use super::{Loaded, LoadedScene, Overrides, load_scene};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use toml::Spanned;
+
+/// Name of a folder's manifest.
+pub const MANIFEST: &str = "suite.toml";
+
+/// Robots in their worlds, read, in the order in which they were named.
+#[derive(Debug, Clone)]
+pub struct Suite {
+    /// Title.
+    pub name: String,
+    /// At least one; names are all different.
+    pub members: Vec<Member>,
+    /// Worlds that are left out because they have steps, not a goal.
+    pub with_steps: Vec<PathBuf>,
+}
+
+/// A robot in a world.
+#[derive(Debug, Clone)]
+pub struct Member {
+    /// For tables.
+    pub name: String,
+    /// As [`load_scene`] has it.
+    pub scene: LoadedScene,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ManifestFile {
+    name: Option<String>,
+    #[serde(default)]
+    problem: Vec<ProblemTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ProblemTable {
+    name: Option<Spanned<String>>,
+    robot: Spanned<String>,
+    world: Spanned<String>,
+}
+
+/// A pair of files, before they are read.
+struct Pair {
+    name: Option<String>,
+    robot: PathBuf,
+    world: PathBuf,
+}
+
+/// Reads the problems that a manifest lists: `place` is the manifest, or a folder that holds one of the name
+/// [`MANIFEST`]. Paths in it are relative to it.
+///
+/// ```toml
+/// name = "two tables"          # optional
+///
+/// [[problem]]
+/// robot = "../robots/scara.urdf"
+/// world = "tray.toml"
+/// name = "tray"                # optional; the world's file name without it
+/// ```
+///
+/// # Errors
+/// [`InputError`] with every defect of the manifest, or of all the files that it names.
+pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
+    let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
+    if place.is_dir() && !manifest.is_file() {
+        let message = format!("this folder has no {MANIFEST}, which would say which robot goes with which world");
+        let cure = format!(
+            "write one: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each; or give a robot for \
+             all worlds: cplan compare URDF --suite {}",
+            place.display()
+        );
+        return Err(Defect::new(place.display().to_string(), message).cure(cure).into());
+    }
+    let source = Source::read(&manifest)?;
+    let file: ManifestFile = toml::from_str(&source.text).map_err(|error| {
+        let message = in_toml_words(error.message());
+        match error.span() {
+            Some(span) => source.defect_at(span, message),
+            None => source.defect(message),
+        }
+    })?;
+    let beside = |name: &Spanned<String>, what: &str| {
+        let path = manifest.with_file_name("").join(name.get_ref());
+        if path.is_file() {
+            return Ok(path);
+        }
+        let message = format!("{what}: there is no file {}", path.display());
+        Err(source.defect_at(name.span(), message).cure("paths are relative to the manifest"))
+    };
+    let (mut pairs, mut defects) = (Vec::new(), Vec::new());
+    for problem in file.problem {
+        let paths = [(&problem.robot, "robot"), (&problem.world, "world")].map(|(name, what)| beside(name, what));
+        match paths {
+            [Ok(robot), Ok(world)] => {
+                pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot, world });
+            }
+            paths => defects.extend(paths.into_iter().filter_map(Result::err)),
+        }
+    }
+    InputError::check(defects)?;
+    if pairs.is_empty() {
+        let defect = source.defect("the manifest lists no problem");
+        return Err(defect.cure("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
+    }
+    let name = file.name.unwrap_or_else(|| folder_name(&manifest.with_file_name("")));
+    read(name, pairs)
+}
+
+/// Reads all worlds of a folder (every `.toml` but [`MANIFEST`], by name) with one robot.
+///
+/// # Errors
+/// [`InputError`] with every defect of all files, or for a folder without worlds.
+pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
+    let whole = |message: String| Defect::new(folder.display().to_string(), message);
+    let entries = std::fs::read_dir(folder).map_err(|error| {
+        whole(format!("cannot be read as a folder: {error}")).cure("give a folder with world files (.toml)")
+    })?;
+    let mut worlds: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    worlds.retain(|path| {
+        path.is_file()
+            && path.extension().is_some_and(|e| e == "toml")
+            && path.file_name().is_some_and(|n| n != MANIFEST)
+    });
+    worlds.sort();
+    if worlds.is_empty() {
+        return Err(whole("there is no world in it".into()).cure("give a folder with world files (.toml)").into());
+    }
+    let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: urdf.to_owned(), world }).collect();
+    read(folder_name(folder), pairs)
+}
+
+/// Reads all files; all that is wrong is told at once.
+fn read(name: String, pairs: Vec<Pair>) -> Result<Suite, InputError> {
+    let (mut members, mut with_steps, mut defects): (Vec<Member>, _, Vec<Defect>) =
+        (Vec::new(), Vec::new(), Vec::new());
+    for Pair { name, robot, world } in pairs {
+        match load_scene(&robot, &world) {
+            Ok(scene) if scene.has_steps() => with_steps.push(world),
+            Ok(scene) => {
+                let name = name.unwrap_or_else(|| stem(&world));
+                let name = distinct(&name, &stem(&robot), |name| members.iter().any(|member| member.name == name));
+                members.push(Member { name, scene });
+            }
+            // One robot in many worlds has the same defects in each.
+            Err(error) => {
+                for defect in error.defects() {
+                    if !defects.contains(defect) {
+                        defects.push(defect.clone());
+                    }
+                }
+            }
+        }
+    }
+    InputError::check(defects)?;
+    if members.is_empty() {
+        let shown = with_steps.first().map_or_else(String::new, |path| path.display().to_string());
+        let defect = Defect::new(shown, "this world and all others of the suite have steps, not a goal");
+        return Err(defect
+            .cure("only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place")
+            .into());
+    }
+    Ok(Suite { name, members, with_steps })
+}
+
+impl Suite {
+    /// Puts start and goal into every scene, as [`LoadedScene::problem`] does.
+    ///
+    /// # Errors
+    /// [`InputError`] with the defects of all of them.
+    pub fn problems(self, overrides: &Overrides) -> Result<Vec<(String, Loaded)>, InputError> {
+        let (mut problems, mut defects) = (Vec::new(), Vec::new());
+        for Member { name, scene } in self.members {
+            match scene.problem(overrides) {
+                Ok(loaded) => problems.push((name, loaded)),
+                Err(error) => defects.extend_from_slice(error.defects()),
+            }
+        }
+        InputError::check(defects)?;
+        Ok(problems)
+    }
+}
+
+/// A file's name without its extension.
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// A folder's own name, even if it is given as `..` or, in front of a bare file name, as nothing.
+fn folder_name(folder: &Path) -> String {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or_else(|| whole.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
+/// `name`; with the robot, and then a number, where it is taken.
+fn distinct(name: &str, robot: &str, is_taken: impl Fn(&str) -> bool) -> String {
+    let with_robot = format!("{name}, {robot}");
+    let numbered = (2_usize..).map(|number| format!("{with_robot}, {number}"));
+    let mut all = [name.to_owned(), with_robot.clone()].into_iter().chain(numbered);
+    all.find(|name| !is_taken(name)).unwrap_or(with_robot)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_made_distinct() {
+        let mut names: Vec<String> = Vec::new();
+        for robot in ["a", "a", "b", "a"] {
+            let name = distinct("shelf", robot, |name| names.iter().any(|known| known == name));
+            names.push(name);
+        }
+        assert_eq!(names, ["shelf", "shelf, a", "shelf, b", "shelf, a, 2"]);
+    }
+
+    #[test]
+    fn folders_have_names_however_they_are_given() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("lab.v2")).unwrap();
+        assert_eq!(folder_name(&folder.path().join("lab.v2")), "lab.v2");
+        assert_eq!(folder_name(&folder.path().join("lab.v2/../lab.v2/.")), "lab.v2");
+        assert!(!folder_name(Path::new("")).is_empty());
+    }
+}

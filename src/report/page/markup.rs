@@ -1,0 +1,122 @@
+//! Text and numbers in HTML and SVG.
+
+use crate::report::{Align, Table};
+
+/// Text that is neither markup nor a character that XML forbids; good between tags and within quotes.
+pub fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(' '),
+            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+/// Characters of a planner's name that fit in front of its line in a chart.
+const NAME: usize = 15;
+
+/// A name that fits in front of a line.
+pub fn shortened(name: &str) -> String {
+    match name.chars().count() {
+        n if n > NAME => name.chars().take(NAME - 1).chain(['\u{2026}']).collect(),
+        _ => name.to_owned(),
+    }
+}
+
+/// A coordinate: two decimals at the most.
+pub fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// An SVG picture as the source of an image. It keeps its own names and styles there, and runs no scripts.
+pub fn image_source(svg: &str) -> String {
+    let mut source = String::from("data:image/svg+xml,");
+    for byte in svg.bytes() {
+        match byte {
+            // What a URI in double quotes may hold as it is; blanks and slashes are fine in data.
+            b'A'..=b'Z'
+            | b'a'..=b'z'
+            | b'0'..=b'9'
+            | b'-'
+            | b'_'
+            | b'.'
+            | b'~'
+            | b' '
+            | b'/'
+            | b':'
+            | b'='
+            | b','
+            | b';'
+            | b'('
+            | b')' => source.push(char::from(byte)),
+            _ => source.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    source
+}
+
+/// A table with its first column as headings of the rows.
+pub fn table(table: &Table) -> String {
+    let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
+    let head =
+        table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), escaped(c.name())));
+    let row = |cells: &Vec<Option<String>>| {
+        let cell = |(k, cell): (usize, &Option<String>)| {
+            let text = escaped(cell.as_deref().unwrap_or("\u{2013}"));
+            match k {
+                0 => format!("<th scope=\"row\">{text}</th>"),
+                _ => format!("<td{}>{text}</td>", class(table.columns[k].align())),
+            }
+        };
+        format!("<tr>{}</tr>\n", cells.iter().enumerate().map(cell).collect::<String>())
+    };
+    format!(
+        "<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n<tbody>\n{}</tbody>\n</table></div>\n",
+        head.collect::<String>(),
+        table.rows.iter().map(row).collect::<String>()
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_escapes() {
+        assert_eq!(escaped("<b>&\"'\u{1}"), "&lt;b&gt;&amp;&quot;&#39;\u{fffd}");
+        assert!(!image_source("<svg a=\"b\" c='#'>%\n\u{e9}</svg>").contains(['<', '>', '"', '\'', '#', '\n']));
+    }
+
+    #[test]
+    fn images_can_be_read_back() {
+        let svg = "<svg a=\"b\">100 % é</svg>";
+        let source = image_source(svg);
+        let mut bytes = Vec::new();
+        let mut rest = source.strip_prefix("data:image/svg+xml,").unwrap().bytes();
+        while let Some(byte) = rest.next() {
+            bytes.push(match byte {
+                b'%' => {
+                    let digits = [rest.next().unwrap(), rest.next().unwrap()];
+                    u8::from_str_radix(std::str::from_utf8(&digits).unwrap(), 16).unwrap()
+                }
+                plain => plain,
+            });
+        }
+        assert_eq!(String::from_utf8(bytes).unwrap(), svg);
+    }
+
+    #[test]
+    fn coordinates_are_short() {
+        assert_eq!([1.0, -0.001, 2.5, 1.0 / 3.0].map(number), ["1", "0", "2.5", "0.33"]);
+    }
+}

@@ -1,0 +1,154 @@
+//! What one planner did on one problem.
+
+use crate::plan::{Note, Size};
+use crate::solve::Method;
+use std::fmt;
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Outcome {
+    /// With a certified path.
+    Found,
+    /// With a proof that there is none.
+    Infeasible,
+    /// With neither.
+    Unknown,
+}
+
+impl Outcome {
+    /// All, in the order in which they are counted.
+    pub const ALL: [Outcome; 3] = [Outcome::Found, Outcome::Infeasible, Outcome::Unknown];
+
+    /// The word for it in tables and files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Found => "found",
+            Outcome::Infeasible => "infeasible",
+            Outcome::Unknown => "unknown",
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Planners that work alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Family {
+    /// A graph over the free space's polygons: visibility, trapezoid.
+    Roadmap,
+    /// Values on a grid's cells: wavefront, harmonic and its relatives.
+    Field,
+    /// Boxes that are free, stuck or mixed.
+    Subdivision,
+}
+
+impl Family {
+    /// All, in the order of [`Method::ALL`].
+    pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Subdivision];
+
+    /// Its planners, in the plural.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Family::Roadmap => "roadmaps",
+            Family::Field => "fields",
+            Family::Subdivision => "subdivision",
+        }
+    }
+}
+
+impl From<Method> for Family {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Visibility | Method::Trapezoid => Family::Roadmap,
+            Method::Wavefront | Method::Harmonic => Family::Field,
+            Method::Subdivision => Family::Subdivision,
+        }
+    }
+}
+
+/// What one planner did. What it did not come to is missing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Name on the command line.
+    pub planner: String,
+    /// What kind of planner it is.
+    pub family: Family,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Euclidean length in joint space (rad and m as they come).
+    pub length: Option<f64>,
+    /// Straight pieces of the path.
+    pub pieces: Option<usize>,
+    /// Proven least distance between arm and obstacles along the path, metres; none where nothing can be hit.
+    pub clearance: Option<f64>,
+    /// Time that the motion takes, seconds.
+    pub duration: Option<f64>,
+    /// How much was built.
+    pub size: Option<Size>,
+    /// Computing time to prepare the space, seconds.
+    pub build: Option<f64>,
+    /// Computing time to answer the query, seconds.
+    pub query: Option<f64>,
+    /// Computing time of the certificate, seconds.
+    pub certify: Option<f64>,
+    /// Computing time spent looking for a proof that there is no path, seconds.
+    pub prove: Option<f64>,
+    /// Computing time from the problem to the verdict, seconds: all of these, and what lies between them.
+    pub total: Option<f64>,
+    /// Bytes that were allocated at the same time on the way to the verdict, at the most.
+    pub memory: Option<u64>,
+    /// What the planner has to add.
+    pub note: Option<Note>,
+    /// Why the outcome is unknown, in words.
+    pub reason: Option<String>,
+}
+
+impl Row {
+    /// A row that knows nothing yet but who it is about.
+    #[must_use]
+    pub fn new(planner: impl Into<String>, family: Family, outcome: Outcome) -> Self {
+        Self {
+            planner: planner.into(),
+            family,
+            outcome,
+            length: None,
+            pieces: None,
+            clearance: None,
+            duration: None,
+            size: None,
+            build: None,
+            query: None,
+            certify: None,
+            prove: None,
+            total: None,
+            memory: None,
+            note: None,
+            reason: None,
+        }
+    }
+
+    /// Nodes, edges, cells, sweeps, expanded cells: each where it has a meaning.
+    #[must_use]
+    pub fn counts(&self) -> [Option<usize>; 5] {
+        match self.size {
+            None => [None; 5],
+            Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None, None],
+            Some(Size::Windows { cells, .. }) => [None, None, Some(cells), None, None],
+            Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps), None],
+            Some(Size::Search { expanded, labelled }) => [None, None, Some(labelled), None, Some(expanded)],
+        }
+    }
+
+    /// What there is to say below a table, a line each.
+    pub(super) fn remarks(&self) -> impl Iterator<Item = String> + '_ {
+        let note = self.note.map(|note| format!("{}: {note}", self.planner));
+        let reason = self.reason.as_ref().map(|reason| format!("{}: unknown: {reason}", self.planner));
+        note.into_iter().chain(reason)
+    }
+}

@@ -1,0 +1,117 @@
+//! How values are distributed.
+
+/// The five numbers of a box plot, and the mean.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spread {
+    /// How many values there are; at least one.
+    pub n: usize,
+    /// The least.
+    pub min: f64,
+    /// A quarter of the values are no greater.
+    pub lower_quartile: f64,
+    /// Half of them are no greater.
+    pub median: f64,
+    /// Three quarters are no greater.
+    pub upper_quartile: f64,
+    /// The greatest.
+    pub max: f64,
+    /// The arithmetic mean.
+    pub mean: f64,
+}
+
+impl Spread {
+    /// That of the finite ones among these values; none if there are none. `O(n log n)`.
+    #[must_use]
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let (min, max) = (*sorted.first()?, *sorted.last()?);
+        let n = sorted.len();
+        // Rounding of the sum must not move the mean beyond the values.
+        let mean = (sorted.iter().map(|v| v / n as f64).sum::<f64>()).clamp(min, max);
+        let [lower_quartile, median, upper_quartile] = [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share));
+        Some(Self { n, min, lower_quartile, median, upper_quartile, max, mean })
+    }
+
+    /// Least, quartiles with the median, greatest, mean: in the order of the tables.
+    #[must_use]
+    pub fn numbers(&self) -> [f64; 6] {
+        [self.min, self.lower_quartile, self.median, self.upper_quartile, self.max, self.mean]
+    }
+}
+
+/// The value below which this share (0 to 1) of the values lies, linear between neighbours: the definition that R (type
+/// 7) and NumPy take unless told otherwise. The values ascend, and there is at least one.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let at = share * (sorted.len() - 1) as f64;
+    let below = at.floor() as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    // Not the difference times the share: it overflows where the weighted sum does not.
+    let part = at - below as f64;
+    (sorted[below] * (1.0 - part) + sorted[above] * part).clamp(sorted[below], sorted[above])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn known_quartiles() {
+        // numpy.quantile([1, 2, 4, 8], [0.25, 0.5, 0.75]) = [1.75, 3, 5]
+        let spread = Spread::of([8.0, 1.0, 4.0, 2.0]).unwrap();
+        assert_eq!((spread.n, spread.numbers()), (4, [1.0, 1.75, 3.0, 5.0, 8.0, 3.75]));
+        // numpy.quantile([15, 20, 35, 40, 50], ...) = [20, 35, 40]
+        let spread = Spread::of([15.0, 20.0, 35.0, 40.0, 50.0]).unwrap();
+        assert_eq!(spread.numbers(), [15.0, 20.0, 35.0, 40.0, 50.0, 32.0]);
+        let single = Spread::of([7.5]).unwrap();
+        assert_eq!((single.n, single.numbers()), (1, [7.5; 6]));
+    }
+
+    #[test]
+    fn what_is_no_number_does_not_count() {
+        assert_eq!(Spread::of([f64::NAN, f64::INFINITY]), None);
+        assert_eq!(Spread::of([]), None);
+        assert_eq!(Spread::of([f64::NAN, 2.0, f64::NEG_INFINITY]).unwrap().n, 1);
+    }
+
+    /// The quantile by its definition as an inverse: the broken line through the points `(i / (n - 1), sorted[i])`.
+    fn along_the_line(sorted: &[f64], share: f64) -> f64 {
+        let knots: Vec<f64> = (0..sorted.len()).map(|i| i as f64 / (sorted.len().max(2) - 1) as f64).collect();
+        for i in 1..sorted.len() {
+            if share <= knots[i] {
+                let part = (share - knots[i - 1]) / (knots[i] - knots[i - 1]);
+                return sorted[i - 1] + part * (sorted[i] - sorted[i - 1]);
+            }
+        }
+        sorted[sorted.len() - 1]
+    }
+
+    proptest! {
+        #[test]
+        fn quartiles_lie_on_the_broken_line(values in prop::collection::vec(-1e6..1e6_f64, 1..60)) {
+            let spread = Spread::of(values.iter().copied()).unwrap();
+            // Sorted by insertion: nothing is shared with the code above.
+            let mut sorted: Vec<f64> = Vec::new();
+            for value in &values {
+                let at = sorted.iter().position(|s| s > value).unwrap_or(sorted.len());
+                sorted.insert(at, *value);
+            }
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let expected = [0.0, 0.25, 0.5, 0.75, 1.0].map(|share| along_the_line(&sorted, share));
+            for (got, want) in spread.numbers().into_iter().zip(expected.into_iter().chain([mean])) {
+                prop_assert!((got - want).abs() < 1e-6, "{got} {want}");
+            }
+            prop_assert!(spread.numbers()[..5].windows(2).all(|w| w[0] <= w[1]));
+            prop_assert!(spread.min <= spread.mean && spread.mean <= spread.max);
+        }
+
+        #[test]
+        fn at_least_half_lie_on_either_side_of_the_median(values in prop::collection::vec(0..9_i32, 1..40)) {
+            let median = Spread::of(values.iter().map(|&v| f64::from(v))).unwrap().median;
+            let below = values.iter().filter(|&&v| f64::from(v) <= median).count();
+            let above = values.iter().filter(|&&v| f64::from(v) >= median).count();
+            prop_assert!(2 * below >= values.len() && 2 * above >= values.len());
+        }
+    }
+}
