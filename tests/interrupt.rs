@@ -84,7 +84,7 @@ fn proofs_and_tasks_stop_too() {
             }
         });
         setter.join().unwrap();
-        result.map(|()| ()) == Err(Interrupted::Set)
+        result == Err::<(), _>(Interrupted::Set)
     };
     assert!(stopped(&mut || drop(slab_connectivity(scene, start, goals, 0.0, usize::MAX))));
     assert!(stopped(&mut || drop(connectivity(scene, start, goals, 0.0, usize::MAX))));

@@ -115,7 +115,7 @@ mod tests {
     fn what_is_wrong_is_said_in_a_line() {
         for (text, part) in [
             ("", "<PLANNER>"),
-            ("fastest", "no planner is called"),
+            ("fastest", "[possible values: visibility"),
             ("harmonic --gap 0.1", "--gap needs --planner visibility"),
             ("visibility --search astar", "--search needs --planner wavefront"),
             ("visibility --output plan.json", "unexpected argument"),

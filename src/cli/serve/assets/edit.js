@@ -180,7 +180,7 @@ class Editor {
 
   // Buttons and keys.
 
-  /** A place for something new of this size that leaves start and goal free. */
+  /** A place for something new that leaves start and goal free and meets no obstacle, if there is one. */
   room(make) {
     const { reach } = this.scene.world;
     const { base, links } = this.arm;
@@ -189,14 +189,15 @@ class Editor {
       const at = Geometry.poses(this.arm, q);
       return links.flatMap((link, k) => link.parts.map((part) => Geometry.placed(part, at[k])));
     });
+    const others = this.scene.obstacles.flatMap(({ shape }) => (shape ? Shapes.pieces(shape) : []));
+    const isApart = (piece, from, least) => from.every((other) => Geometry.separation(other, piece) > least);
     let first = null;
     for (const share of [0.7, 0.5, 0.9, 1.2]) {
       for (let turn = 0; turn < 16; turn += 1) {
         const angle = Math.PI / 2 + (turn % 2 ? -1 : 1) * Math.ceil(turn / 2) * (Math.PI / 8);
         const shape = make([base[0] + share * reach * Math.cos(angle), base[1] + share * reach * Math.sin(angle)].map(rounded4));
         first ??= shape;
-        const free = Shapes.pieces(shape).every((piece) => parts.every((part) => Geometry.separation(part, piece) > 0.02 * reach));
-        if (free) return shape;
+        if (Shapes.pieces(shape).every((piece) => isApart(piece, parts, 0.02 * reach) && isApart(piece, others, 0))) return shape;
       }
     }
     return first;

@@ -87,7 +87,7 @@ class Live {
       this.mark();
     } else if (about.isAwaited) {
       clearTimeout(this.soon);
-      if (!message.done) this.soon = setTimeout(() => this.take(message), NOTICED);
+      if (!message.done) this.soon = setTimeout(() => this.preview(message), NOTICED);
       else if (message.final || !this.view) this.show(message, about);
       else this.showSoon(message, about);
     }
@@ -104,6 +104,12 @@ class Live {
     this.places = { start: world.start, goals: [] };
     if (this.view) this.begin();
     if (world.id === null) this.plan(true);
+  }
+
+  /** The configuration space before its plan, which takes long. */
+  preview(message) {
+    this.take(message);
+    this.figures.textContent = 'planning\u2026';
   }
 
   /** Draws the latest answer with the next picture of the screen. */
@@ -148,7 +154,7 @@ class Live {
     if (!message.view) return;
     if (!this.view) this.build(message.view);
     else {
-      const light = !message.final;
+      const light = !message.final || !message.done;
       // What holds for places along the way only would jump: facts come when all of them are known.
       if (!message.view.facts.length) message.view.facts = this.view.model.facts;
       this.view.light = light;
