@@ -107,7 +107,7 @@ mod tests {
     fn long_names_keep_their_end() {
         assert_eq!(shortened("subdivision"), "subdivision");
         let long = shortened("harmonic --field oriented --epsilon 0.5");
-        assert_eq!(long, "\u{2026}d oriented --epsilon 0.5");
+        assert_eq!(long, "\u{2026} oriented --epsilon 0.5");
         assert_eq!(long.chars().count(), NAME);
         assert_eq!(margin(&["harmonic --field oriented --epsilon 0.5"]), margin(&[long.as_str()]));
     }
