@@ -73,7 +73,7 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
 fn sections(text: &str) -> String {
     let mut found: [(&str, &str, Vec<&str>); 3] =
         [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
-    for paragraph in text.split("\n\n") {
+    for paragraph in text.split("\n\n").filter(|paragraph| !paragraph.is_empty()) {
         // Every text begins with the empty heading of the notes.
         if let Some((heading, _, paragraphs)) = found.iter_mut().rev().find(|f| paragraph.starts_with(f.0)) {
             paragraphs.push(&paragraph[heading.len()..]);
