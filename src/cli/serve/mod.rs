@@ -42,7 +42,9 @@ Examples:
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml --with \"harmonic --cells 128\" --port 0
 
-The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page.")]
+The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page.
+
+Exit codes: 0 it was told to end, 1 bad input, or an address that is not to be had, 2 wrong command line.")]
 pub struct ServeArgs {
     /// The arm; without files a built-in SCARA cell.
     #[arg(value_name = "URDF", requires = "world")]
