@@ -1,6 +1,7 @@
 //! The grid in the form that neighbour-by-neighbour algorithms want, and the breadth-first wave over it.
 
 use crate::cspace::Grid;
+use crate::interrupt::checkpoint;
 
 /// Label of a cell where the wave did not come.
 pub const UNREACHED: u32 = u32::MAX;
@@ -124,6 +125,7 @@ impl Lattice {
         let mut levels = 0;
         let mut begin = 0;
         while begin < order.len() {
+            checkpoint();
             let end = order.len();
             levels += 1;
             for at in begin..end {

@@ -4,6 +4,7 @@ use super::attach::Joined;
 use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::field::{Component, Lattice, Potential, harmonic, rough_harmonic};
+use crate::interrupt::checkpoint;
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
 /// circles) and climbs it by its gradient, interpolated between the cells (Connolly, Grupen 1993; [`Interpolated`]).
@@ -44,7 +45,9 @@ impl Planner for Harmonic {
             Ok(joined) => joined,
             Err(reason) => return gave_up(reason),
         };
+        checkpoint();
         let wave = map.wave(&joined.sources());
+        checkpoint();
         let component = Component::new(map, &wave);
         // The nearest cell of the start that the wave came to.
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {

@@ -1,6 +1,7 @@
 //! The free cells connected with the goal, as a graph.
 
 use super::{Lattice, Wave};
+use crate::interrupt::checkpoint;
 
 /// The free cells that a wave from the goal reached, numbered in the order in which it came: the goals first, then level
 /// by level. Positions within this numbering, not indices of the grid, are the currency of the field algorithms.
@@ -25,6 +26,9 @@ pub struct Component {
     position: Vec<u32>,
 }
 
+/// So many cells take less than a millisecond.
+const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
+
 impl Component {
     /// From the wave, in linear time.
     #[must_use]
@@ -35,7 +39,10 @@ impl Component {
         for (at, &framed) in wave.order.iter().enumerate() {
             position[framed as usize] = at as u32;
         }
-        let neighbors = wave.order.iter().map(|&framed| {
+        let neighbors = wave.order.iter().enumerate().map(|(at, &framed)| {
+            if at.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                checkpoint();
+            }
             lattice.around(framed as usize).map(|place| match lattice.resolve(place) {
                 Some(cell) => position[cell],
                 None => wall,
@@ -96,6 +103,9 @@ impl Component {
         }
         let mut at = 0;
         while at < queue.len() {
+            if at.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                checkpoint();
+            }
             let from = queue[at] as usize;
             at += 1;
             for next in self.neighbors[from] {
@@ -107,6 +117,7 @@ impl Component {
             }
         }
         let mut widest = clearance.clone();
+        checkpoint();
         for &i in queue.iter().rev() {
             for n in self.neighbors[i as usize].map(|n| n as usize) {
                 if n != self.wall() && clearance[n] > clearance[i as usize] {

@@ -97,6 +97,9 @@ struct Window {
     greatest: f64,
 }
 
+/// So many cells take less than a millisecond.
+const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
+
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let room = component.room().widest;
@@ -184,6 +187,9 @@ impl<'a> Peeling<'a> {
         for level in 0..waiting.len() {
             let mut at = 0;
             while at < waiting[level].len() {
+                if at.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+                    checkpoint();
+                }
                 let (depth, from) = waiting[level][at];
                 at += 1;
                 let mut cut = false;
