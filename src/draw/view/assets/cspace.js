@@ -220,7 +220,7 @@ const CSpace = (() => {
   /** What stays while the arm moves. */
   function still(context, panel, view) {
     const { world } = view;
-    const seen = world.trace && !view.stale ? world.trace : null;
+    const seen = world.trace;
     if (seen) below(context, panel, view, seen);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);

@@ -62,7 +62,6 @@ class View {
   update(model) {
     this.model = model;
     this.traces = null;
-    this.stale = false;
     this.named = (model.worlds[0]?.obstacles.length ?? 0) <= NAMED;
     this.headings();
     this.choices();
@@ -117,7 +116,7 @@ class View {
   /** The paths in the world that is shown. */
   pathsHere() {
     const world = this.motion?.world ?? 0;
-    return this.stale ? [] : this.model.paths.filter((path) => path.world === world);
+    return this.model.paths.filter((path) => path.world === world);
   }
 
   /** Where the arm is when what is shown begins. */

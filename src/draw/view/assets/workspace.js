@@ -198,7 +198,7 @@ const Workspace = (() => {
         arm(context, panel, view, world, q, { fill: theme.paper, line: theme.barred, width: 0.9, alpha: 0.65 });
       }
     }
-    if (view.shows('trace') && !view.stale) traces(context, panel, view);
+    if (view.shows('trace')) traces(context, panel, view);
     if (view.shows('names')) names(context, panel, view, world);
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
   }
