@@ -78,7 +78,7 @@ pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
     match extension.as_deref() {
         Some("svg") => Ok(PictureFormat::Svg),
         Some("png") => Ok(PictureFormat::Png),
-        Some("html" | "htm") => Ok(PictureFormat::Html),
+        Some("html") => Ok(PictureFormat::Html),
         _ => Err(Failure::Usage(format!("{}: a picture's name must end in .svg, .png or .html", path.display()))),
     }
 }

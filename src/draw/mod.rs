@@ -96,6 +96,23 @@ pub struct Posture<'a> {
     pub frames: Vec<AxesFrame>,
 }
 
+impl<'a> Posture<'a> {
+    /// The same without its frames and with nowhere to go.
+    fn picture(&self) -> Picture<'a> {
+        Picture {
+            title: self.title.clone(),
+            status: self.status.clone(),
+            scene: self.scene,
+            start: self.at,
+            goals: &[],
+            paths: Vec::new(),
+            trace: None,
+            proof: &[],
+            c_obstacles: &[],
+        }
+    }
+}
+
 /// Why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DrawError {

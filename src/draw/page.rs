@@ -56,17 +56,7 @@ pub fn compose(picture: &Picture) -> Figure {
 /// Draws an arm in one configuration: the workspace takes the whole page.
 #[must_use]
 pub fn compose_posture(posture: &Posture) -> Figure {
-    let picture = Picture {
-        title: posture.title.clone(),
-        status: posture.status.clone(),
-        scene: posture.scene,
-        start: posture.at,
-        goals: &[],
-        paths: Vec::new(),
-        trace: None,
-        c_obstacles: &[],
-        proof: &[],
-    };
+    let picture = posture.picture();
     let mut items = titles(&picture.title, &picture.status);
     let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;
     let area = Rect { x: 84.0, y: top, width: WIDTH - 84.0 - MARGIN, height: HEIGHT - 58.0 - top };

@@ -70,10 +70,10 @@ fn the_same_input_gives_the_same_bytes() {
     let place = Place::new();
     let names = ["a.json", "a.csv", "a.yaml", "a.yml", "b.json"];
     let outputs: String = names.iter().map(|n| format!("--output {n} ")).collect();
-    let options = format!("{outputs} --picture a.svg");
+    let options = format!("{outputs} --picture a.svg --picture a.html");
     let first = place.run(&shelf(), &options);
     assert_eq!(first.code, 0, "{}", first.stderr);
-    let all = || names.iter().chain(&["a.svg"]).map(|n| place.read(n)).collect::<Vec<_>>();
+    let all = || names.iter().chain(&["a.svg", "a.html"]).map(|n| place.read(n)).collect::<Vec<_>>();
     assert!(names.iter().all(|n| first.stdout.contains(n)), "{}", first.stdout);
     let before = all();
     assert_eq!((before[0] == before[4], before[2] == before[3]), (true, true));

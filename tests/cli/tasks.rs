@@ -267,8 +267,8 @@ fn the_first_step_that_fails_is_named() {
 #[test]
 fn the_same_task_gives_the_same_bytes() {
     let place = Place::new();
-    let names = ["a.json", "a.csv", "a.yaml", "a.svg"];
-    let outputs = "--output a.json --output a.csv --output a.yaml --picture a.svg";
+    let names = ["a.json", "a.csv", "a.yaml", "a.svg", "a.html"];
+    let outputs = "--output a.json --output a.csv --output a.yaml --picture a.svg --picture a.html";
     let read = || names.map(|name| place.read(name));
     assert_eq!(place.task(STEPS, outputs).code, 0);
     let before = read();

@@ -137,7 +137,7 @@ fn follows(name: &str, picture: &TaskPicture) {
             None => {}
         }
     }
-    // Steps of a round end with what the round has placed; new objects lie there when the next begins.
+    // After all steps nothing is carried; where one fails, its world shows the postures that were tried.
     let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
     if picture.answer.impossible().is_none() {
         assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());

@@ -50,7 +50,7 @@ fn format(path: &Path) -> Result<ReportFormat, Failure> {
         Some("md") => Ok(ReportFormat::Markdown),
         Some("csv") => Ok(ReportFormat::Csv),
         Some("json") => Ok(ReportFormat::Json),
-        Some("html" | "htm") => Ok(ReportFormat::Html),
+        Some("html") => Ok(ReportFormat::Html),
         Some("log") => Ok(ReportFormat::Arena),
         _ => {
             let message = "a comparison's name must end in .md, .csv, .json, .html or .log";

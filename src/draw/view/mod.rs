@@ -105,24 +105,13 @@ impl View {
     /// The view of an arm in one configuration, without its configuration space.
     #[must_use]
     pub fn of_posture(posture: &Posture) -> Self {
-        let picture = Picture {
-            title: posture.title.clone(),
-            status: posture.status.clone(),
-            scene: posture.scene,
-            start: posture.at,
-            goals: &[],
-            paths: Vec::new(),
-            trace: None,
-            proof: &[],
-            c_obstacles: &[],
-        };
         let grain = Grain::of(&posture.scene.arm);
         let frames = posture.frames.iter().map(|frame| FrameView {
             name: frame.name.clone(),
             at: grain.point(frame.at),
             axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(|x| grain.number(x))),
         });
-        Self { frames: frames.collect(), ..Self::of_picture(&picture, Ending::Shown, Vec::new(), None) }
+        Self { frames: frames.collect(), ..Self::of_picture(&posture.picture(), Ending::Shown, Vec::new(), None) }
     }
 
     /// The view of a task: a world for each set of motions that share one.
