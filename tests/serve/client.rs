@@ -128,8 +128,12 @@ impl Page {
         }
     }
 
-    /// Whether the server ends the connection, rather than to answer.
-    pub fn is_closed(&mut self) -> bool {
+    /// Whether the server ends the connection at this message, rather than to answer. It may do so before it has read
+    /// everything: then the rest cannot be written.
+    pub fn is_refused(&mut self, message: &str) -> bool {
+        if self.socket.send(Message::text(message)).is_err() {
+            return true;
+        }
         loop {
             match self.socket.read() {
                 Ok(Message::Close(_)) | Err(_) => return true,
