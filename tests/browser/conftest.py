@@ -75,7 +75,7 @@ class Seen:
     def do(self, code, argument=None):
         return self.page.evaluate(code, argument)
 
-    def until(self, code, seconds=20):
+    def until(self, code, seconds=60):
         """Waits until this is true. (The page's policy forbids the browser to evaluate strings by itself.)"""
         deadline = time.monotonic() + seconds
         while not self.do(code):

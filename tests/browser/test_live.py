@@ -31,10 +31,10 @@ def serve(show):
     for server in running:
         assert server.poll() is None, "nothing ends the server"
         server.terminate()
-        assert server.wait(timeout=10) == 0
+        assert server.wait(timeout=60) == 0
 
 
-def settled(seen, seconds=30):
+def settled(seen, seconds=90):
     """Waits until what is shown is the answer to the last thing that was asked."""
     seen.until("cplan.view && !cplan.link.awaited && !cplan.link.next && cplan.answered.id === cplan.link.id", seconds)
     return seen.do("cplan.answered")
