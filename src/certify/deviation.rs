@@ -18,7 +18,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// The same where shapes are to be stuck: more than the independent check demands ([`super::recheck`], 1e-12), so that it
 /// accepts what is claimed.
-const STUCK_ROUNDING: f64 = 2e-12;
+pub(super) const STUCK_ROUNDING: f64 = 2e-12;
 
 /// A set of deviations from a configuration, symmetric about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -125,7 +125,7 @@ impl<'a> Posture<'a> {
     }
 
     /// Magnitude of the coordinates that enter a distance.
-    fn scale(&self, part: &Convex, piece: &Convex) -> f64 {
+    pub(super) fn scale(&self, part: &Convex, piece: &Convex) -> f64 {
         let base = self.scene.arm.base;
         base.coords.norm() + part.reach_from(base) + piece.reach_from(base)
     }
@@ -179,7 +179,7 @@ impl<'a> Posture<'a> {
     }
 
     /// Bound on `|x''|` of the link's point `a` (link frame) in the plane, per squared parameter of the deviation.
-    fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
+    pub(super) fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
         use Motion::{Prismatic, Revolute};
         let arm = &self.scene.arm;
         let [d1, d2] = deviation.each();
@@ -197,7 +197,7 @@ impl<'a> Posture<'a> {
     }
 
     /// Bound on `|y''|` of the plane's point `p` seen from the link, per squared parameter of the deviation.
-    fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
+    pub(super) fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
         use Motion::{Prismatic, Revolute};
         let arm = &self.scene.arm;
         let [d1, d2] = deviation.each();

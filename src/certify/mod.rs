@@ -1,4 +1,4 @@
-//! The judge: continuous collision checks of motions, and proofs that there is none.
+//! The judge: continuous collision checks of motions, proofs that there is none, and bounds on how short one can be.
 //!
 //! Imports neither [`crate::cspace`] nor [`crate::plan`]: it works on the scene's exact outlines alone, so that an
 //! error there cannot hide here.
@@ -12,6 +12,7 @@ mod connectivity;
 mod deviation;
 mod disconnection;
 mod motion;
+mod optimum;
 mod proof_json;
 mod limits;
 mod passage;
@@ -30,6 +31,7 @@ pub use deviation::{Bounded, Deviation, Posture};
 pub use disconnection::{Disconnection, StuckBox};
 pub use limits::{Excess, Limit, limits_kept};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use optimum::least_length;
 pub use passage::{Encounter, Moment, Passage, passage};
 pub use proof_json::{ProofBox, ProofFormatError, read_proof};
 pub use recheck::{ProofDefect, recheck};

@@ -34,18 +34,46 @@ struct Prepared<'a> {
     part: Carried,
     /// Reach from the base of all that the part can occupy, and of the piece grown by the clearance, metres.
     reach: [f64; 2],
-    /// Whether the part, not the piece, is eroded: the one that is deeper.
-    erode_part: bool,
     /// The eroded shape for every width of slab that was asked for; none where nothing is left.
     eroded: Vec<Option<Option<Eroded>>>,
 }
 
-/// A shape that is nearer to the bone.
-enum Eroded {
+/// A shape of a pair that is nearer to the bone.
+pub(super) enum Eroded {
     Part(Carried),
     Piece(Features),
     /// Neither: the clearance to keep is more than what has to be taken away; by how much.
     Grown(f64),
+}
+
+impl Eroded {
+    /// Whichever shape is deeper, eroded by `overlap` less `clearance`; none where nothing is left.
+    pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        let by = overlap - clearance;
+        if by <= 0.0 {
+            Some(Self::Grown(-by))
+        } else if part.shape().depth() > piece.depth() {
+            part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.motion(), &shape)))
+        } else {
+            piece.eroded(by).map(|shape| Self::Piece(Features::new(&shape)))
+        }
+    }
+
+    /// Values of the joint at which the pair's shapes overlap by at least as much as one of them was eroded by.
+    pub fn hits(
+        &self,
+        part: &Carried,
+        piece: &Features,
+        pivot: Point,
+        heading: Vector,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        match self {
+            Self::Part(eroded) => eroded.hits(pivot, heading, piece, 0.0, out),
+            Self::Piece(eroded) => part.hits(pivot, heading, eroded, 0.0, out),
+            Self::Grown(by) => part.hits(pivot, heading, piece, *by, out),
+        }
+    }
 }
 
 /// Link 2 and all that it can meet, for slabs of joint 1.
@@ -77,7 +105,6 @@ impl<'a> SecondLink<'a> {
                 features: Features::new(piece),
                 part: Carried::new(joint.motion, part),
                 reach: [carried, piece.reach_from(scene.arm.base) + clearance],
-                erode_part: part.depth() > piece.depth(),
                 eroded: Vec::new(),
             }
         };
@@ -169,22 +196,10 @@ impl Prepared<'_> {
         if self.eroded.len() <= level {
             self.eroded.resize_with(level + 1, || None);
         }
-        let (part, piece, motion) = (self.part.shape(), self.piece, self.part.motion());
-        let eroded = self.eroded[level].get_or_insert_with(|| {
-            let by = overlap - clearance;
-            if by <= 0.0 {
-                Some(Eroded::Grown(-by))
-            } else if self.erode_part {
-                part.eroded(by).map(|shape| Eroded::Part(Carried::new(motion, &shape)))
-            } else {
-                piece.eroded(by).map(|shape| Eroded::Piece(Features::new(&shape)))
-            }
-        });
+        let eroded = self.eroded[level].get_or_insert_with(|| Eroded::new(&self.part, self.piece, overlap, clearance));
         match eroded {
             None => Hits::Never,
-            Some(Eroded::Part(part)) => part.hits(elbow, heading, &self.features, 0.0, out),
-            Some(Eroded::Piece(piece)) => self.part.hits(elbow, heading, piece, 0.0, out),
-            Some(Eroded::Grown(by)) => self.part.hits(elbow, heading, &self.features, *by, out),
+            Some(eroded) => eroded.hits(&self.part, &self.features, elbow, heading, out),
         }
     }
 }

@@ -67,13 +67,7 @@ impl<'a> Curves<'a> {
 
 /// Rows to begin with, in order: some all over the range of `q1`, and those where pair `index`, with `shapes` for part and
 /// piece, begins or ceases to be at each of `levels`, to be kept as it says. Of two no farther apart than `same` one does.
-pub(super) fn first_breaks(
-    rows: &Rows,
-    index: usize,
-    shapes: [&Convex; 2],
-    levels: &[(f64, bool)],
-    same: f64,
-) -> Vec<Break> {
+fn first_breaks(rows: &Rows, index: usize, shapes: [&Convex; 2], levels: &[(f64, bool)], same: f64) -> Vec<Break> {
     let arm = &rows.scene().arm;
     let joint = &arm.joints[0];
     let greatest = levels.iter().map(|l| l.0).fold(0.0, f64::max);
@@ -142,15 +136,5 @@ impl Source for &Curves<'_> {
     fn shortens(&self, from: &Contact, to: &Contact) -> bool {
         self.motion.least_distance(from, to) >= self.floor
             && self.motion.separation((from.q + to.q) / 2.0).distance <= self.ceiling
-    }
-
-    /// To cover more than the C-obstacle is allowed.
-    fn fills(&self, _: f64, _: f64, _: [f64; 2]) -> bool {
-        true
-    }
-
-    /// What is left out could be hit.
-    fn is_spent(&self) -> bool {
-        false
     }
 }

@@ -5,10 +5,8 @@ mod chord;
 mod curves;
 mod events;
 mod grid;
-mod inner;
 mod nearest;
 mod outline;
-mod overlap;
 mod regions;
 mod rows;
 mod sampled;
@@ -19,9 +17,8 @@ mod zones;
 
 pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
-pub use inner::InnerObstacles;
 pub use nearest::{NearestFree, nearest_free};
-pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regions};
+pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions};
 pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_rows, outer_grid};
@@ -37,11 +34,6 @@ pub enum Proves {
         /// Metres.
         margin: f64,
     },
-    /// Obstacles are shrunk by at most `margin` metres: blocked is blocked; free proves nothing.
-    Inner {
-        /// Metres.
-        margin: f64,
-    },
     /// Looked at in places only: neither proves anything.
     Sampled,
 }
@@ -51,7 +43,6 @@ impl std::fmt::Display for Proves {
         match self {
             Proves::Exact => write!(f, "exact"),
             Proves::Outer { margin } => write!(f, "outer, obstacles grown by up to {margin:.2e} m"),
-            Proves::Inner { margin } => write!(f, "inner, obstacles shrunk by up to {margin:.2e} m"),
             Proves::Sampled => write!(f, "sampled"),
         }
     }

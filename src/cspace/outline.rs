@@ -30,13 +30,6 @@ pub(super) trait Source {
 
     /// Whether the straight line between two boundary points can stand for the lines by way of the rows between.
     fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
-
-    /// Whether a rectangle over the strip from `u` to `v` and `span` can stand for the C-obstacle there, given that at
-    /// each end of the strip or at one of them all of the span is blocked.
-    fn fills(&self, u: f64, v: f64, span: [f64; 2]) -> bool;
-
-    /// Whether what is left of the C-obstacle is to be left out.
-    fn is_spent(&self) -> bool;
 }
 
 /// How to flatten.
@@ -122,13 +115,10 @@ impl<S: Source> Tracer<'_, S> {
 
     /// Extends the chains from row `u` to row `v`, through as many rows between as it takes.
     fn strip(&mut self, u: &Row<S::End>, v: &Row<S::End>) {
-        if u.full && v.full && self.source.fills(u.at.q1, v.at.q1, TURN) {
+        if u.full && v.full {
             self.rectangle(u.at.q1, v.at.q1, TURN);
         } else if let Some(links) = self.matching(u, v) {
             self.extend(v, &links);
-        } else if self.source.is_spent() {
-            self.close_chains();
-            self.start_chains(v);
         } else if v.at.q1 - u.at.q1 <= self.how.min_width {
             self.cover(u, v);
         } else {
@@ -195,9 +185,7 @@ impl<S: Source> Tracer<'_, S> {
             united(both.map(|i| [self.q2(&i[0]), self.q2(&i[1])]).collect(), self.how.turning)
         };
         for span in spans {
-            if self.source.fills(u.at.q1, v.at.q1, span) {
-                self.rectangle(u.at.q1, v.at.q1, span);
-            }
+            self.rectangle(u.at.q1, v.at.q1, span);
         }
         self.start_chains(v);
     }

@@ -1,7 +1,6 @@
 //! Configuration space as polygons.
 
 use super::curves::Curves;
-use super::inner::InnerObstacles;
 use super::rows::Rows;
 use super::union::free_space;
 use super::{Proves, translation};
@@ -111,22 +110,6 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// As [`regions`], but with obstacles made smaller by at most about `margin` metres: what is blocked here cannot be
-/// entered, so no motion is shorter than the shortest path here that ends in the window; see [`InnerObstacles`]. Of the
-/// pairs only those in `chosen` (numbers in [`Scene::pairs`]) count; any choice proves as much.
-#[must_use]
-pub fn inner_regions(
-    scene: &Scene,
-    obstacles: &mut InnerObstacles,
-    center: Configuration,
-    periods: usize,
-    chosen: &[usize],
-) -> Regions {
-    let contours = chosen.iter().flat_map(|&pair| obstacles.contours(scene, pair).to_vec()).collect();
-    let proves = Proves::Inner { margin: obstacles.margin() };
-    within_window(scene, proves, window(scene, center, periods), contours)
-}
-
 /// The limits of interval axes, and `periods` turns to either side of `center` on circles.
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm.topology();
@@ -180,7 +163,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
 
 /// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
 /// closes the seam between the copies of a whole turn.
-pub(super) fn bands(rows: &Rows, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
+fn bands(rows: &Rows, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.motion.is_revolute() { (-PI, PI) } else { joint.axis.domain() };
     let [first, second] = &rows.scene().arm.joints;
     let mut spans = Vec::new();

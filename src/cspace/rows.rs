@@ -64,11 +64,6 @@ impl<'a> Rows<'a> {
         Self { scene, pairs, pieces }
     }
 
-    /// Prepares one pair of a scene, as number 0, with other shapes than its own. Linear in their size.
-    pub(super) fn of_pair(scene: &'a Scene, pair: Pair, part: &Convex, piece: &Convex) -> Self {
-        Self { scene, pairs: vec![Prepared::new(&scene.arm, pair, part, 0)], pieces: vec![Features::new(piece)] }
-    }
-
     /// The scene.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {

@@ -1,6 +1,6 @@
 //! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
 
-use crate::geometry::{Convex, Point, ROUNDING, Vector, cross, inset, minkowski_difference, perpendicular};
+use crate::geometry::{Convex, Point, Vector, cross, minkowski_difference, perpendicular};
 use crate::model::{Arm, Motion};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
@@ -34,27 +34,6 @@ pub(super) fn contour(
     let radius = part.radius() + piece.radius() + level;
     let core = minkowski_difference(piece.core(), part.core());
     in_joint_values(arm, map, &tangent_polygon(&core, radius, radius + tolerance))
-}
-
-/// Joint values at which `part` of link 2 comes within `level` of `piece`, as a convex polygon that lacks only those at
-/// which they are nearly so far apart, by `depth` at most. Straight sides of shapes with corners lack hardly anything:
-/// rounding is all that has to be kept from. None if nothing is left.
-pub(super) fn inner_contour(
-    arm: &Arm,
-    map: &Matrix2<f64>,
-    part: &Convex,
-    piece: &Convex,
-    level: f64,
-    depth: f64,
-) -> Option<Vec<Point>> {
-    let radius = part.radius() + piece.radius() + level;
-    let core = minkowski_difference(piece.core(), part.core());
-    let polygon = if radius > depth {
-        tangent_polygon(&core, radius - depth, radius - ROUNDING)
-    } else {
-        inset(&core, ROUNDING)?
-    };
-    Some(in_joint_values(arm, map, &polygon))
 }
 
 /// A polygon of places of link 2's origin as one of joint values.

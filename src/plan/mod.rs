@@ -9,7 +9,6 @@ mod field_planner;
 mod funnel;
 mod grid_path;
 mod harmonic;
-mod measure;
 mod mesh;
 mod noding;
 mod shortcut;

@@ -1,10 +1,10 @@
 //! Shortest paths through triangulated free space.
 
 use super::NONE;
-use super::measure::Measure;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
 use crate::geometry::{Ordered, Orientation, Point, cross, orientation};
 use crate::interrupt::checkpoint;
+use crate::space::Measure;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 

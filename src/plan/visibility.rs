@@ -1,13 +1,12 @@
 //! Shortest paths by visibility graph and A*.
 
 use super::boundary::Boundary;
-use super::measure::Measure;
 use super::mesh::{Mesh, Tangency};
 use super::taut_search::TautSearch;
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
-use crate::space::{Configuration, Metric, Path};
+use crate::space::{Configuration, Measure, Metric, Path};
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
 ///

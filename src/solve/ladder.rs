@@ -2,8 +2,9 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
-use super::rungs::{Builder, Described, cells, margin, polygons, zoned_cells};
+use super::rungs::{Builder, Described, cells, polygons, zoned_cells};
 use super::swift::{SLABS, checked};
+use super::taut::pulled_taut;
 use super::{Answer, Effort, Method, Space, Stages, Verdict, subdivision};
 use crate::certify::{CertifiedPath, Connectivity, Rejection, certify, connectivity, slab_connectivity};
 use crate::model::{Problem, Scene};
@@ -14,6 +15,20 @@ use std::time::Instant;
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
+
+/// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
+const CLOSE: f64 = 1e-4;
+
+/// Distances from obstacles that taut strings keep beyond the clearance, as shares of the arm's reach and of the gap asked
+/// for, one after the other: the more room, the fewer pieces.
+const KEPT: [f64; 4] = [1.0, 0.25, 0.06, 0.015];
+
+/// A taut string may have so many times the pieces of the path; more, as along a boundary that joint 1 cannot follow, would
+/// make a slow motion. A finer level then does better.
+const TAUT_PIECES: usize = 6;
+
+/// Rows that a taut string may take, not to lose time with one that will not do.
+const TAUT_ROWS: usize = 600;
 
 /// Answers `problem` with `method`. `progress` hears about attempts that failed.
 #[must_use]
@@ -58,7 +73,7 @@ where
             _ => planner.query(&space, &map, &ends.query),
         };
         climb.stages.query += clock.elapsed();
-        let failure = climb.judge(&ends, &run.outcome, level).map(|failure| format!("{}: {failure}", space.describe()));
+        let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
         last = Some((run, space));
         let Some(failure) = failure else { break };
         progress(&format!("{method}: {failure}"));
@@ -97,7 +112,7 @@ struct Climb<'a> {
 
 impl Climb<'_> {
     /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
-    fn judge(&mut self, ends: &Ends, outcome: &Outcome, level: usize) -> Option<String> {
+    fn judge(&mut self, ends: &Ends, outcome: &Outcome) -> Option<String> {
         let proposal = match outcome {
             Outcome::Found(path) => path,
             Outcome::NoPath => return self.unless_content("no path in it".into()),
@@ -105,7 +120,7 @@ impl Climb<'_> {
         };
         match self.certified(ends, proposal) {
             Ok(path) => {
-                self.keep(path, level);
+                self.keep(path);
                 let excess = self.bound.map_or_else(String::new, |bound| percent(bound.gap()));
                 self.unless_content(format!("its path is longer than the bound by {excess}"))
             }
@@ -133,19 +148,49 @@ impl Climb<'_> {
     }
 
     /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
-    fn keep(&mut self, path: CertifiedPath, level: usize) {
+    fn keep(&mut self, path: CertifiedPath) {
         let wanted = self.effort.bounded || self.effort.gap.is_some();
-        let bounded = (wanted && self.method == Method::Visibility).then(|| {
-            let clock = Instant::now();
-            let margin = margin(self.problem, self.effort, level);
-            let bound = bound(self.problem, path.path(), self.effort.metric, margin);
-            self.stages.bound += clock.elapsed();
-            bound
-        });
-        if self.bound.zip(bounded).is_none_or(|(best, new)| new.upper < best.upper) {
+        if !wanted || self.method != Method::Visibility {
             self.path = Some(path);
+            return;
         }
-        self.bound = self.bound.zip(bounded).map_or(bounded, |(best, new)| Some(best.and(new)));
+        let clock = Instant::now();
+        let (metric, gap) = (self.effort.metric, self.effort.gap);
+        let upper = metric.length(path.path());
+        // What no motion is below does not depend on the path: once is enough.
+        let found = self.bound.map_or_else(
+            || bound(self.problem, path.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
+            |best| Bound { upper, ..best },
+        );
+        let (path, found) = match gap {
+            Some(gap) if found.gap() > gap => self.pulled_taut(path, found, gap),
+            _ => (path, found),
+        };
+        self.stages.bound += clock.elapsed();
+        if self.bound.is_none_or(|best| found.upper < best.upper) {
+            self.path = Some(path);
+            self.bound = Some(found);
+        }
+    }
+
+    /// A path pulled taut until it is within the gap, as far as that makes it shorter without many more pieces: it gives up
+    /// what distance from obstacles it keeps beyond the clearance.
+    fn pulled_taut(&self, path: CertifiedPath, bound: Bound, gap: f64) -> (CertifiedPath, Bound) {
+        let most_pieces = TAUT_PIECES * path.path().waypoints().len();
+        let (mut path, mut bound) = (path, bound);
+        for kept in KEPT.into_iter().map(|share| share * gap) {
+            let (scene, way) = (&self.problem.scene, path.path().waypoints());
+            let Some(taut) = pulled_taut(scene, way, gap / 4.0, kept, TAUT_ROWS) else { break };
+            let upper = self.effort.metric.length(taut.path());
+            if upper >= bound.upper || taut.path().waypoints().len() > most_pieces {
+                break;
+            }
+            (path, bound.upper) = (taut, upper);
+            if bound.gap() <= gap {
+                break;
+            }
+        }
+        (path, bound)
     }
 }
 

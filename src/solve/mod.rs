@@ -13,6 +13,7 @@ mod rungs;
 mod shorten;
 mod subdivision;
 mod swift;
+mod taut;
 
 pub use bound::{Bound, bound, percent};
 pub use effort::Effort;

@@ -22,7 +22,7 @@ pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Opti
 }
 
 /// The level's margin, metres.
-pub(super) fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
+fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
     let arm = &problem.scene.arm;
     let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
     let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);

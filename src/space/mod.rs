@@ -2,6 +2,7 @@
 
 mod blend;
 mod curve;
+mod measure;
 mod metric;
 mod path;
 mod recording;
@@ -9,6 +10,7 @@ mod topology;
 
 pub use blend::{Blend, BlendedPath, HAIR, Stretch};
 pub use curve::{Derivative, Piece};
+pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
 pub use recording::{Recording, RecordingDefect};

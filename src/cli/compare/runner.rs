@@ -52,14 +52,11 @@ pub struct Runner<'a> {
 /// A run's row, and its path.
 type Ran = Result<(Row, Option<Path>), TimingError>;
 
-/// Levels of the bound at the most: each has a quarter of the margin of the one before.
-const BOUND_LEVELS: i32 = 3;
-
 /// Boxes of the run before all others.
 const WARMING: usize = 1000;
 
 /// A bound that is no farther below the shortest path found, as a share of it, is good enough.
-const BOUND_GAP: f64 = 1e-3;
+const BOUND_GAP: f64 = 1e-4;
 
 impl Runner<'_> {
     /// Runs them all. Results come in the order of the cases, whatever is done when.
@@ -92,11 +89,7 @@ impl Runner<'_> {
             });
             paths.push(found);
         }
-        let bounds = self.all(cases.cases.len(), |i| {
-            let case = &cases.cases[i];
-            let effort = self.entries[case.world].first()?.effort;
-            lower_bound(&case.problem(), &effort, paths[i].iter().flatten())
-        });
+        let bounds = self.all(cases.cases.len(), |i| lower_bound(&cases.cases[i].problem(), paths[i].iter().flatten()));
         for (comparison, bound) in comparisons.iter_mut().zip(bounds) {
             comparison.bound = bound;
         }
@@ -182,20 +175,10 @@ impl Runner<'_> {
     }
 }
 
-/// What no motion is shorter than: the best of a few bounds, with finer and finer obstacles until the shortest of these
-/// paths is near enough to it; none without a path.
-fn lower_bound<'a>(problem: &Problem, effort: &Effort, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
+/// What no motion is shorter than; none without a path.
+fn lower_bound<'a>(problem: &Problem, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
-    let mut lower: f64 = 0.0;
-    for level in 0..BOUND_LEVELS {
-        let margin = effort.margin * problem.scene.arm.reach() * 0.25_f64.powi(level);
-        let bound = bound(problem, shortest, Metric::Euclidean, margin);
-        lower = lower.max(bound.lower);
-        if bound.upper - lower <= BOUND_GAP * bound.upper {
-            break;
-        }
-    }
-    Some(lower)
+    Some(bound(problem, shortest, Metric::Euclidean, BOUND_GAP).lower)
 }
 
 /// The unit of lengths in joint space.

@@ -1,7 +1,7 @@
 //! A metric as shortest path searches use it.
 
+use super::Metric;
 use crate::geometry::{Point, Vector, cross};
-use crate::space::Metric;
 
 /// Weight of the Euclidean length beside travel time. Among motions that take equally long it prefers the shortest; no
 /// path that it chooses takes longer than the quickest by more than this part of its Euclidean length at the higher of
@@ -10,7 +10,7 @@ const TIE: f64 = 1e-10;
 
 /// A norm whose balls have no flat sides, so that pulling a path taut makes it shorter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Measure {
+pub enum Measure {
     /// Euclidean length after both coordinates have been multiplied by weights.
     Ellipse([f64; 2]),
     /// The greater of both coordinates multiplied by weights, and a little of the Euclidean length.
@@ -29,6 +29,7 @@ impl From<Metric> for Measure {
 
 impl Measure {
     /// Length of a displacement.
+    #[must_use]
     pub fn norm(self, d: Vector) -> f64 {
         match self {
             Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
@@ -41,6 +42,7 @@ impl Measure {
     /// A lower bound on the length of the ways from `root` to `goal` through a segment, from `right` to `left` as seen from
     /// the root; it is the length of the shortest, but for [`Measure::Rectangle`] and a goal on the root's side. The line
     /// of the segment is given by two points farther apart, in the same direction: the segment may be a point.
+    #[must_use]
     pub fn through(self, root: Point, [right, left]: [Point; 2], line: [Point; 2], goal: Point) -> f64 {
         let mut goal = goal;
         let along = line[1] - line[0];

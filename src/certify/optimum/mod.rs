@@ -1,0 +1,108 @@
+//! How short a motion may be at best: a proven lower bound.
+
+mod closed;
+mod refine;
+mod search;
+mod strips;
+
+use crate::geometry::Point;
+use crate::model::Scene;
+use crate::space::{Configuration, Measure, Metric, Topology};
+use refine::passed;
+use search::{Search, Way};
+use strips::Strips;
+
+/// What rounding and the tie-break of travel times may add to a shortest length, as a share of it.
+const ROUNDING: f64 = 1e-9;
+
+/// Times that strips are halved at most.
+const ROUNDS: usize = 64;
+
+/// Strips at most.
+const MOST_STRIPS: usize = 100_000;
+
+/// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
+const PATIENCE: usize = 3;
+
+/// Share of the gap asked for that a single strip may leave open without being halved.
+const WORTH: f64 = 1e-3;
+
+/// Share of the limit below which ways are looked for at first, at least.
+const LEAST_SHARE: f64 = 1.0 / 64.0;
+
+/// A lower bound on the length of every motion from `start` to one of the `goals`, on whichever turns, that keeps more
+/// than zero and at least `clearance` from every obstacle; at most `limit`, finite, which some motion's length should be. It is
+/// made better until it is within the share `gap` of the limit, or cannot be.
+///
+/// Joint 1's domain is cut into strips by *rows*, at which contact angles say exactly which values of joint 2 are closed:
+/// *walls*. Where a pair makes walls at both rows of a strip, a straight *barrier* between them is proven to be closed all
+/// along. What is free lies beyond neither, so no motion is shorter than the shortest way around walls and barriers. Ways
+/// may bulge into what is closed between two rows, by an amount of second order in the strip's width as far as the boundary
+/// bends. Strips are halved where the way does, so it costs some dozens of rows, most of them where the way touches.
+///
+/// The search for the way is complete up to the rounding of coordinates, for which a share of 1e-9 is taken off: every
+/// passage is some nanometres wider than it is in truth, because walls are made of shapes eroded by that. Two shapes
+/// without area make no walls, which makes the bound lower.
+#[must_use]
+pub fn least_length(
+    scene: &Scene,
+    start: Configuration,
+    goals: &[Configuration],
+    clearance: f64,
+    metric: Metric,
+    limit: f64,
+    gap: f64,
+) -> f64 {
+    let mut strips = Strips::new(scene, clearance);
+    let start = Point::from(start);
+    let copies = copies(strips.topology(), metric, start, goals, limit);
+    let straight = |goal: &Point| metric.norm(goal - start);
+    let measure = Measure::from(metric);
+    if strips.count() == 0 {
+        // Joint 1 cannot move: what closes the way of joint 2 is not looked at.
+        let nearest = copies.iter().map(straight).fold(limit, f64::min);
+        return nearest * (1.0 - ROUNDING);
+    }
+    let enough = limit / (1.0 + gap);
+    let (mut best, mut idle) = (0.0, 0);
+    let nearest = copies.iter().map(straight).fold(limit, f64::min);
+    let mut near = f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit);
+    for _ in 0..ROUNDS {
+        // Goals and doors on far turns cost time, so ways are looked for nearby first.
+        let (length, corners) = loop {
+            let goals: Vec<Point> = copies.iter().copied().filter(|goal| straight(goal) < near).collect();
+            match Search::new(&mut strips, measure, &goals, near).run(start) {
+                Way::Shortest(length, corners) => break (length, corners),
+                Way::NoneBelow(length) if length < near || near >= limit => break (length, Vec::new()),
+                Way::NoneBelow(_) => near = (2.0 * near).min(limit),
+            }
+        };
+        idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
+        best = f64::max(best, length);
+        if best >= enough || idle >= PATIENCE || strips.count() > MOST_STRIPS {
+            break;
+        }
+        let passed = passed(scene, clearance, &mut strips, &corners, measure, gap * limit * WORTH);
+        if passed.is_empty() || !strips.halve(&passed) {
+            break;
+        }
+    }
+    best.min(limit) * (1.0 - ROUNDING)
+}
+
+/// All copies of the goals that are nearer than the limit.
+fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Configuration], limit: f64) -> Vec<Point> {
+    let axis = |k: usize, goal: f64| {
+        let mut unit = Configuration::zeros();
+        unit[k] = 1.0;
+        let far = limit / metric.norm(unit);
+        topology.axes[k].copies_within(goal, (start[k] - far, start[k] + far)).collect::<Vec<_>>()
+    };
+    let mut copies = Vec::new();
+    for goal in goals {
+        let (first, second) = (axis(0, goal[0]), axis(1, goal[1]));
+        copies.extend(first.iter().flat_map(|&q1| second.iter().map(move |&q2| Point::new(q1, q2))));
+    }
+    copies.retain(|copy| metric.norm(copy - start) < limit);
+    copies
+}

@@ -1,0 +1,306 @@
+//! The shortest way past what is closed in strips and at the rows between them.
+
+use super::strips::{Cell, Door, Strips};
+use crate::geometry::{Ordered, Point};
+use crate::interrupt::checkpoint;
+use crate::space::Measure;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, HashMap};
+use std::f64::consts::TAU;
+
+/// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
+/// takes as a rule, and half a second. Along an arc they grow with the square of the rows.
+const MOST_ENTRIES: usize = 1_000_000;
+
+/// Costs that differ by no more than this share may differ by rounding alone.
+const TIED: f64 = 1e-12;
+
+/// By how much sight goes past what cuts it off, as a share of the coordinates: more than rounding amounts to. Without it
+/// the end of a door that is in line with two others, as on a straight side, could lie between what either sees.
+const HAIR: f64 = 4.0 * f64::EPSILON;
+
+/// What the search came to.
+pub(super) enum Way {
+    /// The shortest: its length and corners.
+    Shortest(f64, Vec<Point>),
+    /// None is shorter than this.
+    NoneBelow(f64),
+}
+
+/// A place where ways turn, or begin.
+struct Root {
+    at: Point,
+    cost: f64,
+    before: Option<u32>,
+}
+
+#[derive(Clone, Copy)]
+enum Entry {
+    /// What a root sees through an interval of a row, on the way to the strip beyond.
+    Cone(Cone),
+    /// A goal that a root sees.
+    Goal(u32, Point),
+    /// A root on the edge of a strip, which sees all of its cell of it.
+    Root(u32, i64),
+}
+
+#[derive(Clone, Copy)]
+struct Cone {
+    root: u32,
+    row: i64,
+    /// Whether joint 1 grows on the way.
+    ahead: bool,
+    seen: Door,
+}
+
+impl Cone {
+    /// The strip that it enters.
+    fn strip(&self) -> i64 {
+        if self.ahead { self.row } else { self.row - 1 }
+    }
+
+    /// The row beyond that strip.
+    fn far(&self) -> i64 {
+        if self.ahead { self.row + 1 } else { self.row - 1 }
+    }
+}
+
+/// A* whose open list holds cones of sight (as Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells and all their
+/// copies. Cells are convex, so sight is cut off at rows alone, and ways turn at the ends of doors: beyond a row towards the
+/// side of the wall whose end they pass, or along it to the next door, which leads back.
+///
+/// That way every shortest way is found, whichever turns it takes. Of those that reach the end of a door only the shortest is
+/// followed: where another one goes on taut, but that one does not, cutting its corner would be shorter still.
+pub(super) struct Search<'s, 'a> {
+    strips: &'s mut Strips<'a>,
+    measure: Measure,
+    goals: &'s [Point],
+    /// Nothing as long as this is looked for.
+    limit: f64,
+    /// Values of joint 2 that ways shorter than the limit keep to.
+    range: [f64; 2],
+    roots: Vec<Root>,
+    /// Least cost so far of the end of a door: by row, by its value of joint 2, and by whether joint 1 grows from there.
+    least: HashMap<(i64, u64, bool), f64>,
+    open: BinaryHeap<Reverse<(Ordered, usize)>>,
+    entries: Vec<Entry>,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub fn new(strips: &'s mut Strips<'a>, measure: Measure, goals: &'s [Point], limit: f64) -> Self {
+        Self {
+            strips,
+            measure,
+            goals,
+            limit,
+            range: [f64::NEG_INFINITY, f64::INFINITY],
+            roots: Vec::new(),
+            least: HashMap::new(),
+            open: BinaryHeap::new(),
+            entries: Vec::new(),
+        }
+    }
+
+    /// The shortest way from `start` to one of the goals.
+    pub fn run(mut self, start: Point) -> Way {
+        let far = self.limit / self.measure.norm(Point::new(0.0, 1.0).coords);
+        self.range = [start.y - far, start.y + far];
+        self.roots.push(Root { at: start, cost: 0.0, before: None });
+        for strip in self.strips.around(start.x) {
+            self.spread(0, strip, 0.0);
+        }
+        let mut taken = 0;
+        while let Some(Reverse((Ordered(bound), number))) = self.open.pop() {
+            checkpoint();
+            taken += 1;
+            if taken > MOST_ENTRIES {
+                return Way::NoneBelow(bound);
+            }
+            match self.entries[number] {
+                Entry::Goal(root, goal) => return Way::Shortest(bound, self.corners(root, goal)),
+                Entry::Cone(cone) => self.expand(&cone, bound),
+                Entry::Root(root, strip) => self.spread(root, strip, bound),
+            }
+        }
+        Way::NoneBelow(self.limit)
+    }
+
+    fn corners(&self, root: u32, goal: Point) -> Vec<Point> {
+        let mut corners = vec![goal];
+        let mut next = Some(root);
+        while let Some(root) = next {
+            let root = &self.roots[root as usize];
+            corners.push(root.at);
+            next = root.before;
+        }
+        corners.reverse();
+        corners
+    }
+
+    fn push(&mut self, bound: f64, entry: Entry) {
+        if bound < self.limit {
+            self.open.push(Reverse((Ordered(bound), self.entries.len())));
+            self.entries.push(entry);
+        }
+    }
+
+    fn push_goal(&mut self, root: u32, goal: Point, parent: f64) {
+        let Root { at, cost, .. } = self.roots[root as usize];
+        self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
+    }
+
+    /// A cone through the part of `door` between `from` and `to`, if there is one.
+    fn push_cone(&mut self, root: u32, row: i64, ahead: bool, door: &Door, [from, to]: [f64; 2], parent: f64) {
+        let (from, to) = (from.max(self.range[0]), to.min(self.range[1]));
+        let (lower, upper) = (door.lower.max(from), door.upper.min(to));
+        if lower > upper {
+            return;
+        }
+        let tips = [door.tips[0] && door.lower >= from, door.tips[1] && door.upper <= to];
+        let x = self.strips.q1(row);
+        let Root { at, cost, .. } = self.roots[root as usize];
+        let (right, left) = if ahead { (lower, upper) } else { (upper, lower) };
+        let side = if ahead { 1.0 } else { -1.0 };
+        let line = [Point::new(x, right - side), Point::new(x, left + side)];
+        let ends = [Point::new(x, right), Point::new(x, left)];
+        let through = |goal: &Point| self.measure.through(at, ends, line, *goal);
+        let bound = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
+        let seen = Door { lower, upper, tips };
+        self.push(bound.max(parent), Entry::Cone(Cone { root, row, ahead, seen }));
+    }
+
+    /// A root at the end of a door, reached straight from another, whose ways go on `ahead` or back; none if it has been
+    /// reached by a shorter way, or by one as short that goes on to the same side.
+    fn turn(&mut self, from: u32, row: i64, at: Point, ahead: bool) -> Option<u32> {
+        let Root { at: before, cost, .. } = self.roots[from as usize];
+        let cost = cost + self.measure.norm(at - before);
+        let least = |ahead: bool| self.least.get(&(row, at.y.to_bits(), ahead)).copied().unwrap_or(f64::INFINITY);
+        if cost >= least(ahead) * (1.0 - TIED) || cost > least(!ahead) * (1.0 + TIED) {
+            return None;
+        }
+        self.least.insert((row, at.y.to_bits(), ahead), cost);
+        self.roots.push(Root { at, cost, before: Some(from) });
+        u32::try_from(self.roots.len() - 1).ok()
+    }
+
+    /// The doors of a row, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go.
+    fn doors(&mut self, row: i64, [lower, upper]: [f64; 2]) -> Vec<Door> {
+        let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
+        if !self.strips.is_inner(row) {
+            return Vec::new();
+        }
+        let round = self.strips.topology().axes[1].is_circle();
+        let mut doors = Vec::new();
+        for gap in self.strips.doors(row) {
+            let (first, last) = if round && gap.lower.is_finite() {
+                (((lower - gap.upper) / TAU).ceil(), ((upper - gap.lower) / TAU).floor())
+            } else {
+                (0.0, 0.0)
+            };
+            let copies = (first as i64..=last as i64).map(|turns| gap.turned(turns as f64));
+            doors.extend(copies.filter(|door| door.lower <= upper && lower <= door.upper));
+        }
+        doors
+    }
+
+    /// The goals in a cell of a strip.
+    fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Point> + use<'s> {
+        let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
+        self.goals.iter().copied().filter(move |goal| {
+            let [lower, upper] = cell.at((goal.x - from) / (to - from));
+            from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper
+        })
+    }
+
+    /// What a root in a strip or on its edge sees of it.
+    fn spread(&mut self, root: u32, strip: i64, parent: f64) {
+        let at = self.roots[root as usize].at;
+        let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
+        let Some(cell) = self.strips.cell(strip, (at.x - from) / (to - from), at.y) else { return };
+        for goal in self.goals(strip, cell) {
+            self.push_goal(root, goal, parent);
+        }
+        for (row, ahead, share) in [(strip, false, 0.0), (strip + 1, true, 1.0)] {
+            let range = cell.at(share);
+            let doors = self.doors(row, range);
+            if self.strips.q1(row) == at.x {
+                self.along(root, row, !ahead, &doors, parent);
+                continue;
+            }
+            for door in doors {
+                self.push_cone(root, row, ahead, &door, range, parent);
+            }
+        }
+    }
+
+    /// Ways along a row, from a root on it, to other doors, which lead back to the strip on its other side; `ahead` if the
+    /// ways lie in the strip after the row.
+    fn along(&mut self, root: u32, row: i64, ahead: bool, doors: &[Door], parent: f64) {
+        let at = self.roots[root as usize].at;
+        for door in doors {
+            let end = if door.lower > at.y {
+                door.lower
+            } else if door.upper < at.y {
+                door.upper
+            } else {
+                continue;
+            };
+            if let Some(root) = self.turn(root, row, Point::new(at.x, end), !ahead) {
+                let Root { at, cost, .. } = self.roots[root as usize];
+                let nearest = self.goals.iter().map(|goal| self.measure.norm(goal - at)).fold(f64::INFINITY, f64::min);
+                self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { row - 1 } else { row }));
+            }
+        }
+    }
+
+    /// What is seen through a cone, and what is reached by turning at its ends.
+    fn expand(&mut self, cone: &Cone, bound: f64) {
+        let Cone { root, row, ahead, seen } = *cone;
+        let x = self.strips.q1(row);
+        let from = self.roots[root as usize].at;
+        let (near, beyond) = if ahead { (0.0, 1.0) } else { (1.0, 0.0) };
+        let Some(cell) = self.strips.cell(cone.strip(), near, f64::midpoint(seen.lower, seen.upper)) else { return };
+        let below = if seen.tips[0] { self.turn(root, row, Point::new(x, seen.lower), ahead) } else { None };
+        let above = if seen.tips[1] { self.turn(root, row, Point::new(x, seen.upper), ahead) } else { None };
+        let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
+        for goal in self.goals(cone.strip(), cell) {
+            // Where the straight line to the goal passes the row.
+            let at = from.y + (goal.y - from.y) * ((x - from.x) / (goal.x - from.x));
+            let by = if at < seen.lower - hair[0] {
+                below
+            } else if at > seen.upper + hair[1] {
+                above
+            } else {
+                Some(root)
+            };
+            if let Some(by) = by {
+                self.push_goal(by, goal, bound);
+            }
+        }
+        let far = cone.far();
+        if self.strips.is_inner(far) {
+            let stretch = (self.strips.q1(far) - from.x) / (x - from.x);
+            let [low, high] = [seen.lower, seen.upper].map(|y| from.y + (y - from.y) * stretch);
+            let [under, over] = hair.map(|hair| hair * stretch);
+            let [bottom, top] = cell.at(beyond);
+            for door in self.doors(far, [bottom, top]) {
+                self.push_cone(root, far, ahead, &door, [bottom.max(low - under), top.min(high + over)], bound);
+                if let Some(below) = below.filter(|_| door.lower < low + under) {
+                    self.push_cone(below, far, ahead, &door, [bottom, top.min(low + under)], bound);
+                }
+                if let Some(above) = above.filter(|_| door.upper > high - over) {
+                    self.push_cone(above, far, ahead, &door, [bottom.max(high - over), top], bound);
+                }
+            }
+        }
+        if below.or(above).is_some() {
+            let doors = self.doors(row, cell.at(near));
+            let (lower, higher): (Vec<Door>, Vec<Door>) = doors.into_iter().partition(|door| door.upper < seen.upper);
+            for (root, doors) in [(below, lower), (above, higher)] {
+                if let Some(root) = root {
+                    self.along(root, row, ahead, &doors, bound);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,370 @@
+//! Joint 1's domain in strips: what is closed to joint 2 at the row between two strips, and across a strip.
+
+use super::closed::{Closed, Wall};
+use crate::geometry::merge_in_place;
+use crate::model::Scene;
+use crate::space::{Axis, Configuration, Topology};
+use std::f64::consts::TAU;
+
+/// The first strips are this share of the domain wide, or narrower beside values that link 1 closes. At least three, so
+/// that across a seam no strip is its own neighbour.
+const FIRST: usize = 64;
+
+/// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
+const NARROWEST: f64 = 1e-9;
+
+/// Rows are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
+/// by, for reaches up to a kilometre.
+const APART: f64 = 1e-12;
+
+/// An interval of joint 2 that is not closed at a row; infinite ends where nothing is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Door {
+    pub lower: f64,
+    pub upper: f64,
+    /// Whether the lower and the upper end are the ends of something closed, not of the domain.
+    pub tips: [bool; 2],
+}
+
+impl Door {
+    /// The same some turns of joint 2 further.
+    pub fn turned(self, turns: f64) -> Self {
+        Self { lower: self.lower + turns * TAU, upper: self.upper + turns * TAU, ..self }
+    }
+}
+
+/// A straight line across a strip that is closed: its values of joint 2 at the row before and the row after.
+type Barrier = [f64; 2];
+
+/// A part of a strip between two barriers: a trapezium. Infinite ends where there are none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Cell {
+    pub lower: Barrier,
+    pub upper: Barrier,
+}
+
+impl Cell {
+    /// The least and the greatest value of joint 2 at a share of the way from the row before to the row after.
+    pub fn at(&self, share: f64) -> [f64; 2] {
+        // Infinite ends stay what they are.
+        [self.lower, self.upper].map(|[before, after]| match share {
+            0.0 => before,
+            1.0 => after,
+            _ if before == after => before,
+            _ => before + (after - before) * share,
+        })
+    }
+
+    fn turned(self, turns: f64) -> Self {
+        let by = turns * TAU;
+        Self { lower: self.lower.map(|q2| q2 + by), upper: self.upper.map(|q2| q2 + by) }
+    }
+}
+
+struct Strip {
+    from: f64,
+    to: f64,
+    /// Closed by link 1.
+    closed: bool,
+    /// Ascending at both rows; once asked for.
+    barriers: Option<Vec<Barrier>>,
+    /// What is closed at its middle; once asked for.
+    middle: Option<Vec<Wall>>,
+    /// What is closed at the row at `from`, and what that leaves; once asked for.
+    walls: Option<Vec<Wall>>,
+    doors: Option<Vec<Door>>,
+}
+
+impl Strip {
+    fn new(from: f64, to: f64, closed: bool) -> Self {
+        Self { from, to, closed, barriers: None, middle: None, walls: None, doors: None }
+    }
+}
+
+/// The strips, made as they are asked for. On a turning joint 1 without limits they are numbered on and on, over all
+/// turns; strip `k` lies between rows `k` and `k + 1`.
+pub(super) struct Strips<'a> {
+    topology: Topology,
+    closed: Closed<'a>,
+    strips: Vec<Strip>,
+    /// What is closed at the end of the domain of a joint 1 with limits.
+    last: Vec<Wall>,
+}
+
+impl<'a> Strips<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let topology = scene.arm.topology();
+        let (lower, upper) = topology.axes[0].domain();
+        let mut closed = Closed::new(scene, clearance);
+        let bands = apart(closed.bands(), [lower, upper]);
+        let mut cuts: Vec<f64> = (0..=FIRST).map(|i| lower + (upper - lower) * i as f64 / FIRST as f64).collect();
+        cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > APART));
+        cuts.extend(bands.iter().flatten().copied().chain([lower, upper]));
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts.dedup();
+        let is_closed = |middle: f64| bands.iter().any(|band| band[0] < middle && middle < band[1]);
+        let strips = cuts.windows(2).map(|w| Strip::new(w[0], w[1], is_closed(f64::midpoint(w[0], w[1])))).collect();
+        let last = closed.walls(upper);
+        Self { topology, closed, strips, last }
+    }
+
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    pub fn count(&self) -> usize {
+        self.strips.len()
+    }
+
+    fn place(&self, number: i64) -> (usize, f64) {
+        let n = self.strips.len() as i64;
+        (number.rem_euclid(n) as usize, number.div_euclid(n) as f64 * TAU)
+    }
+
+    /// The strip's place among [`Strips::count`].
+    pub fn index(&self, number: i64) -> usize {
+        self.place(number).0
+    }
+
+    /// The value of joint 1 at a row.
+    pub fn q1(&self, row: i64) -> f64 {
+        let n = self.strips.len();
+        if row == n as i64 && !self.topology.axes[0].is_circle() {
+            return self.strips[n - 1].to;
+        }
+        let (index, turns) = self.place(row);
+        self.strips[index].from + turns
+    }
+
+    /// Whether there are strips on both sides of a row.
+    pub fn is_inner(&self, row: i64) -> bool {
+        self.topology.axes[0].is_circle() || 0 < row && row < self.strips.len() as i64
+    }
+
+    /// The strip that holds a value of joint 1, up to the rounding of whole turns; of two the one before.
+    pub fn locate(&self, q1: f64) -> i64 {
+        let last = self.strips.len() - 1;
+        let (value, turns) = match self.topology.axes[0] {
+            Axis::Interval { .. } => (q1, 0),
+            Axis::Circle => {
+                let turns = ((q1 - self.strips[0].from) / TAU).floor();
+                (q1 - turns * TAU, turns as i64)
+            }
+        };
+        let index = self.strips.partition_point(|strip| strip.to < value).min(last);
+        index as i64 + turns * self.strips.len() as i64
+    }
+
+    /// The strips that hold a value of joint 1: two where it is that of a row between them. Judged by the rows as they are
+    /// on that turn, where rounding may put them elsewhere than [`Strips::locate`] does.
+    pub fn around(&self, q1: f64) -> Vec<i64> {
+        let near = self.locate(q1);
+        let exists = |strip: i64| self.topology.axes[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
+        let holds = |strip: &i64| exists(*strip) && self.q1(*strip) <= q1 && q1 <= self.q1(*strip + 1);
+        (near - 1..=near + 1).filter(holds).collect()
+    }
+
+    /// The cell of a strip that holds `q2` at a share of the way from the row before to the row after; none if the
+    /// strip is closed.
+    pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
+        let index = self.index(strip);
+        self.raise(index);
+        let strip = &self.strips[index];
+        let barriers = strip.barriers.as_deref().unwrap_or(&[]);
+        let whole = Cell { lower: [f64::NEG_INFINITY; 2], upper: [f64::INFINITY; 2] };
+        let (Some(first), Some(last)) = (barriers.first(), barriers.last()) else {
+            return (!strip.closed).then_some(whole);
+        };
+        let at = |barrier: &Barrier| barrier[0] + (barrier[1] - barrier[0]) * share;
+        let round = self.topology.axes[1].is_circle();
+        let turns = if round { ((q2 - at(first)) / TAU).floor() } else { 0.0 };
+        let value = q2 - turns * TAU;
+        let after = barriers.partition_point(|barrier| at(barrier) <= value);
+        let below = after.checked_sub(1).map(|below| barriers[below]);
+        let above = barriers.get(after).copied();
+        let cell = if round {
+            Cell {
+                lower: below.unwrap_or_else(|| last.map(|q2| q2 - TAU)),
+                upper: above.unwrap_or_else(|| first.map(|q2| q2 + TAU)),
+            }
+        } else {
+            Cell { lower: below.unwrap_or(whole.lower), upper: above.unwrap_or(whole.upper) }
+        };
+        Some(cell.turned(turns))
+    }
+
+    /// What is not closed at an inner row. Every door lies within one cell of each of the strips beside it.
+    pub fn doors(&mut self, row: i64) -> &[Door] {
+        let (before, after) = (self.index(row - 1), self.index(row));
+        if self.strips[after].doors.is_none() {
+            self.raise(before);
+            self.raise(after);
+            let axis = self.topology.axes[1];
+            let mut closed = Vec::new();
+            for wall in self.walls(after) {
+                closed.extend(within_domain(axis, wall.lower, wall.upper));
+            }
+            for (strip, side) in [(before, 1), (after, 0)] {
+                let barriers = self.strips[strip].barriers.iter().flatten();
+                closed.extend(barriers.map(|barrier| [axis.wrap(barrier[side]); 2]));
+            }
+            merge_in_place(&mut closed);
+            let is_closed = self.strips[before].closed || self.strips[after].closed;
+            self.strips[after].doors = Some(if is_closed { Vec::new() } else { left_by(&closed, axis) });
+        }
+        self.strips[after].doors.as_deref().unwrap_or(&[])
+    }
+
+    /// What is closed at the row before a strip.
+    fn walls(&mut self, index: usize) -> &[Wall] {
+        let from = self.strips[index].from;
+        self.strips[index].walls.get_or_insert_with(|| self.closed.walls(from))
+    }
+
+    /// Finds the barriers of a strip: between the walls that a pair makes at both its rows.
+    fn raise(&mut self, index: usize) {
+        if self.strips[index].barriers.is_some() {
+            return;
+        }
+        let mut barriers = Vec::new();
+        if !self.strips[index].closed {
+            let before = self.walls(index).to_vec();
+            let after = if index + 1 < self.strips.len() {
+                self.walls(index + 1).to_vec()
+            } else if self.topology.axes[0].is_circle() {
+                self.walls(0).to_vec()
+            } else {
+                self.last.clone()
+            };
+            let (from, to) = (self.strips[index].from, self.strips[index].to);
+            for left in &before {
+                for right in after.iter().filter(|right| right.pair == left.pair) {
+                    barriers.extend(self.barrier([from, to], left, right));
+                }
+            }
+            barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+            // Those that cross others are left out: cells are to be convex.
+            barriers.dedup_by(|next, kept| next[0] <= kept[0] || next[1] <= kept[1]);
+            if self.topology.axes[1].is_circle() {
+                while let [first, .., last] = barriers.as_slice()
+                    && (0..2).any(|side| last[side] >= first[side] + TAU)
+                {
+                    barriers.pop();
+                }
+            }
+        }
+        self.strips[index].barriers = Some(barriers);
+    }
+
+    /// A line between two walls of a pair along which it is proven to be too near.
+    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
+        let circle = self.topology.axes[1].is_circle();
+        let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
+        let turns = if circle { ((middle(left) - middle(right)) / TAU).round() * TAU } else { 0.0 };
+        let (lower, upper) = (left.lower.max(right.lower + turns), left.upper.min(right.upper + turns));
+        let level = (lower < upper).then(|| [f64::midpoint(lower, upper); 2]);
+        let slanted = [middle(left), middle(right) + turns];
+        let proven = |ends: &Barrier| {
+            let [from, to] = [0, 1].map(|side| Configuration::new(rows[side], ends[side]));
+            self.closed.all_along(left.pair, from, to)
+        };
+        let barrier = [Some(slanted), level].into_iter().flatten().find(proven)?;
+        let back = self.topology.axes[1].wrap(barrier[0]) - barrier[0];
+        Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
+    }
+
+    /// How far `q2` is, downwards and upwards, from where the wall that holds it at the middle of a strip ends; none if no
+    /// wall does.
+    pub fn way_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
+        let strip = &mut self.strips[index];
+        let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
+        let axis = self.topology.axes[1];
+        let mut closed: Vec<[f64; 2]> =
+            walls.iter().flat_map(|wall| within_domain(axis, wall.lower, wall.upper)).collect();
+        merge_in_place(&mut closed);
+        let value = axis.wrap(q2);
+        let wall = closed.iter().find(|wall| wall[0] < value && value < wall[1]);
+        wall.map(|wall| [wall[0] - value, wall[1] - value])
+    }
+
+    /// Halves strips, given in ascending order without repetition; those that can be. Whether any was.
+    pub fn halve(&mut self, which: &[usize]) -> bool {
+        let before = std::mem::take(&mut self.strips);
+        let count = before.len();
+        self.strips.reserve(count + which.len());
+        let mut which = which.iter().peekable();
+        let mut is_beside = false;
+        for (index, mut strip) in before.into_iter().enumerate() {
+            let chosen = which.next_if(|&&w| w == index).is_some() && strip.to - strip.from > NARROWEST;
+            if std::mem::replace(&mut is_beside, chosen) {
+                strip.doors = None;
+            }
+            if !chosen {
+                self.strips.push(strip);
+                continue;
+            }
+            let middle = f64::midpoint(strip.from, strip.to);
+            let mut second = Strip::new(middle, strip.to, strip.closed);
+            second.walls = strip.middle.take();
+            let mut first = Strip::new(strip.from, middle, strip.closed);
+            first.walls = strip.walls.take();
+            self.strips.extend([first, second]);
+        }
+        // Across the seam.
+        if is_beside && let Some(first) = self.strips.first_mut() {
+            first.doors = None;
+        }
+        self.strips.len() > count
+    }
+}
+
+/// Bands, ascending, that are neither nearer than [`APART`] to each other or to an end of the domain, nor narrower.
+fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
+    let mut bands: Vec<[f64; 2]> = bands
+        .into_iter()
+        .map(|band| {
+            let from = if band[0] - lower <= APART { lower } else { band[0] };
+            let to = if upper - band[1] <= APART { upper } else { band[1] };
+            [from, to]
+        })
+        .collect();
+    bands.dedup_by(|next, kept| {
+        let touch = next[0] - kept[1] <= APART;
+        if touch {
+            kept[1] = kept[1].max(next[1]);
+        }
+        touch
+    });
+    bands.retain(|band| band[1] - band[0] > APART);
+    bands
+}
+
+/// An interval that may lead across the seam of a circle, in pieces within its domain.
+fn within_domain(axis: Axis, lower: f64, upper: f64) -> impl Iterator<Item = [f64; 2]> {
+    let (bottom, top) = axis.domain();
+    let beyond = (axis.is_circle() && upper > top).then(|| [bottom, (upper - TAU).min(top)]);
+    [Some([lower, upper.min(top)]), beyond].into_iter().flatten()
+}
+
+/// What closed intervals of the domain, disjoint and ascending, leave of it.
+fn left_by(closed: &[[f64; 2]], axis: Axis) -> Vec<Door> {
+    let (bottom, top) = axis.domain();
+    let round = axis.is_circle();
+    let (Some(first), Some(last)) = (closed.first(), closed.last()) else {
+        let (lower, upper) = if round { (f64::NEG_INFINITY, f64::INFINITY) } else { (bottom, top) };
+        return vec![Door { lower, upper, tips: [false; 2] }];
+    };
+    let mut doors = Vec::with_capacity(closed.len() + 1);
+    if !round && bottom < first[0] {
+        doors.push(Door { lower: bottom, upper: first[0], tips: [false, true] });
+    }
+    doors.extend(closed.windows(2).map(|w| Door { lower: w[0][1], upper: w[1][0], tips: [true; 2] }));
+    if !round && last[1] < top {
+        doors.push(Door { lower: last[1], upper: top, tips: [true, false] });
+    }
+    // Across the seam.
+    if round && last[1] < first[0] + TAU {
+        doors.push(Door { lower: last[1], upper: first[0] + TAU, tips: [true; 2] });
+    }
+    doors
+}
