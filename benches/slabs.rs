@@ -6,7 +6,8 @@ mod common;
 use common::{Benchmark, benchmark, problem, w20};
 use cplan::certify::slab_connectivity;
 use cplan::cspace::bitmap;
-use cplan::solve::{Verdict, decide, shorten};
+use cplan::solve::{Verdict, bound, decide, shorten};
+use cplan::space::Metric;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -29,7 +30,7 @@ fn answers(c: &mut Criterion) {
     group.finish();
 }
 
-/// The shortest path, certified, on the problems that have one.
+/// The shortest path, certified, on the problems that have one, and how near to the optimum it is proven to be.
 fn optima(c: &mut Criterion) {
     let mut group = c.benchmark_group("shortest");
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
@@ -38,6 +39,10 @@ fn optima(c: &mut Criterion) {
         let excess = certified.path().length() / optimum - 1.0;
         group.bench_function(format!("{which:?}: {excess:.1e} above the optimum"), |b| {
             b.iter(|| shorten(black_box(&problem), 1e-4, 10_000));
+        });
+        let proven = || bound(black_box(&problem), certified.path(), Metric::Euclidean, 1e-4);
+        group.bench_function(format!("{which:?}: the proof that it is within {:.1e}", proven().gap()), |b| {
+            b.iter(proven);
         });
     }
     group.finish();

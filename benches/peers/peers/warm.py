@@ -19,7 +19,7 @@ BATCHES = 3
 
 FEASIBLE = ("A", "B")
 
-CPLAN = {"decide": "cplan decide", "shorten": "cplan shorten"}
+CPLAN = {"decide": "cplan decide", "shorten": "cplan shorten", "proven": "cplan shorten, bound"}
 
 
 def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, bounds: dict[str, float]) -> Table:
@@ -27,8 +27,9 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
     table = Table(
         "Answers from a warm process",
         "The same by library calls, one after the other in one process, without files: `decide` (a certified path, "
-        "or a proof that has passed its check), `shorten` (the same, then shortened within its channel), OMPL's first "
-        "solutions (seeds differ). Milliseconds, median (quartiles); length over the proven lower bound.",
+        "or a proof that has passed its check), `shorten` (the same, then shortened within its channel), `bound` (how "
+        "far its path is from the optimum, at the most: proven), OMPL's first solutions (seeds differ). Milliseconds, "
+        "median (quartiles); length over the proven lower bound.",
         ["problem", "program", "ms", "answer", "length", "valid"],
     )
     for name, problem in problems.items():
@@ -69,8 +70,9 @@ def _library(settings: Settings, problem: Problem, rounds: int) -> dict[str, lis
     answers = {}
     for call, name in CPLAN.items():
         path = np.array(report[call]["path"]) if "path" in report[call] else None
-        clock = report["times"][call]
-        answers[name] = [Answer(report[call]["status"], ms, float("nan"), path) for ms in clock]
+        gap = report[call].get("gap")
+        told = report[call]["status"] if gap is None else f"found, proven within {gap:.0e}"
+        answers[name] = [Answer(told, ms, float("nan"), path) for ms in report["times"][call]]
     return answers
 
 
