@@ -2,35 +2,12 @@
 
 mod common;
 
-use common::{Benchmark, obstacle, q, rr, scene};
+use common::{Benchmark, obstacle, q, rr, scene, shipped_feasible};
 use cplan::geometry::{Convex, Point};
-use cplan::input::{self, Overrides};
 use cplan::model::{Goal, Problem};
 use cplan::solve::{Answer, Bound, Effort, Method, Verdict, bound, solve};
 use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
-
-fn shipped_feasible() -> Vec<(String, Problem)> {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files: Vec<_> =
-        std::fs::read_dir(root.join("workspaces")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
-    files.sort();
-    let problems: Vec<_> = files
-        .iter()
-        .filter_map(|file| {
-            let text = std::fs::read_to_string(file).unwrap();
-            let line = |key: &str| text.lines().find_map(|l| l.strip_prefix(key).map(str::trim).map(str::to_owned));
-            (line("# expect:")? == "found").then(|| {
-                let urdf = root.join("robots").join(format!("{}.urdf", line("# robot:").unwrap()));
-                let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-                (file.file_stem().unwrap().to_str().unwrap().to_owned(), loaded.problem)
-            })
-        })
-        .collect();
-    assert!(problems.len() >= 15, "only {} feasible workspaces", problems.len());
-    problems
-}
 
 fn answer(problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
     solve(problem, Method::Visibility, &Effort { metric, gap, ..Effort::default() }, &mut |_| {})

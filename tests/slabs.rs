@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, problem, q, rectangle, rr, scene};
+use common::{Benchmark, all_kinds, arm, benchmark, clutter, inside, joint, link, problem, q, rectangle, rr, scene};
 use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
@@ -75,14 +75,6 @@ fn obstacle() -> impl Strategy<Value = Convex> {
             _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
         }
     })
-}
-
-fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
-    let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm.topology().axes[k].domain();
-        lower + t * (upper - lower)
-    };
-    q(at(0, u), at(1, v))
 }
 
 proptest! {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
 use cplan::geometry::{Convex, Point, Vector};
+use cplan::input::{self, Overrides};
 use cplan::model::{
     Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
 };
@@ -161,4 +162,36 @@ pub fn w20() -> Scene {
 pub fn problem(which: Benchmark) -> Problem {
     let (scene, start, goal) = benchmark(which);
     Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }
+}
+
+/// The configuration at these shares of the joints' ranges.
+pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
+    let at = |k: usize, t: f64| {
+        let (lower, upper) = scene.arm.topology().axes[k].domain();
+        lower + t * (upper - lower)
+    };
+    q(at(0, u), at(1, v))
+}
+
+/// The shipped workspaces that say that there is a path, with their robots; by name.
+pub fn shipped_feasible() -> Vec<(String, Problem)> {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<_> =
+        std::fs::read_dir(root.join("workspaces")).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
+    files.sort();
+    let problems: Vec<_> = files
+        .iter()
+        .filter_map(|file| {
+            let text = std::fs::read_to_string(file).unwrap();
+            let line = |key: &str| text.lines().find_map(|l| l.strip_prefix(key).map(str::trim).map(str::to_owned));
+            (line("# expect:")? == "found").then(|| {
+                let urdf = root.join("robots").join(format!("{}.urdf", line("# robot:").unwrap()));
+                let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+                (file.file_stem().unwrap().to_str().unwrap().to_owned(), loaded.problem)
+            })
+        })
+        .collect();
+    assert!(problems.len() >= 15, "only {} feasible workspaces", problems.len());
+    problems
 }

@@ -1,11 +1,11 @@
 //! Random worlds of all kinds of arms: no planner finds a motion that is shorter than the bound.
 
-use crate::common::{all_kinds, q, rectangle, scene};
+use crate::common::{all_kinds, inside, rectangle, scene};
 use crate::{LIMITS, ROUNDING, bound, metrics, world};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Goal, Problem, Scene};
+use cplan::model::{Goal, Problem};
 use cplan::solve::{Effort, Method, Verdict, decide, shorten, solve};
-use cplan::space::{Configuration, Metric, Path};
+use cplan::space::{Metric, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -57,14 +57,6 @@ fn obstacle() -> impl Strategy<Value = Convex> {
             _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
         }
     })
-}
-
-fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
-    let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm.topology().axes[k].domain();
-        lower + t * (upper - lower)
-    };
-    q(at(0, u), at(1, v))
 }
 
 proptest! {
