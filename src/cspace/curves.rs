@@ -4,7 +4,7 @@ use super::chord::{Contact, PairMotion};
 use super::events::events;
 use super::outline::{Break, Flattening, Source, contours};
 use super::rows::Rows;
-use crate::geometry::{Convex, Hits, Point};
+use crate::geometry::{Hits, Point};
 use crate::space::Configuration;
 use std::f64::consts::{PI, TAU};
 
@@ -55,48 +55,41 @@ impl<'a> Curves<'a> {
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
-    /// Rows to begin with, in order.
+    /// Rows to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
+    /// the floor, which are kept, or at the level. Of two no farther apart than contours overlap one does.
     fn breaks(&self) -> Vec<Break> {
         let scene = self.rows.scene();
         let pair = scene.pairs()[self.index];
-        let shapes = [scene.part(pair), scene.piece(pair)];
+        let arm = &scene.arm;
         let levels = [(self.floor, true), (self.level, false)];
-        first_breaks(self.rows, self.index, shapes, &levels, OVERLAP * self.min_width)
-    }
-}
-
-/// Rows to begin with, in order: some all over the range of `q1`, and those where pair `index`, with `shapes` for part and
-/// piece, begins or ceases to be at each of `levels`, to be kept as it says. Of two no farther apart than `same` one does.
-fn first_breaks(rows: &Rows, index: usize, shapes: [&Convex; 2], levels: &[(f64, bool)], same: f64) -> Vec<Break> {
-    let arm = &rows.scene().arm;
-    let joint = &arm.joints[0];
-    let greatest = levels.iter().map(|l| l.0).fold(0.0, f64::max);
-    let (start, end) = if joint.motion.is_revolute() {
-        let start = seam(rows, index, greatest);
-        (start, start + TAU)
-    } else {
-        joint.axis.domain()
-    };
-    let step = (end - start) / FIRST_ROWS as f64;
-    let mut breaks: Vec<Break> = (0..FIRST_ROWS)
-        .map(|i| Break { q1: start + step * i as f64, keep: false })
-        .chain([Break { q1: end, keep: false }])
-        .collect();
-    for &(level, keep) in levels {
-        for q1 in events(arm, shapes[0], shapes[1], level) {
-            let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
-            if start <= q1 && q1 <= end {
-                breaks.push(Break { q1, keep });
+        let joint = &arm.joints[0];
+        let (start, end) = if joint.motion.is_revolute() {
+            let start = seam(self.rows, self.index, self.level);
+            (start, start + TAU)
+        } else {
+            joint.axis.domain()
+        };
+        let step = (end - start) / FIRST_ROWS as f64;
+        let mut breaks: Vec<Break> = (0..FIRST_ROWS)
+            .map(|i| Break { q1: start + step * i as f64, keep: false })
+            .chain([Break { q1: end, keep: false }])
+            .collect();
+        for (level, keep) in levels {
+            for q1 in events(arm, scene.part(pair), scene.piece(pair), level) {
+                let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
+                if start <= q1 && q1 <= end {
+                    breaks.push(Break { q1, keep });
+                }
             }
         }
+        breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
+        breaks.dedup_by(|b, a| {
+            let near = b.q1 - a.q1 <= OVERLAP * self.min_width;
+            a.keep |= near && b.keep;
+            near
+        });
+        breaks
     }
-    breaks.sort_by(|a, b| a.q1.total_cmp(&b.q1));
-    breaks.dedup_by(|b, a| {
-        let near = b.q1 - a.q1 <= same;
-        a.keep |= near && b.keep;
-        near
-    });
-    breaks
 }
 
 /// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
