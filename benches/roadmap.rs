@@ -1,7 +1,7 @@
 //! Roadmap planners among random disjoint polygons, 23 % of the area filled: what they build, the whole visibility graph,
 //! one query; and beside it the textbook's visibility graph, every pair of corners against every side.
 
-#[path = "../tests/roadmap/mod.rs"]
+#[path = "../tests/common/roadmap.rs"]
 #[allow(dead_code, reason = "the judges of the test suite are not needed here")]
 mod roadmap;
 

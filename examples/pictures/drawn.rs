@@ -1,4 +1,4 @@
-//! What the pictures of the documentation show. `tests/pictures.rs` draws them, too.
+//! What the pictures of the documentation show. `tests/program/pictures.rs` draws them, too.
 
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, svg, task_svg};

@@ -1,7 +1,7 @@
 //! The counts of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais*: a robot in a room of 40 m x 20 m, cells of 0.5 m,
 //! harmonic and oriented fields for three goals.
 
-use crate::row::{Claim, Count};
+use super::row::{Claim, Count};
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, Scan,
     Stopping, relax,

@@ -1,8 +1,8 @@
 //! Tables 17, 18 and 19 of L. E. Deicu, *Planejadores de caminho baseados em campos potenciais* (UFRGS, Porto Alegre 2012):
 //! sweeps of twelve algorithms on three line maps, before preferences are switched on and in all.
 
-use crate::line_maps::Scene;
-use crate::row::{Claim, Count};
+use super::line_maps::Scene;
+use super::row::{Claim, Count};
 use Claim::{Close, Match, Unmatched};
 use cplan::field::{Difference, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, relax};
 use cplan::input::{InputError, LineMap, PreferenceMap};

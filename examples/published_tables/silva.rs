@@ -5,7 +5,7 @@
 //! x 130 cm and goals 10 cm deep, which are 85 x 65 cells of 2 cm), and on it three robots a side and a ball move along
 //! curves of our own. So counts can be compared with one another, not with those of the source.
 
-use crate::row::{Claim, Count};
+use super::row::{Claim, Count};
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Influence, Levels, Measure, Order, Relaxation,
     Scan, Stopping, around, relax_from,

@@ -83,7 +83,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 mod tests {
     use super::*;
 
-    /// All examples of all helps are command lines; `tests/cli/help.rs` runs those that end soon.
+    /// All examples of all helps are command lines; `tests/program/cli/help.rs` runs those that end soon.
     #[test]
     fn examples_are_command_lines() {
         let mut command = Cli::command();

@@ -1,6 +1,9 @@
 //! Arms and scenes made in code, for tests and benchmarks.
 #![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
+pub mod mazes;
+pub mod roadmap;
+
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{

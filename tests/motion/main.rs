@@ -5,8 +5,11 @@ mod common;
 
 mod certificate;
 mod jerk;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod optimum;
 mod sampled;
+mod trajectory;
 
 use common::{arm, joint, link, q, scene};
 use cplan::certify::{CertifiedCurve, CertifiedPath, blend, certify};

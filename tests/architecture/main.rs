@@ -1,0 +1,3 @@
+//! The source text itself: who imports whom.
+
+mod imports;

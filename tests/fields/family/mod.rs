@@ -1,0 +1,11 @@
+//! The family of field equations and relaxations against direct solutions of the same equations, assembled here from
+//! difference quotients; and its promises on random grids.
+
+mod direct;
+mod divergence;
+mod khatib;
+mod planner;
+mod product;
+mod promises;
+mod stopping;
+mod zones;

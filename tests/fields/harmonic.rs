@@ -1,0 +1,311 @@
+//! The harmonic field at any length: exact values where they are far below the least double, mazes and spirals, and the
+//! path between the cells.
+
+use crate::common::mazes;
+use cplan::cspace::{Grid, Proves};
+use cplan::field::{Component, Field, Interpolated, Lattice, Place, Potential, harmonic, residual};
+use cplan::plan::{Harmonic, Outcome, Planner, Query, Trace};
+use cplan::space::{Axis, Topology};
+use num_rational::BigRational;
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+    let axis = |k: usize| match circles[k] {
+        true => Axis::Circle,
+        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+    };
+    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+}
+
+fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {
+    let lattice = Lattice::new(grid);
+    let component = Component::new(&lattice, &lattice.wave(goals));
+    let field = harmonic(&component);
+    (component, field)
+}
+
+/// What every field has to fulfil.
+fn is_sound(component: &Component, field: &Field) {
+    let residual = residual(component, &field.potential);
+    assert!(residual < 2e-14, "residual {residual:e}");
+    assert!(field.potential.navigates(component));
+}
+
+/// The harmonic function by Gaussian elimination in rational numbers, without any loss on the way.
+fn exact(component: &Component) -> Vec<BigRational> {
+    let n = component.len();
+    let number = |x: i64| BigRational::from_integer(x.into());
+    let mut rows: Vec<Vec<BigRational>> = vec![vec![number(0); n + 1]; n];
+    for (i, row) in rows.iter_mut().enumerate() {
+        if i < component.goals {
+            (row[i], row[n]) = (number(1), number(1));
+            continue;
+        }
+        row[i] += number(4);
+        for &neighbor in component.neighbors[i].iter().filter(|&&k| (k as usize) < n) {
+            row[neighbor as usize] -= number(1);
+        }
+    }
+    // From the far end: a chain of corridors then keeps few entries a row.
+    for k in (0..n).rev() {
+        let row = rows[k].clone();
+        for other in rows[..k].iter_mut().filter(|other| other[k] != number(0)) {
+            let share = &other[k] / &row[k];
+            for (x, y) in other.iter_mut().zip(&row).filter(|(_, y)| **y != number(0)) {
+                *x -= &share * y;
+            }
+        }
+    }
+    let mut solution = vec![number(0); n];
+    for k in 0..n {
+        let known = (0..k).filter(|&l| rows[k][l] != number(0)).map(|l| &rows[k][l] * &solution[l]);
+        solution[k] = (&rows[k][n] - known.fold(number(0), |sum, x| sum + x)) / &rows[k][k];
+    }
+    solution
+}
+
+/// Natural logarithm of a positive rational of any size.
+fn ln(x: &BigRational) -> f64 {
+    let part = |x: &num_rational::BigRational, upper: bool| {
+        let digits = if upper { x.numer() } else { x.denom() }.to_string();
+        let leading: f64 = digits[..digits.len().min(18)].parse().expect("digits");
+        leading.ln() + (digits.len() - digits.len().min(18)) as f64 * std::f64::consts::LN_10
+    };
+    part(x, true) - part(x, false)
+}
+
+fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
+    (1..14_usize, 1..14_usize, any::<[bool; 2]>(), 0.0..0.6_f64).prop_flat_map(|(rows, columns, circles, density)| {
+        let cells = proptest::collection::vec(proptest::bool::weighted(density), rows * columns);
+        (cells, 0..rows * columns)
+            .prop_map(move |(blocked, goal)| (grid([rows, columns], circles, blocked), goal))
+            .prop_filter("a free goal", |(grid, goal)| !grid.blocked[*goal])
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
+        prop_assume!(grid.blocked.len() <= 80);
+        let (component, field) = solved(&grid, &[goal]);
+        for (i, value) in exact(&component).iter().enumerate() {
+            // Walks are lost at a rate of 1e-13 a step.
+            prop_assert!((field.potential.ln(i) - ln(value)).abs() < 1e-9, "{} is not {}", field.potential.ln(i), ln(value));
+        }
+    }
+}
+
+/// A wide room, thin walls, mazes, pillars: of some thousand cells, with the goal anywhere.
+fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
+    let kinds = (0..5_usize, 20..70_usize, any::<[bool; 2]>(), any::<u64>());
+    let grids = kinds.prop_map(|(kind, half, circles, seed)| {
+        let n = 2 * half + 1;
+        let at = |i: usize, j: usize| (seed ^ ((i * n + j) as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
+        let cell = |i: usize, j: usize| match kind {
+            0 => at(i, j) % 100 < 2,
+            1 => at(i, j) % 100 < 38,
+            // Thin walls with a gap each.
+            2 => i % 9 == 4 && at(i, 0) as usize % n != j,
+            // Wide and narrow corridors in turn, in a serpent.
+            3 => matches!(i % 20, 11 | 13 | 19) && if i % 20 == 13 { j != 0 } else { j + 1 != n },
+            _ => false,
+        };
+        let blocked =
+            if kind == 4 { mazes::maze(n, seed % 200) } else { (0..n * n).map(|c| cell(c / n, c % n)).collect() };
+        grid([n, n], circles, blocked)
+    });
+    grids.prop_flat_map(|grid| {
+        let free: Vec<usize> = (0..grid.blocked.len()).filter(|&cell| !grid.blocked[cell]).collect();
+        (Just(grid), proptest::collection::vec(proptest::sample::select(free), 1..3))
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn every_cell_has_a_greater_neighbor_in_large_grids_of_all_kinds((grid, goals) in large_grid()) {
+        let (component, field) = solved(&grid, &goals);
+        is_sound(&component, &field);
+    }
+}
+
+/// Where the symmetry of walls and goals makes all four neighbours equal, the harmonic function itself is level: the loss
+/// of walks on their way makes it fall there.
+#[test]
+fn the_middle_of_four_goals_is_not_level() {
+    for half in [2, 3, 20, 40] {
+        let n = 2 * half + 1;
+        let grid = grid([n, n], [false; 2], vec![false; n * n]);
+        let goals = [half, half * n, half * n + n - 1, (n - 1) * n + half];
+        let (component, field) = solved(&grid, &goals);
+        is_sound(&component, &field);
+        assert!(field.potential.ascend(&component, component.position_of(half * n + half).unwrap()).is_some());
+    }
+}
+
+/// A corridor one cell wide: each value is `2 - sqrt 3` of the one before, but for the few at its closed end.
+#[test]
+fn a_spiral_of_a_hundred_thousand_cells() {
+    let (blocked, inner) = mazes::spiral(451);
+    let grid = grid([451; 2], [false; 2], blocked);
+    let free = grid.blocked.iter().filter(|&&blocked| !blocked).count();
+    assert!(free > 100_000, "only {free} cells");
+    let (component, field) = solved(&grid, &[inner]);
+    is_sound(&component, &field);
+    let cells = field.potential.ascend(&component, component.position_of(0).unwrap()).unwrap();
+    assert_eq!(cells.len(), free);
+    // The closed form of a chain: u_k = sinh((n - k) theta) / sinh(n theta) with the wall behind cell n - 1.
+    let theta = 2.0_f64.acosh();
+    for k in [1, 10, 1000, 50_000, 100_000] {
+        let expected = -(k as f64) * theta + (-2.0 * (free - k) as f64 * theta).exp().ln_1p().min(0.0);
+        assert!((field.potential.ln(k) - expected).abs() < 1e-12 * expected.abs() + 1e-7, "cell {k}");
+    }
+}
+
+#[test]
+fn a_maze_of_2001_x_2001_cells() {
+    let n = 2001;
+    let grid = grid([n, n], [false; 2], mazes::maze(n, 0));
+    let (component, field) = solved(&grid, &[n * n - 1]);
+    assert_eq!(component.len(), 2 * 1001 * 1001 - 1);
+    is_sound(&component, &field);
+    let cells = field.potential.ascend(&component, component.position_of(0).unwrap()).unwrap();
+    assert_eq!(component.place(*cells.last().unwrap()), [n - 1, n - 1]);
+}
+
+#[test]
+fn a_braided_maze_of_501_x_501_cells() {
+    let n = 501;
+    let grid = grid([n, n], [false; 2], mazes::maze(n, 100));
+    let (component, field) = solved(&grid, &[0]);
+    is_sound(&component, &field);
+}
+
+/// Points on sides between two centres, by what the centres' values are.
+fn interpolated(grid: &Grid, ln: &[f64], at: [f64; 2]) -> Option<f64> {
+    let value = |i: f64, j: f64| {
+        let place = [i, j].map(|x| x as i64);
+        let wrapped: Vec<i64> =
+            (0..2)
+                .map(|k| {
+                    if grid.topology.axes[k].is_circle() { place[k].rem_euclid(grid.cells[k] as i64) } else { place[k] }
+                })
+                .collect();
+        let inside = (0..2).all(|k| (0..grid.cells[k] as i64).contains(&wrapped[k]));
+        if inside { ln[wrapped[0] as usize * grid.cells[1] + wrapped[1] as usize].exp() } else { 0.0 }
+    };
+    let [i, j] = at.map(f64::floor);
+    let [x, y] = [at[0] - i, at[1] - j];
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-7;
+    let mix = |a: f64, b: f64, t: f64| Some((1.0 - t) * a + t * b);
+    if near(y, 0.0) || near(y, 1.0) {
+        let j = at[1].round();
+        mix(value(i, j), value(i + 1.0, j), x)
+    } else if near(x, 0.0) || near(x, 1.0) {
+        let i = at[0].round();
+        mix(value(i, j), value(i, j + 1.0), y)
+    } else if near(x, y) {
+        mix(value(i, j), value(i + 1.0, j + 1.0), x)
+    } else if near(x + y, 1.0) {
+        mix(value(i, j + 1.0), value(i + 1.0, j), x)
+    } else {
+        None
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// The path between the cells rises all along, stays in free cells and ends at the goal.
+    #[test]
+    fn paths_rise_within_free_cells(
+        (grid, goal) in random_grid(),
+        start in any::<proptest::sample::Index>(),
+        offset in any::<(u8, u8)>(),
+    ) {
+        let start = start.index(grid.blocked.len());
+        prop_assume!(!grid.blocked[start]);
+        let step = grid.step();
+        let part = [offset.0, offset.1].map(|x| f64::from(x) / 256.0 - 0.498);
+        let from = grid.center(start) + cplan::space::Configuration::new(part[0] * step[0], part[1] * step[1]);
+        let planner = Harmonic { shortcut: false };
+        let run = planner.query(&grid, &planner.build(&grid), &Query { start: from, goals: vec![grid.center(goal)] });
+        let Trace::Field { potential: ln, .. } = &run.trace else { panic!("no field") };
+        let path = match &run.outcome {
+            Outcome::Found(path) => path,
+            Outcome::NoPath => return Ok(()),
+            Outcome::GaveUp(reason) => panic!("{reason}"),
+        };
+        prop_assert_eq!(path.start(), from);
+        prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-9);
+        for (a, b) in path.segments() {
+            for k in 0..=50 {
+                let q = a + (b - a) * (f64::from(k) / 50.0);
+                // On a side between two cells either may be the free one.
+                let beside = |d: [f64; 2]| {
+                    let p = q + cplan::space::Configuration::new(d[0] * 1e-7 * step[0], d[1] * 1e-7 * step[1]);
+                    grid.topology.contains(p) && !grid.blocked[grid.locate(p)]
+                };
+                prop_assert!([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().any(beside), "{q:?}");
+            }
+        }
+        let points = &path.waypoints()[1..path.waypoints().len().max(2) - 1];
+        let lattice = |q: &cplan::space::Configuration| {
+            [0, 1].map(|k| (q[k] - grid.topology.axes[k].domain().0) / step[k] - 0.5)
+        };
+        let values: Vec<f64> = points.iter().filter_map(|q| interpolated(&grid, ln, lattice(q))).collect();
+        prop_assert_eq!(values.len(), points.len(), "a corner of the path is on no side");
+        prop_assert!(values.windows(2).all(|w| w[1] > w[0] * (1.0 - 1e-9)), "{values:?}");
+    }
+}
+
+/// In `u = sin(pi x / w) sinh(pi y / w)` the path is the streamline that a fine Runge-Kutta integration finds.
+#[test]
+fn paths_are_streamlines_of_a_known_function() {
+    let (w, h) = (64_usize, 96_usize);
+    let u = |x: f64, y: f64| (PI * x / w as f64).sin() * (PI * y / w as f64).sinh();
+    // Centres at 1 .. w - 1 and 1 .. h - 1; goals in the last row.
+    let (columns, rows) = (w - 1, h - 1);
+    let grid = grid([rows, columns], [false; 2], vec![false; rows * columns]);
+    let lattice = Lattice::new(&grid);
+    let goals: Vec<usize> = ((rows - 1) * columns..rows * columns).collect();
+    let component = Component::new(&lattice, &lattice.wave(&goals));
+    let log2 = (0..component.len()).map(|position| {
+        let [i, j] = component.place(position);
+        u((j + 1) as f64, (i + 1) as f64).log2()
+    });
+    let potential = Potential::from_log2(&log2.collect::<Vec<_>>());
+    let inside = |[i, j]: Place| (0..rows as i64).contains(&i) && (0..columns as i64).contains(&j);
+    let position = |p: Place| inside(p).then(|| component.position_of(p[0] as usize * columns + p[1] as usize))?;
+    for start in [[1.3, 4.6], [3.0, 10.0], [20.2, 55.1], [0.0, 31.0]] {
+        let streamline = Interpolated::new(&component, &potential, position).ascend(start).unwrap();
+        assert_eq!(streamline.place[0], rows as i64 - 1);
+        // (y, x) as the lattice has it; gradient by the closed form, steps of 1/100 of a cell.
+        let slope = |[i, j]: [f64; 2]| {
+            let (x, y) = (PI * (j + 1.0) / w as f64, PI * (i + 1.0) / w as f64);
+            let g = [x.sin() * y.cosh(), x.cos() * y.sinh()];
+            let length = g[0].hypot(g[1]);
+            g.map(|g| g / length)
+        };
+        let mut fine = vec![start];
+        let mut at: [f64; 2] = start;
+        while at[0] < rows as f64 - 1.5 {
+            let step = 0.01;
+            let moved = |d: [f64; 2], by: f64| [at[0] + by * d[0], at[1] + by * d[1]];
+            let a = slope(at);
+            let b = slope(moved(a, step / 2.0));
+            let c = slope(moved(b, step / 2.0));
+            let d = slope(moved(c, step));
+            at = [0, 1].map(|k| at[k] + step / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]));
+            fine.push(at);
+        }
+        for p in &streamline.points {
+            let nearest = fine.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.7, "{p:?} is {nearest} cells off the streamline from {start:?}");
+        }
+    }
+}

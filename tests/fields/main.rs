@@ -1,0 +1,8 @@
+//! Potential fields and the planners that follow them, against solutions that share no code with the solvers.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod family;
+mod harmonic;
+mod multigrid;
+mod planners;

@@ -1,0 +1,217 @@
+//! Rows and grids from rows against clearances and parry2d's verdicts, for all four kinds of arm.
+
+use crate::common::{self, Benchmark};
+use cplan::cspace::{Bitmap, Grid, Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
+use cplan::geometry::{Convex, Hits, Point, Vector};
+use cplan::model::{Arm, Motion, Scene};
+use cplan::space::{Axis, Configuration};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+/// A centre within this of contact may be judged either way, metres: parry2d's tolerance is some 1e-10.
+const BOUNDARY: f64 = 1e-7;
+
+fn revolute() -> impl Strategy<Value = (Motion, Axis)> {
+    let axis = prop_oneof![
+        Just(Axis::Circle),
+        (-4.0..0.0f64, 0.5..6.0f64).prop_map(|(lower, extent)| Axis::Interval { lower, upper: lower + extent }),
+        Just(Axis::Interval { lower: -4.0, upper: 4.5 }),
+    ];
+    (prop_oneof![Just(1.0), Just(-1.0)], axis).prop_map(|(sign, axis)| (Motion::Revolute { sign }, axis))
+}
+
+fn prismatic() -> impl Strategy<Value = (Motion, Axis)> {
+    (-PI..PI, -1.0..0.2f64, 0.1..1.5f64).prop_map(|(angle, lower, extent)| {
+        let direction = Vector::new(angle.cos(), angle.sin());
+        (Motion::Prismatic { direction }, Axis::Interval { lower, upper: lower + extent })
+    })
+}
+
+fn piece() -> impl Strategy<Value = Convex> {
+    let size = 0.05..0.4f64;
+    ((-2.0..2.0, -2.0..2.0), size, 1usize..6, 0.0..TAU, prop_oneof![Just(0.0), 0.02..0.2f64]).prop_map(
+        |((x, y), size, corners, turn, radius)| {
+            let corner = |k: usize| {
+                let angle = turn + TAU * k as f64 / corners as f64;
+                Point::new(x + size * angle.cos(), y + size * angle.sin())
+            };
+            let radius = if corners == 1 { radius + 0.05 } else { radius };
+            Convex::new((0..corners).map(corner).collect(), radius)
+        },
+    )
+}
+
+fn part() -> impl Strategy<Value = Convex> {
+    let bar = (0.3..1.2f64, 0.02..0.1f64)
+        .prop_map(|(length, half_width)| common::rectangle(0.0, length, -half_width, half_width));
+    let capsule = (0.3..1.2f64, 0.02..0.1f64)
+        .prop_map(|(length, radius)| Convex::new(vec![Point::origin(), Point::new(length, 0.0)], radius));
+    prop_oneof![bar, capsule, piece()]
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let joint = || prop_oneof![2 => revolute(), 1 => prismatic()];
+    let parts = || prop::collection::vec(part(), 1..3);
+    (
+        (-0.3..0.3, -0.3..0.3),
+        (0.0..1.2f64, -0.2..0.2),
+        [joint(), joint()],
+        [parts(), parts()],
+        prop::collection::vec(piece(), 1..5),
+    )
+        .prop_map(|(base, offset, [first, second], parts, pieces)| {
+            let joints = [common::joint("j1", first.0, first.1), common::joint("j2", second.0, second.1)];
+            let links = parts.map(|shapes| common::link("link", shapes));
+            let (offset, tip) = (Vector::new(offset.0, offset.1), Point::new(1.0, 0.0));
+            let arm = Arm { base: Point::new(base.0, base.1), ..common::arm(joints, links, offset, tip) };
+            common::scene(arm, pieces)
+        })
+}
+
+/// Least distance of the pairs of one link.
+fn link_clearance(scene: &Scene, link: usize, q: Configuration) -> f64 {
+    let distances = scene.separations(q).filter(|c| c.pair.link == link).map(|c| c.separation.distance);
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+fn at(axis: Axis, t: f64) -> f64 {
+    axis.domain().0 + t * axis.extent()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn bitmaps_are_grids(scene in any_scene(), cells in (1..90_usize, 1..200_usize), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
+        let cells = [cells.0, cells.1];
+        let (bits, grid) = (bitmap(&scene, cells, clearance), grid_from_rows(&scene, cells, clearance));
+        prop_assert_eq!(bits.cells(), cells);
+        for index in 0..cells[0] * cells[1] {
+            if bits.blocked(index / cells[1], index % cells[1]) != grid.blocked[index] {
+                let distance = scene.clearance(grid.center(index)) - clearance;
+                prop_assert!(distance.abs() < BOUNDARY, "cell {} is {} from contact", index, distance);
+            }
+        }
+        let counted = (0..cells[0] * cells[1]).filter(|i| bits.blocked(i / cells[1], i % cells[1])).count();
+        prop_assert_eq!(bits.count(), counted);
+        prop_assert_eq!((0..cells[0]).map(|i| bits.row(i).iter().map(|w| w.count_ones()).sum::<u32>()).sum::<u32>() as usize, bits.count());
+    }
+
+    #[test]
+    fn rows_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
+        let rows = Rows::new(&scene);
+        let [first, second] = scene.arm.topology().axes;
+        let bands = rows.bands(grow);
+        let mut row = Row::default();
+        let q1 = at(first, s);
+        rows.row(q1, grow, &mut row);
+        for k in 0..=200 {
+            let t = f64::from(k) / 200.0;
+            let q = Configuration::new(q1, at(second, t));
+            let distance = link_clearance(&scene, 1, q) - grow;
+            prop_assert!(distance.abs() < BOUNDARY || row.forbids(q[1]) == (distance < 0.0), "row {}: {}", q, distance);
+            let q = Configuration::new(at(first, t), 0.0);
+            let distance = link_clearance(&scene, 0, q) - grow;
+            prop_assert!(distance.abs() < BOUNDARY || bands.forbids(q[0]) == (distance < 0.0), "band {}: {}", q, distance);
+        }
+    }
+
+    #[test]
+    fn outside_its_reach_range_a_pair_keeps_its_distance(scene in any_scene(), grow in 0.0..0.2f64) {
+        let rows = Rows::new(&scene);
+        let [first, second] = scene.arm.topology().axes;
+        for index in rows.second_link_pairs() {
+            let mut range = Vec::new();
+            let hits = rows.reach_range(index, grow, &mut range);
+            let pair = scene.pairs()[index];
+            for k in 0..400 {
+                let q = Configuration::new(at(first, f64::from(k % 20) / 19.0), at(second, f64::from(k / 20) / 19.0));
+                let turns = if scene.arm.joints[0].motion.is_revolute() { [-TAU, 0.0, TAU] } else { [0.0; 3] };
+                let inside = |r: &[f64; 2]| turns.iter().any(|turn| r[0] <= q[0] + turn && q[0] + turn <= r[1]);
+                let reached = match hits {
+                    Hits::Never => false,
+                    Hits::Always => true,
+                    Hits::Within => range.iter().any(inside),
+                };
+                let contact = scene.separations(q).find(|c| c.pair == pair);
+                prop_assert!(reached || contact.is_none_or(|c| c.separation.distance > grow - BOUNDARY));
+            }
+        }
+    }
+
+    #[test]
+    fn grids_from_rows_are_those_of_collision_tests(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
+        let cells = [23, 31];
+        let (rows, sampled) = (grid_from_rows(&scene, cells, clearance), sampled_grid(&scene, cells, clearance));
+        for index in 0..rows.blocked.len() {
+            if rows.blocked[index] != sampled.blocked[index] {
+                let distance = scene.clearance(rows.center(index)) - clearance;
+                prop_assert!(distance.abs() < BOUNDARY, "cell {} is {} from contact", index, distance);
+            }
+        }
+    }
+
+    #[test]
+    fn free_cells_are_wholly_free(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64], places in prop::collection::vec((0.0..=1.0f64, 0.0..=1.0f64), 8)) {
+        let grid = outer_grid(&scene, [37, 29], clearance);
+        let Proves::Outer { margin } = grid.proves else { panic!("an outer grid proves that free is free") };
+        let step = grid.step();
+        for index in 0..grid.blocked.len() {
+            let center = grid.center(index);
+            for (s, t) in &places {
+                let q = center + Configuration::new((s - 0.5) * step[0], (t - 0.5) * step[1]);
+                let distance = scene.clearance(q);
+                if grid.blocked[index] {
+                    prop_assert!(distance <= clearance + margin, "blocked at {}, {} away with margin {}", q, distance, margin);
+                } else {
+                    prop_assert!(distance > clearance, "free at {}, {} away", q, distance);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn w20_from_rows_is_that_of_collision_tests() {
+    let scene = common::w20();
+    let cells = [1024, 1024];
+    let (rows, sampled) = (grid_from_rows(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
+    let differing: Vec<usize> = (0..rows.blocked.len()).filter(|&i| rows.blocked[i] != sampled.blocked[i]).collect();
+    for &index in &differing {
+        let distance = scene.clearance(rows.center(index));
+        assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
+    }
+    let blocked = rows.blocked.iter().filter(|b| **b).count() as f64 / rows.blocked.len() as f64;
+    assert!(blocked > 0.1 && blocked < 0.9, "a mixed picture, not a share of {blocked}");
+}
+
+/// The cells in which a bitmap differs from a grid.
+fn differing(bits: &Bitmap, grid: &Grid) -> Vec<usize> {
+    let columns = grid.cells[1];
+    (0..grid.blocked.len()).filter(|&i| bits.blocked(i / columns, i % columns) != grid.blocked[i]).collect()
+}
+
+#[test]
+fn bitmaps_of_the_benchmarks_are_their_grids() {
+    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+        let cells = [2048, 2048];
+        let (bits, grid) = (bitmap(&scene, cells, 0.0), grid_from_rows(&scene, cells, 0.0));
+        for index in differing(&bits, &grid) {
+            let distance = scene.clearance(grid.center(index));
+            assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
+        }
+        assert!(bits.count() > 0 && bits.count() < cells[0] * cells[1]);
+    }
+}
+
+#[test]
+fn bitmaps_are_what_collision_tests_say() {
+    for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
+        let cells = [256, 256];
+        let (bits, sampled) = (bitmap(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
+        for index in differing(&bits, &sampled) {
+            let distance = scene.clearance(sampled.center(index));
+            assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
+        }
+    }
+}

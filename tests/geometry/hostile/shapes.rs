@@ -1,0 +1,113 @@
+//! All that the library says of two convex shapes, compared with exact numbers.
+
+use super::exact::{self, Number, Pair};
+use cplan::geometry::{
+    Convex, Location, Point, hull, minkowski_difference, point_penetration, polygon_test, shapes_meet,
+};
+use std::cmp::Ordering;
+use std::fmt::Debug;
+
+/// A polygon as the library has it and in exact numbers, corner by corner the same.
+#[derive(Debug, Clone)]
+pub struct Shape<T> {
+    pub points: Vec<Point>,
+    pub exact: Vec<Pair<T>>,
+}
+
+impl<T: Number + Debug> Shape<T> {
+    /// The convex hull, by both: they have to agree.
+    pub fn hull(points: &[Point], exact: &[Pair<T>]) -> Self {
+        let corners = exact::hull(exact);
+        let expected: Vec<Point> = corners.iter().map(|&i| points[i]).collect();
+        let mut found = hull(points);
+        // The library begins at the leftmost corner, the oracle at the lowest.
+        let first = found.iter().position(|p| *p == expected[0]).expect("the lowest corner");
+        found.rotate_left(first);
+        assert_eq!(found, expected, "hull of {points:?}");
+        Self { points: expected, exact: corners.iter().map(|&i| exact[i].clone()).collect() }
+    }
+
+    /// Compares points against this polygon: the side of every line, and where they lie.
+    pub fn check_point(&self, p: Point, exact: &Pair<T>) {
+        let n = self.points.len();
+        let found = point_penetration(p, &self.points);
+        assert_eq!(found.location, exact::location(exact, &self.exact), "{p:?} in {:?}", self.points);
+        for (i, distance) in found.distances.iter().enumerate() {
+            let (a, b) = (&self.exact[i], &self.exact[(i + 1) % n]);
+            if a == b {
+                assert!(distance.is_nan());
+            } else {
+                assert_eq!(distance.partial_cmp(&0.0), Some(exact::side(a, b, exact)), "{p:?} from {:?}", self.points);
+            }
+        }
+        match found.location {
+            Location::Inside => assert!(found.depth > 0.0),
+            Location::Boundary => assert!(found.depth == 0.0),
+            Location::Outside => assert!(found.depth <= 0.0),
+        }
+    }
+
+    /// Compares all verdicts on this polygon and another; whether they meet.
+    pub fn check(&self, other: &Self) -> bool {
+        let (a, b) = (self, other);
+        let meet = exact::meet(&a.exact, &b.exact);
+        let what = || format!("{:?} and {:?}", a.points, b.points);
+        let convex = |s: &Self| Convex::new(s.points.clone(), 0.0);
+        assert_eq!(shapes_meet(&convex(a), &convex(b)), meet, "{}", what());
+        assert_eq!(shapes_meet(&convex(b), &convex(a)), meet, "{}", what());
+        let found = polygon_test(&a.points, &b.points);
+        assert_eq!(found.meet, meet, "{}", what());
+        for (one, two, inside) in [(a, b, &found.a_inside), (b, a, &found.b_inside)] {
+            let listed: Vec<usize> = inside.iter().map(|c| c.corner).collect();
+            let inside = |&i: &usize| exact::location(&one.exact[i], &two.exact) != Location::Outside;
+            let expected: Vec<usize> = (0..one.exact.len()).filter(inside).collect();
+            assert_eq!(listed, expected, "{}", what());
+            one.exact.iter().zip(&one.points).for_each(|(e, &p)| two.check_point(p, e));
+        }
+        assert_eq!(found.crossings, crossings(&a.exact, &b.exact), "{}", what());
+        self.check_minkowski(other);
+        meet
+    }
+
+    /// The Minkowski difference is the hull of all differences, each rounded once.
+    fn check_minkowski(&self, other: &Self) {
+        let mut rounded = Vec::new();
+        let mut exact = Vec::new();
+        for (q, y) in other.points.iter().zip(&other.exact) {
+            for (p, x) in self.points.iter().zip(&self.exact) {
+                // One subtraction is rounded to the nearest double.
+                rounded.push(Point::from(q - p));
+                exact.push(exact::minus(y, x));
+            }
+        }
+        let mut expected: Vec<Point> = exact::hull(&exact).into_iter().map(|i| rounded[i]).collect();
+        expected.dedup();
+        while expected.len() > 1 && expected.first() == expected.last() {
+            expected.pop();
+        }
+        let found = minkowski_difference(&other.points, &self.points);
+        assert_eq!(found, expected, "{:?} less {:?}", other.points, self.points);
+    }
+}
+
+/// Pairs of sides that cross properly.
+fn crossings<T: Number>(a: &[Pair<T>], b: &[Pair<T>]) -> Vec<(usize, usize)> {
+    let sides = |n: usize| if n == 2 { 1 } else { n };
+    let mut found = Vec::new();
+    for i in 0..sides(a.len()) {
+        for k in 0..sides(b.len()) {
+            let (p, q) = (&a[i], &a[(i + 1) % a.len()]);
+            let (r, s) = (&b[k], &b[(k + 1) % b.len()]);
+            if exact::segments([p, q], [r, s]).1 {
+                found.push((i, k));
+            }
+        }
+    }
+    found
+}
+
+/// Whether the corners turn left or go straight on everywhere, and left somewhere.
+pub fn has_area<T: Number>(exact: &[Pair<T>]) -> bool {
+    let n = exact.len();
+    (0..n).any(|i| exact::side(&exact[i], &exact[(i + 1) % n], &exact[(i + 2) % n]) == Ordering::Greater)
+}

@@ -1,0 +1,9 @@
+//! Robots, worlds, tasks and maps as they are read, and what is said of bad ones.
+
+mod arms;
+mod errors;
+mod inspect;
+mod maps;
+mod real_urdfs;
+mod tasks;
+mod world_schema;

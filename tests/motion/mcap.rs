@@ -1,0 +1,207 @@
+//! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer: it knows
+//! where a value lies from the standard's rule alone. `tests/python/read_mcap.py` reads the same with other people's code.
+
+use cplan::trajectory::{Trajectory, mcap};
+use mcap_reader::read::{LinearReader, MessageStream, Summary};
+use mcap_reader::records::Record;
+use proptest::prelude::*;
+
+/// The crate, under a name that is not the function's.
+use ::mcap as mcap_reader;
+
+/// Takes values off the front of a message.
+struct Decoder<'a> {
+    message: &'a [u8],
+    at: usize,
+}
+
+impl<'a> Decoder<'a> {
+    fn new(message: &'a [u8]) -> Self {
+        assert_eq!(message[..4], [0, 1, 0, 0], "plain CDR, little endian");
+        Self { message, at: 4 }
+    }
+
+    fn take<const N: usize>(&mut self) -> [u8; N] {
+        while !(self.at - 4).is_multiple_of(N) {
+            assert_eq!(self.message[self.at], 0, "filling");
+            self.at += 1;
+        }
+        self.at += N;
+        self.message[self.at - N..self.at].try_into().unwrap()
+    }
+
+    fn word(&mut self) -> u32 {
+        u32::from_le_bytes(self.take())
+    }
+
+    fn numbers(&mut self) -> Vec<f64> {
+        (0..self.word()).map(|_| f64::from_le_bytes(self.take())).collect()
+    }
+
+    fn string(&mut self) -> String {
+        let length = self.word() as usize;
+        let bytes: Vec<u8> = (0..length).map(|_| self.take::<1>()[0]).collect();
+        let (end, text) = bytes.split_last().expect("a zero at least");
+        assert_eq!(*end, 0);
+        String::from_utf8(text.to_vec()).unwrap()
+    }
+
+    fn strings(&mut self) -> Vec<String> {
+        (0..self.word()).map(|_| self.string()).collect()
+    }
+
+    /// Nanoseconds.
+    fn time(&mut self) -> u64 {
+        let (seconds, rest) = (self.word(), self.word());
+        assert!(seconds <= i32::MAX as u32 && rest < 1_000_000_000);
+        u64::from(seconds) * 1_000_000_000 + u64::from(rest)
+    }
+
+    fn end(self) {
+        assert_eq!(self.at, self.message.len(), "nothing is left");
+    }
+}
+
+#[derive(Debug, PartialEq)]
+struct State {
+    log: u64,
+    stamp: u64,
+    joints: Vec<String>,
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+#[derive(Debug, PartialEq)]
+struct Motion {
+    log: u64,
+    joints: Vec<String>,
+    since: Vec<u64>,
+    /// Positions, velocities and accelerations.
+    points: Vec<[Vec<f64>; 3]>,
+}
+
+/// Everything in a file, after checks of what is the same in all.
+fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
+    let (mut states, mut motions) = (Vec::new(), Vec::new());
+    for message in MessageStream::new(file).unwrap() {
+        let message = message.unwrap();
+        let channel = &message.channel;
+        let schema = channel.schema.as_ref().unwrap();
+        assert_eq!((channel.message_encoding.as_str(), schema.encoding.as_str()), ("cdr", "ros2msg"));
+        assert_eq!(message.publish_time, message.log_time);
+        let log = message.log_time;
+        let mut from = Decoder::new(&message.data);
+        let stamp = from.time();
+        assert_eq!(from.string(), "", "no frame");
+        let joints = from.strings();
+        match (channel.topic.as_str(), schema.name.as_str()) {
+            ("/joint_states", "sensor_msgs/msg/JointState") => {
+                let (position, velocity) = (from.numbers(), from.numbers());
+                assert!(from.numbers().is_empty(), "efforts are not known");
+                states.push(State { log, stamp, joints, position, velocity });
+            }
+            ("/joint_trajectory", "trajectory_msgs/msg/JointTrajectory") => {
+                assert_eq!(stamp, 0, "begin now");
+                let (mut since, mut points) = (Vec::new(), Vec::new());
+                for _ in 0..from.word() {
+                    points.push([from.numbers(), from.numbers(), from.numbers()]);
+                    assert!(from.numbers().is_empty());
+                    since.push(from.time());
+                }
+                motions.push(Motion { log, joints, since, points });
+            }
+            other => panic!("{other:?}"),
+        }
+        from.end();
+    }
+    (states, motions)
+}
+
+/// Samples after each other by these steps, of these values.
+fn trajectory(steps: &[f64], values: &[[f64; 6]]) -> Trajectory {
+    let time = steps.iter().scan(-steps[0], |t, step| {
+        *t += step;
+        Some(*t)
+    });
+    Trajectory {
+        time: time.collect(),
+        position: values.iter().map(|v| [v[0], v[1]]).collect(),
+        velocity: values.iter().map(|v| [v[2], v[3]]).collect(),
+        acceleration: values.iter().map(|v| [v[4], v[5]]).collect(),
+    }
+}
+
+fn names() -> [String; 2] {
+    ["shoulder, \"left\"".into(), "élbow".into()]
+}
+
+#[test]
+fn the_file_says_what_it_is() {
+    let motion = trajectory(&[0.0, 0.5], &[[0.0; 6]; 2]);
+    let file = mcap(&names(), &[(&motion, 0.0)]);
+    let Some(Ok(Record::Header(header))) = LinearReader::new(&file).unwrap().next() else { panic!("no header") };
+    assert_eq!(header.profile, "ros2");
+    assert_eq!(header.library, format!("cplan {}", env!("CARGO_PKG_VERSION")));
+    let summary = Summary::read(&file).unwrap().expect("a summary");
+    let count = summary.stats.as_ref().expect("statistics");
+    assert_eq!((count.message_count, count.message_start_time, count.message_end_time), (3, 0, 500_000_000));
+    assert!(summary.chunk_indexes.iter().all(|chunk| chunk.compression.is_empty()));
+    let mut topics: Vec<_> = summary.channels.values().map(|channel| channel.topic.as_str()).collect();
+    topics.sort_unstable();
+    assert_eq!(topics, ["/joint_states", "/joint_trajectory"]);
+}
+
+#[test]
+fn several_motions_follow_each_other() {
+    let there = trajectory(&[0.0, 0.25, 0.25], &[[0.0; 6], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0; 6]]);
+    let back = trajectory(&[0.0, 1.0], &[[2.0; 6], [0.0; 6]]);
+    let (states, motions) = read(&mcap(&names(), &[(&there, 0.0), (&back, 2.5)]));
+    let logs: Vec<u64> = states.iter().map(|state| state.log).collect();
+    assert_eq!(logs, [0, 250_000_000, 500_000_000, 2_500_000_000, 3_500_000_000]);
+    assert!(states.iter().all(|state| state.stamp == state.log && state.joints == names()));
+    let begins: Vec<_> = motions.iter().map(|motion| (motion.log, motion.since.clone())).collect();
+    assert_eq!(begins, [(0, vec![0, 250_000_000, 500_000_000]), (2_500_000_000, vec![0, 1_000_000_000])]);
+    assert_eq!(motions[0].points[1], [vec![1.0, 2.0], vec![3.0, 4.0], vec![5.0, 6.0]]);
+}
+
+#[test]
+fn a_file_of_many_chunks() {
+    // Some 250 bytes a sample, and a chunk is a megabyte.
+    let many = 20_000;
+    let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();
+    let motion = trajectory(&vec![1e-3; many], &values);
+    let file = mcap(&names(), &[(&motion, 0.0)]);
+    assert!(Summary::read(&file).unwrap().expect("a summary").chunk_indexes.len() > 2);
+    let (states, motions) = read(&file);
+    assert_eq!((states.len(), motions.len(), motions[0].points.len()), (many, 1, many));
+    assert!(states.windows(2).all(|pair| pair[0].log < pair[1].log));
+    assert!(states.iter().enumerate().all(|(k, state)| state.position == [k as f64; 2]));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_motion_is_read_back(
+        rows in prop::collection::vec((1e-6..1e4, prop::array::uniform6(prop::num::f64::NORMAL | prop::num::f64::ZERO)), 1..20),
+        joints in prop::array::uniform2("[^\0]{0,20}"),
+    ) {
+        let (steps, values): (Vec<f64>, Vec<[f64; 6]>) = rows.into_iter().unzip();
+        let motion = trajectory(&steps, &values);
+        let file = mcap(&joints, &[(&motion, 0.0)]);
+        prop_assert_eq!(&file, &mcap(&joints, &[(&motion, 0.0)]));
+        let (states, motions) = read(&file);
+        prop_assert_eq!((states.len(), motions.len()), (values.len(), 1));
+        for (k, state) in states.iter().enumerate() {
+            prop_assert_eq!(&state.joints, &joints);
+            prop_assert_eq!(&state.position, &motion.position[k]);
+            prop_assert_eq!(&state.velocity, &motion.velocity[k]);
+            prop_assert!((state.log as f64 * 1e-9 - motion.time[k]).abs() <= 0.6e-9);
+            prop_assert_eq!([state.stamp, motions[0].since[k]], [state.log; 2]);
+            let expected = [motion.position[k].to_vec(), motion.velocity[k].to_vec(), motion.acceleration[k].to_vec()];
+            prop_assert_eq!(&motions[0].points[k], &expected);
+        }
+        prop_assert!(states.windows(2).all(|pair| pair[0].log < pair[1].log));
+        prop_assert_eq!((&motions[0].joints[..], motions[0].log), (&joints[..], 0));
+    }
+}

@@ -1,0 +1,289 @@
+//! One contract for all planners: what each of them promises on scenes of its own choosing of representation.
+//!
+//! A scene is turned into the space that a planner works on by the library's own builders, so arms of all kinds,
+//! intervals and circles take part; whether a path is free is judged by distances on the scene alone.
+
+use crate::common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
+use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
+use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Motion, Scene};
+use cplan::plan::{
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace,
+    Trapezoid, Visibility, Wavefront,
+};
+use cplan::space::{Axis, Configuration, Metric, Path};
+use std::f64::consts::TAU;
+
+/// Plans in a scene, whatever representation that takes.
+type Plan = fn(&Scene, &Query) -> Run;
+
+/// Every planner, with every setting that changes what its paths look like.
+const PLANNERS: [(&str, Plan); 13] = [
+    (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
+    ("visibility, weighted", |scene, query| {
+        let metric = Metric::Weighted { weights: [1.0, 0.6] };
+        answered(&Visibility { metric }, &polygons(scene, query), query)
+    }),
+    ("visibility, travel time", |scene, query| {
+        let metric = Metric::Time { speeds: [1.0, 1.5] };
+        answered(&Visibility { metric }, &polygons(scene, query), query)
+    }),
+    ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
+    ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
+    ("wavefront, cells", |scene, query| {
+        answered(&Wavefront { shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, shortcut", |scene, query| answered(&Wavefront::default(), &cells(scene), query)),
+    ("wavefront, 8 neighbours", |scene, query| {
+        let neighborhood = Neighborhood::Eight;
+        answered(&Wavefront { neighborhood, shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+    }),
+    ("wavefront, A*, 8 neighbours", |scene, query| {
+        let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
+        answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
+    }),
+    ("harmonic, cells", |scene, query| answered(&Harmonic { shortcut: false }, &cells(scene), query)),
+    ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
+    ("oriented, relaxed", |scene, query| {
+        let direction = Direction::of([1.0, 0.5]).expect("not zero");
+        let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
+    ("altered preferences, relaxed", |scene, query| {
+        let equation = EquationChoice::AlteredPreference { elsewhere: 0.05 };
+        answered(&relaxed(equation), &ZonedGrid::new(cells(scene), scene), query)
+    }),
+];
+
+/// A field relaxed so far that it leads to the goal.
+fn relaxed(equation: EquationChoice) -> FieldPlanner {
+    let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120 };
+    FieldPlanner { field, limits: Limits::High, shortcut: true }
+}
+
+/// Polygons grown by a margin far below the room in the scenes here.
+fn polygons(scene: &Scene, query: &Query) -> Regions {
+    regions(scene, 1e-3, query.start, 1)
+}
+
+/// Cells whose slabs are narrower than the passages in the scenes here.
+fn cells(scene: &Scene) -> Grid {
+    outer_grid(scene, [192, 192], 0.0)
+}
+
+/// The run, which must not depend on anything but the input.
+fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
+    let map = planner.build(space);
+    let run = planner.query(space, &map, query);
+    assert_eq!(run, planner.query(space, &map, query), "a second query of one map");
+    assert_eq!(run, planner.query(space, &planner.build(space), query), "a second map");
+    run
+}
+
+/// The path of a run that must have one, after the checks that hold for every path.
+fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
+    let Outcome::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
+    let topology = scene.arm.topology();
+    assert_eq!(path.start(), query.start, "{name}");
+    let is_copy = |axis: Axis, goal: f64, end: f64| {
+        let turns = ((end - goal) / TAU).round();
+        end == goal || axis.is_circle() && (end - goal - turns * TAU).abs() < 1e-12
+    };
+    let ends = |goal: &Configuration| (0..2).all(|k| is_copy(topology.axes[k], goal[k], path.goal()[k]));
+    assert!(query.goals.iter().any(ends), "{name} ends at {}", path.goal());
+    for (a, b) in path.segments() {
+        let steps = ((b - a).norm() / 1e-3).ceil();
+        for k in 0..=steps as usize {
+            let at = a + (b - a) * (k as f64 / steps);
+            assert!(topology.contains(at), "{name} leaves the limits at {at}");
+            assert!(scene.clearance(at) > 0.0, "{name} collides at {at}");
+        }
+    }
+    path.clone()
+}
+
+fn query(start: Configuration, goals: &[Configuration]) -> Query {
+    Query { start, goals: goals.to_vec() }
+}
+
+fn range(lower: f64, upper: f64) -> Axis {
+    Axis::Interval { lower, upper }
+}
+
+/// A gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
+fn gantry(obstacles: Vec<Convex>) -> Scene {
+    let slide = |name, x, y| joint(name, Motion::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
+    let tool = link("tool", vec![Convex::disc(Point::origin(), 0.05)]);
+    let joints = [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)];
+    scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::origin()), obstacles)
+}
+
+/// A turning arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in one
+/// direction.
+fn polar(turn: Axis) -> Scene {
+    let joints = [
+        joint("turn", Motion::Revolute { sign: 1.0 }, turn),
+        joint("reach", Motion::Prismatic { direction: Vector::x() }, range(0.5, 1.5)),
+    ];
+    let links = [link("turret", vec![]), link("tool", vec![Convex::disc(Point::origin(), 0.05)])];
+    scene(
+        arm(joints, links, Vector::zeros(), Point::origin()),
+        vec![Convex::segment(Point::origin(), Point::new(2.0, 0.0))],
+    )
+}
+
+#[test]
+fn paths_lead_from_the_start_to_a_goal_through_free_space() {
+    let problems = [
+        (gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]), query(q(-0.8, 0.0), &[q(0.8, 0.1)])),
+        (polar(Axis::Circle), query(q(0.5, 1.2), &[q(-0.5, 0.7)])),
+        (
+            scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(0.7, 0.9, 0.4, 0.8)]),
+            query(q(0.0, 0.0), &[q(1.5, 0.3)]),
+        ),
+    ];
+    for (scene, query) in &problems {
+        for (name, plan) in PLANNERS {
+            let path = path(name, scene, query, &plan(scene, query));
+            assert!(path.length() > 0.0, "{name}");
+        }
+    }
+}
+
+#[test]
+fn every_kind_of_arm_is_planned_for() {
+    for arm in all_kinds() {
+        let kind = arm.kind();
+        let scene = scene(arm, vec![Convex::disc(Point::new(0.5, 1.1), 0.08)]);
+        // Two postures on either side of the obstacle, with room.
+        let query = query(q(-0.3, 0.1), &[q(0.6, 0.4)]);
+        assert!(scene.clearance(query.start) > 0.05 && scene.clearance(query.goals[0]) > 0.05, "{kind}");
+        for (name, plan) in PLANNERS {
+            path(&format!("{name} ({kind})"), &scene, &query, &plan(&scene, &query));
+        }
+    }
+}
+
+#[test]
+fn the_trace_and_size_are_those_of_the_representation() {
+    let scene = gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]);
+    let query = query(q(-0.8, 0.0), &[q(0.8, 0.1)]);
+    for (name, plan) in PLANNERS {
+        let run = plan(&scene, &query);
+        let fits = match (&run.trace, run.size) {
+            (Trace::Roadmap { edges: drawn, whole: false }, Size::Graph { edges, .. }) => drawn.len() == edges,
+            (Trace::Channel { cells, channel }, Size::Graph { nodes, .. }) => {
+                cells.len() == nodes && !channel.is_empty() && channel.iter().all(|&cell| cell < nodes)
+            }
+            (Trace::Wavefront { cells, labels: drawn }, Size::Grid { cells: reached, .. }) => {
+                drawn.len() == cells[0] * cells[1]
+                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == reached
+            }
+            (Trace::Wavefront { cells, labels: drawn }, Size::Search { expanded, labelled }) => {
+                drawn.len() == cells[0] * cells[1]
+                    && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
+                    && expanded <= labelled
+            }
+            (
+                Trace::Field { cells, potential },
+                Size::Windows { cells: reached, .. } | Size::Grid { cells: reached, .. },
+            ) => {
+                potential.len() == cells[0] * cells[1] && potential.iter().filter(|p| p.is_finite()).count() == reached
+            }
+            _ => false,
+        };
+        assert!(fits, "{name}: {:?}", run.size);
+    }
+}
+
+#[test]
+fn a_start_at_the_goal_is_a_path_that_stays_there() {
+    let scene = gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]);
+    for at in [q(-0.8, 0.0), q(1.0, 1.0), q(-1.0, 0.3)] {
+        let query = query(at, &[q(0.8, 0.8), at]);
+        for (name, plan) in PLANNERS {
+            assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).waypoints(), [at], "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_wall_from_limit_to_limit_is_no_path() {
+    let scene = gantry(vec![rectangle(-0.1, 0.1, -1.1, 1.1)]);
+    let query = query(q(-0.8, 0.0), &[q(0.8, 0.1), q(0.7, -0.5)]);
+    for (name, plan) in PLANNERS {
+        assert_eq!(plan(&scene, &query).outcome, Outcome::NoPath, "{name}");
+    }
+}
+
+#[test]
+fn goals_that_cannot_be_reached_are_passed_over_for_one_that_can() {
+    let scene = gantry(vec![rectangle(-0.1, 0.1, -1.1, 1.1), rectangle(-0.9, -0.5, 0.4, 0.8)]);
+    let (beyond, inside, free) = (q(0.5, 0.1), q(-0.7, 0.6), q(-0.4, -0.8));
+    for goals in [[beyond, inside, free], [free, beyond, inside], [inside, free, beyond]] {
+        let query = query(q(-0.8, 0.0), &goals);
+        for (name, plan) in PLANNERS {
+            assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).goal(), free, "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_nearer_of_two_goals_is_taken() {
+    let scene = gantry(vec![]);
+    let query = query(q(-0.8, 0.0), &[q(0.8, 0.0), q(-0.5, 0.2), q(0.3, -0.6)]);
+    for (name, plan) in PLANNERS {
+        assert_eq!(path(name, &scene, &query, &plan(&scene, &query)).goal(), q(-0.5, 0.2), "{name}");
+    }
+}
+
+#[test]
+fn queries_without_a_free_end_are_given_up_with_the_reason() {
+    let scene = gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]);
+    let (free, inside, outside) = (q(-0.8, 0.0), q(0.0, 0.0), q(3.0, 0.0));
+    let hopeless = [
+        (query(inside, &[free]), "start"),
+        (query(outside, &[free]), "start"),
+        (query(free, &[inside]), "goal"),
+        (query(free, &[outside]), "goal"),
+        (query(free, &[inside, outside]), "goal"),
+        (query(free, &[]), "no goal"),
+    ];
+    for (query, word) in &hopeless {
+        for (name, plan) in PLANNERS {
+            let Outcome::GaveUp(reason) = plan(&scene, query).outcome else {
+                panic!("{name}: not given up: {query:?}")
+            };
+            assert!(reason.contains(word), "{name}: {reason}");
+        }
+    }
+}
+
+#[test]
+fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
+    // From one side of the wall at 0 to the other, past pi.
+    let (start, goal) = (q(2.5, 1.0), q(-2.5, 0.8));
+    let query = query(start, &[goal]);
+    for (name, plan) in PLANNERS {
+        let circle = polar(Axis::Circle);
+        let end = path(name, &circle, &query, &plan(&circle, &query)).goal();
+        assert!((end - q(TAU - 2.5, 0.8)).norm() < 1e-12 && end[1] == 0.8, "{name} ends at {end}");
+        // Limits at pi shut that way, the wall the other one.
+        let interval = polar(range(-3.1, 3.1));
+        assert_eq!(plan(&interval, &query).outcome, Outcome::NoPath, "{name}");
+    }
+}
+
+#[test]
+fn on_an_interval_longer_than_a_turn_a_posture_a_turn_away_is_another_goal() {
+    let mut long = polar(range(-1.0, 7.5));
+    long = scene(long.arm, vec![]);
+    let query = query(q(0.5, 1.0), &[q(0.5 + TAU, 1.0)]);
+    for (name, plan) in PLANNERS {
+        let path = path(name, &long, &query, &plan(&long, &query));
+        assert_eq!(path.goal(), query.goals[0], "{name}");
+        assert!(path.length() >= TAU - 1e-9, "{name}");
+    }
+}

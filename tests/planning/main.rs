@@ -1,0 +1,20 @@
+//! Paths, proofs, bounds and tasks, against brute force, closed forms and published figures.
+
+mod bound;
+mod certify;
+#[path = "../common/mod.rs"]
+mod common;
+mod contract;
+mod interrupt;
+mod optimum;
+mod published;
+mod random_tasks;
+mod random_worlds;
+mod roadmap;
+mod search;
+mod slabs;
+mod solve;
+mod task_optimum;
+mod tasks;
+mod twins;
+mod workspaces;

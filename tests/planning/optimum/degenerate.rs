@@ -1,0 +1,134 @@
+//! Starts and goals where rows, seams and domains end, and joints that cannot move.
+
+use super::{LIMITS, ROUNDING, bound, metrics};
+use crate::common::{q, rectangle, rr, scene};
+use cplan::certify::least_length;
+use cplan::geometry::{Convex, Point};
+use cplan::model::{Goal, Problem};
+use cplan::space::{Axis, Configuration, Metric};
+use std::f64::consts::{PI, TAU};
+
+const CIRCLES: [Axis; 2] = [Axis::Circle, Axis::Circle];
+
+/// The bound where nothing is in the way is the length of the straight motion to the nearest copy of a goal.
+fn assert_straight(axes: [Axis; 2], start: Configuration, goals: &[Configuration]) {
+    let scene = scene(rr(axes), Vec::new());
+    let topology = scene.arm.topology();
+    for metric in metrics() {
+        let way = |goal: &Configuration| {
+            let turns = |k: usize| if topology.axes[k].is_circle() { -3..=3 } else { 0..=0 };
+            let copies = turns(0).flat_map(|i| turns(1).map(move |j| q(f64::from(i) * TAU, f64::from(j) * TAU)));
+            let base = topology.lift(*goal, start);
+            copies.map(|by| metric.norm(base + by - start)).fold(f64::INFINITY, f64::min)
+        };
+        let straight = goals.iter().map(way).fold(f64::INFINITY, f64::min);
+        for factor in LIMITS {
+            let limit = factor * straight.max(0.1);
+            let found = least_length(&scene, start, goals, 0.0, metric, limit, 1e-4);
+            let error = (found - straight).abs();
+            assert!(
+                error <= 2.0 * ROUNDING * straight.max(1e-3),
+                "{metric:?}, {start:?} to {goals:?}: {found}, {straight}"
+            );
+        }
+    }
+}
+
+#[test]
+fn without_obstacles_ways_are_straight() {
+    assert_straight(CIRCLES, q(-3.0, 0.0), &[q(3.0, 0.5)]);
+    assert_straight(CIRCLES, q(-3.0, 3.0), &[q(3.0, -3.0), q(0.0, 0.0)]);
+    assert_straight(CIRCLES, q(9.0, -14.0), &[q(-2.0, 1.0), q(1.0, 1.0), q(100.0, 3.0)]);
+    let limits = Axis::Interval { lower: -3.0, upper: 3.0 };
+    assert_straight([limits; 2], q(-3.0, 3.0), &[q(3.0, -3.0), q(2.9, 2.9)]);
+    assert_straight([Axis::Circle, limits], q(3.0, -3.0), &[q(-3.0, 3.0)]);
+    assert_straight([limits, Axis::Circle], q(3.0, -3.0), &[q(-3.0, 3.0)]);
+}
+
+#[test]
+fn a_goal_at_the_start_is_reached_at_once() {
+    for at in [q(0.3, 0.4), q(-PI, PI), q(PI, -PI), q(0.0, 0.0), q(7.0 * PI, 0.1)] {
+        assert_straight(CIRCLES, at, &[at]);
+        assert_straight(CIRCLES, at, &[at + q(TAU, -TAU)]);
+    }
+    let limits = Axis::Interval { lower: -1.0, upper: 1.0 };
+    for at in [q(-1.0, -1.0), q(1.0, 1.0), q(1.0, -1.0), q(0.0, 0.0)] {
+        assert_straight([limits; 2], at, &[at]);
+    }
+}
+
+/// Joint 1's domain begins as 64 strips. Starts and goals exactly where two meet, on either side of it by a last bit, on
+/// the seam, and the same on other turns.
+#[test]
+fn starts_and_goals_on_rows() {
+    let axes = [Axis::Circle, Axis::Interval { lower: -1.0, upper: 2.5 }];
+    for (first, turns) in axes.into_iter().flat_map(|axis| [-3, -1, 0, 1, 2].map(|turns| (axis, turns))) {
+        let (lower, upper) = first.domain();
+        let turn = if first.is_circle() { f64::from(turns) * TAU } else { 0.0 };
+        for row in [0, 1, 31, 32, 63, 64] {
+            let at = lower + (upper - lower) * f64::from(row) / 64.0 + turn;
+            for x in [at, at.next_up(), at.next_down()] {
+                if !first.contains(x) {
+                    continue;
+                }
+                for way in [-0.7, -0.1, -0.05, -1e-9, 1e-9, 0.05, 0.1, 0.7] {
+                    let goal = q(x + way, 0.3);
+                    if first.contains(goal[0]) {
+                        assert_straight([first, Axis::Circle], q(x, 0.2), &[goal]);
+                        assert_straight([first, Axis::Circle], goal, &[q(x, 0.2)]);
+                    }
+                }
+                // Along the row.
+                assert_straight([first, Axis::Circle], q(x, 0.2), &[q(x, 3.0)]);
+            }
+        }
+    }
+}
+
+fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
+    Problem { scene: scene(rr(axes), pieces), start, goal: Goal::Joints(goal), goals: vec![goal] }
+}
+
+/// A post that the upper arm cannot pass: goals on its other side are reached the other way round, with a straight arm.
+#[test]
+fn the_other_way_round() {
+    let post = Convex::disc(Point::new(0.5, 0.0), 0.1);
+    let ways = [
+        (q(-0.5, 0.0), q(0.5, 0.0), TAU - 1.0),
+        (q(0.5 - TAU, 0.0), q(-0.5, TAU), TAU - 1.0),
+        (q(PI / 2.0, 0.0), q(-PI / 2.0, 0.0), PI),
+        (q(-PI, 0.0), q(-0.5, 0.0), PI - 0.5),
+        (q(0.5, 0.0), q(PI, 0.0), PI - 0.5),
+    ];
+    for (start, goal, way) in ways {
+        let problem = among([Axis::Circle, Axis::Circle], vec![post.clone()], start, goal);
+        for factor in LIMITS {
+            let found = bound(&problem, Metric::Euclidean, factor * way, 1e-4);
+            assert!((found - way).abs() <= 2.0 * ROUNDING * way, "{start:?} to {goal:?}: {found}, not {way}");
+        }
+    }
+}
+
+/// A joint without room to move: nothing to cut into strips, or nothing beside them.
+#[test]
+fn joints_that_cannot_move() {
+    let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
+    for axes in [[fixed, Axis::Circle], [Axis::Circle, fixed], [fixed, fixed]] {
+        let to = |k: usize, by: f64| if axes[k].is_circle() { 0.5 + by } else { 0.5 };
+        assert_straight(axes, q(0.5, 0.5), &[q(to(0, 1.0), to(1, 1.0))]);
+        assert_straight(axes, q(0.5, 0.5), &[q(to(0, -3.0), to(1, 3.5))]);
+    }
+    let wall = rectangle(1.2, 1.4, 0.9, 1.1);
+    let problem =
+        among([Axis::Interval { lower: 0.0, upper: 0.0 }, Axis::Circle], vec![wall], q(0.0, 0.0), q(0.0, 3.0));
+    assert!(bound(&problem, Metric::Euclidean, 10.0, 1e-4) <= 3.0);
+}
+
+#[test]
+fn the_same_to_the_last_bit() {
+    for metric in metrics() {
+        let problem = crate::common::problem(crate::common::Benchmark::A);
+        let found = [0; 2].map(|_| bound(&problem, metric, 30.0, 1e-4).to_bits());
+        assert_eq!(found[0], found[1]);
+    }
+}

@@ -1,0 +1,100 @@
+//! A point moved by two slides: configuration space is the plane, up to a linear map, and shortest paths are known.
+
+use super::{LIMITS, ROUNDING, bound};
+use crate::common::{arm, joint, link, q, rectangle, scene};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Goal, Motion, Problem};
+use cplan::space::{Axis, Configuration, Metric};
+use std::f64::consts::TAU;
+
+/// Half the way that each slide has, metres.
+pub const REACH: f64 = 2.0;
+
+/// A tool without extent whose slides point along `angles`, among `pieces`.
+pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> Problem {
+    let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
+    let axis = Axis::Interval { lower: -REACH, upper: REACH };
+    let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
+    let links = [link("beam", Vec::new()), link("tool", vec![Convex::disc(Point::origin(), 0.0)])];
+    let arm = arm(joints, links, Vector::zeros(), Point::origin());
+    Problem { scene: scene(arm, pieces), start, goal: Goal::Joints(goals[0]), goals: goals.to_vec() }
+}
+
+/// With slides along x and y.
+pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
+    gantry([0.0, TAU / 4.0], pieces, start, &[goal])
+}
+
+/// Within the gap of a length that is known: from the limits' side nothing is known of it.
+fn assert_is(problem: &Problem, length: f64) {
+    for factor in LIMITS {
+        let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
+        assert!(found <= length * (1.0 + ROUNDING) && found >= length * (1.0 - 1e-4), "{found}, not {length}");
+    }
+}
+
+#[test]
+fn around_a_block() {
+    let block = rectangle(-0.5, 0.5, -2.5, 0.25);
+    assert_is(&square(vec![block], q(-1.5, 0.0), q(1.5, 0.0)), 1.0 + 2.0 * 1.0_f64.hypot(0.25));
+}
+
+/// Out of a U, around one of its sides, and along its outside: four straight pieces.
+#[test]
+fn out_of_a_trap() {
+    let walls =
+        vec![rectangle(-0.6, 0.6, -0.6, -0.5), rectangle(-0.6, -0.5, -0.6, 0.7), rectangle(0.5, 0.6, -0.6, 0.8)];
+    let (start, goal) = (q(0.1, -0.3), q(0.05, -1.2));
+    let out = |side: f64, top: f64| {
+        let corners = [start, q(side * 0.5, top), q(side * 0.6, top), q(side * 0.6, -0.6), goal];
+        corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>()
+    };
+    assert_is(&square(walls.clone(), start, goal), out(-1.0, 0.7).min(out(1.0, 0.8)));
+    // Lying on its side.
+    let turned = walls.iter().map(|w| Convex::new(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
+    let turn = |p: Configuration| q(-p[1], p[0]);
+    assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
+}
+
+/// A wall across the whole space but for a slot a hundredth wide.
+#[test]
+fn through_a_slot() {
+    let walls = vec![rectangle(-0.05, 0.05, -3.0, 0.7), rectangle(-0.05, 0.05, 0.71, 3.0)];
+    let length = 2.0 * 0.95_f64.hypot(0.7) + 0.1;
+    assert_is(&square(walls.clone(), q(-1.0, 0.0), q(1.0, 0.0)), length);
+    let turned = walls.iter().map(|w| Convex::new(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
+    assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
+}
+
+/// Two slots one after the other, far apart: to the one and back to the other.
+#[test]
+fn through_two_slots() {
+    let wall = |x: f64, slot: f64| [rectangle(x, x + 0.1, -3.0, slot), rectangle(x, x + 0.1, slot + 0.01, 3.0)];
+    let walls = [wall(-0.5, 0.7), wall(0.4, -0.9)].concat();
+    let corners = [q(-1.0, 0.0), q(-0.5, 0.7), q(-0.4, 0.7), q(0.4, -0.89), q(0.5, -0.89), q(1.0, 0.0)];
+    let length = corners.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    assert_is(&square(walls, q(-1.0, 0.0), q(1.0, 0.0)), length);
+}
+
+/// A disc: two tangents and an arc.
+#[test]
+fn around_a_disc() {
+    let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();
+    let arc = 0.5 * (TAU / 2.0 - 2.0 * (0.5_f64 / 1.5).acos());
+    let disc = Convex::disc(Point::origin(), 0.5);
+    assert_is(&square(vec![disc], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
+    // The same of a point that is to keep clear.
+    let mut problem = square(vec![Convex::disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
+    problem.scene.workspace.clearance = 0.3;
+    assert_is(&problem, 2.0 * tangent + arc);
+}
+
+/// A wall from side to side leaves no way: nothing below any limit.
+#[test]
+fn no_way_is_longer_than_any_limit() {
+    let problem = square(vec![rectangle(-0.1, 0.1, -3.0, 3.0)], q(-1.0, 0.0), q(1.0, 0.0));
+    for limit in [3.0, 50.0] {
+        let found = bound(&problem, Metric::Euclidean, limit, 1e-4);
+        assert!(found <= limit && found >= limit * (1.0 - 1e-8), "{found}");
+    }
+}

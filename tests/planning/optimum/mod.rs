@@ -1,0 +1,37 @@
+//! Lower bounds on the length of every free motion. A bound above the length of a motion that is free is a lie, so bounds
+//! are held against motions from elsewhere: of all planners on random worlds, of brute force among polygons, and of
+//! closed forms. The limit is always far above the length, because bounds are cut off there.
+
+mod degenerate;
+mod gantry;
+mod polygons;
+mod shipped;
+mod worlds;
+
+use cplan::certify::least_length;
+use cplan::model::Problem;
+use cplan::space::Metric;
+use proptest::test_runner::Config;
+
+/// What rounding may add to a length, as a share of it.
+const ROUNDING: f64 = 1e-9;
+
+/// Limits, as multiples of a length: far above it.
+const LIMITS: [f64; 2] = [3.0, 10.0];
+
+/// The bound for a problem.
+fn bound(problem: &Problem, metric: Metric, limit: f64, gap: f64) -> f64 {
+    let Problem { scene, start, goals, .. } = problem;
+    least_length(scene, *start, goals, scene.workspace.clearance, metric, limit, gap)
+}
+
+/// Euclidean, weighted, and time.
+fn metrics() -> [Metric; 3] {
+    [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds: [0.7, 2.0] }]
+}
+
+/// Random cases; `CPLAN_CASES` asks for another number of them.
+fn cases(default: u32) -> Config {
+    let cases = std::env::var("CPLAN_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default);
+    Config { cases, max_global_rejects: 20 * cases, ..Config::default() }
+}

@@ -1,0 +1,28 @@
+//! The shipped workspaces: how near bounds come to the best path that is known.
+
+use super::{ROUNDING, bound};
+use crate::common::shipped_feasible;
+use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::space::Metric;
+
+/// The gap asked for, and to the best known path, which is itself within a thousandth of the optimum.
+const GAP: f64 = 1e-4;
+const NEAR: f64 = 2e-3;
+
+#[test]
+fn bounds_come_near_the_best_known_paths() {
+    let mut far = Vec::new();
+    for (name, problem) in shipped_feasible() {
+        let effort = Effort { gap: Some(1e-3), ..Effort::default() };
+        let Verdict::Found(found) = solve(&problem, Method::Visibility, &effort, &mut |_| {}).verdict else {
+            panic!("{name}: no path")
+        };
+        let length = found.path().length();
+        let lower = bound(&problem, Metric::Euclidean, 2.0 * length, GAP);
+        assert!(lower <= length * (1.0 + ROUNDING), "{name}: {lower} above {length}");
+        if lower < length * (1.0 - NEAR) {
+            far.push((name, lower, length));
+        }
+    }
+    assert!(far.is_empty(), "{far:?}");
+}

@@ -1,0 +1,101 @@
+//! Random worlds of all kinds of arms: no planner finds a motion that is shorter than the bound.
+
+use super::{LIMITS, ROUNDING, bound, metrics};
+use crate::common::{all_kinds, inside, rectangle, scene};
+use crate::random_worlds::world;
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Goal, Problem};
+use cplan::solve::{Effort, Method, Verdict, decide, shorten, solve};
+use cplan::space::{Metric, Path};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+const SLABS: usize = 20_000;
+
+/// Certified motions of all that plan.
+fn motions(problem: &Problem) -> Vec<Path> {
+    let effort = |metric| Effort { levels: 2, margin: 1e-4, cells: 128, boxes: 5000, metric, ..Effort::default() };
+    let mut verdicts = vec![decide(problem, SLABS), shorten(problem, 1e-4, SLABS)];
+    verdicts.extend(metrics().map(|metric| solve(problem, Method::Visibility, &effort(metric), &mut |_| {}).verdict));
+    let others = [Method::Trapezoid, Method::Wavefront, Method::Subdivision];
+    verdicts.extend(others.map(|method| solve(problem, method, &effort(Metric::Euclidean), &mut |_| {}).verdict));
+    let found = |verdict| if let Verdict::Found(found) = verdict { Some(found.path().clone()) } else { None };
+    verdicts.into_iter().filter_map(found).collect()
+}
+
+/// No bound is above any motion that is known.
+fn keeps_below(problem: &Problem, gap: f64) {
+    let paths = motions(problem);
+    for metric in metrics() {
+        let length = paths.iter().map(|path| metric.length(path)).fold(f64::INFINITY, f64::min);
+        if length.is_finite() {
+            for factor in LIMITS {
+                let found = bound(problem, metric, (factor * length).max(1e-3), gap);
+                assert!(found <= length * (1.0 + ROUNDING), "{metric:?}, {gap}: {found} above {length}");
+            }
+        }
+    }
+}
+
+fn gaps() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(1e-2), Just(1e-4)]
+}
+
+/// A convex obstacle of any kind.
+fn obstacle() -> impl Strategy<Value = Convex> {
+    let at = (0.2..1.9_f64, -3.2..3.2_f64).prop_map(|(r, t)| Point::new(r * t.cos(), r * t.sin()));
+    (at, 0..5_u8, 0.03..0.3_f64, 0.0..TAU).prop_map(|(at, kind, size, turn)| {
+        let corner = |k: u8, n: u8| {
+            let angle = turn + TAU * f64::from(k) / f64::from(n);
+            at + Vector::new(angle.cos(), angle.sin()) * size
+        };
+        match kind {
+            0 => Convex::disc(at, size),
+            1 => Convex::segment(corner(0, 2), corner(1, 2)),
+            2 => Convex::new(vec![corner(0, 2), corner(1, 2)], size / 3.0),
+            // A thin wall.
+            3 => Convex::new(vec![corner(0, 2), corner(1, 2)], 1e-4),
+            _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(super::cases(60))]
+
+    #[test]
+    fn no_motion_is_shorter_than_the_bound(
+        kind in 0_usize..5, obstacles in prop::collection::vec(obstacle(), 1..7), start in (0.0..=1.0_f64, 0.0..=1.0_f64),
+        goals in prop::collection::vec((0.0..=1.0_f64, 0.0..=1.0_f64), 1..3),
+        clearance in prop_oneof![Just(0.0), 0.0..0.05_f64], gap in gaps(),
+    ) {
+        let mut scene = scene(all_kinds().swap_remove(kind), obstacles);
+        scene.workspace.clearance = clearance;
+        let start = inside(&scene, start);
+        let goals: Vec<_> = goals.into_iter().map(|at| inside(&scene, at)).collect();
+        prop_assume!(goals.iter().chain([&start]).all(|&at| scene.clearance(at) > clearance + 1e-6));
+        keeps_below(&Problem { scene, start, goal: Goal::Joints(goals[0]), goals }, gap);
+    }
+
+    /// Touching, pointed and thin obstacles, joints of all ranges, starts on limits, on other turns, next to obstacles.
+    #[test]
+    fn nor_in_worlds_made_to_be_hard(kind in 0_usize..4, seed in any::<u64>(), gap in gaps()) {
+        let problem = world::world(world::KINDS[kind], seed);
+        prop_assume!(problem.is_some());
+        keeps_below(&problem.unwrap(), gap);
+    }
+
+    /// Two walls that leave a slot.
+    #[test]
+    fn nor_through_narrow_passages(
+        kind in 0_usize..5, at in (0.5..1.5_f64, -3.2..3.2_f64), width in prop_oneof![1e-4..1e-2_f64, 0.1..0.3_f64],
+        start in (0.0..=1.0_f64, 0.0..=1.0_f64), goal in (0.0..=1.0_f64, 0.0..=1.0_f64), gap in gaps(),
+    ) {
+        let (x, y) = (at.0 * at.1.cos(), at.0 * at.1.sin());
+        let walls = vec![rectangle(x - 0.01, x + 0.01, y + 0.1 + width, y + 2.0), rectangle(x - 0.01, x + 0.01, y - 2.0, y)];
+        let scene = scene(all_kinds().swap_remove(kind), walls);
+        let (start, goal) = (inside(&scene, start), inside(&scene, goal));
+        prop_assume!(scene.clearance(start) > 1e-6 && scene.clearance(goal) > 1e-6);
+        keeps_below(&Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }, gap);
+    }
+}

@@ -1,0 +1,64 @@
+//! The library's own judge of recorded tasks, on random ones: what is planned is free, and as asked for; with objects that are
+//! larger than planned for it mostly is not.
+
+use super::{manner, task};
+use cplan::certify::{Passage, ReplayedStep};
+use cplan::model::{RecordedStep, RecordedTurn, Task};
+use cplan::space::{Configuration, Recording};
+use cplan::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
+use cplan::trajectory::Drive;
+
+/// What a result file says.
+fn record(task: &Task, answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
+    let report = TaskReport::new("visibility", task, answer);
+    let trajectory = report.trajectory().unwrap();
+    let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::new(q[0], q[1])).collect::<Vec<_>>();
+    let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
+    let recording = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).unwrap();
+    let steps = report.steps().iter().map(|step| RecordedStep {
+        number: step.step,
+        cycle: step.cycle,
+        samples: step.first_sample.unwrap()..=step.last_sample.unwrap(),
+        turn: step.turn.as_ref().map(|turn| RecordedTurn { from: turn.from, to: turn.to, seconds: turn.seconds }),
+    });
+    (recording, steps.collect())
+}
+
+fn is_free(step: &ReplayedStep) -> bool {
+    matches!(step.passage, Passage::Free { .. }) && step.turn.is_none_or(|turn| turn.verdict.is_ok())
+}
+
+#[test]
+fn what_is_planned_is_judged_free() {
+    let count = std::env::var("CPLAN_TASKS").ok().and_then(|n| n.parse().ok()).unwrap_or(300_u64);
+    let manner = Manner { drive: Drive::default(), ..manner() };
+    let (mut done, mut turns, mut refuted) = (0, 0, 0_u64);
+    for seed in 0..count {
+        let task = task::task(seed);
+        let answer = plan(&task, &manner, &mut |_| {});
+        if answer.verdict != TaskVerdict::Done {
+            continue;
+        }
+        done += 1;
+        let (recording, steps) = record(&task, &answer);
+        let judge = cplan::certify::replay(&task, &recording, &steps);
+        assert_eq!(judge.departure(), None, "seed {seed}");
+        let mut clearance = f64::INFINITY;
+        for (step, leg) in judge.zip(&answer.legs) {
+            assert_eq!((&step.faults[..], &step.broken[..]), (&[][..], &[][..]), "seed {seed}, {:?}", step.step);
+            assert!(is_free(&step), "seed {seed}: {:?}, {:?} in {:?}", step.passage, step.turn, step.step);
+            assert_eq!(step.turn.is_some(), leg.turn.is_some(), "seed {seed}");
+            turns += usize::from(step.turn.is_some());
+            if let Passage::Free { clearance: bound, .. } = step.passage {
+                clearance = clearance.min(bound);
+            }
+        }
+        assert!(clearance > 0.0, "seed {seed}");
+        let mut larger = task.clone();
+        larger.objects.iter_mut().flat_map(|o| &mut o.pieces).for_each(|piece| *piece = piece.grown(0.4));
+        let is_refuted = !cplan::certify::replay(&larger, &recording, &steps).all(|step| is_free(&step));
+        refuted += u64::from(is_refuted);
+    }
+    println!("{done} of {count} tasks, {turns} turns; {refuted} refuted with larger objects");
+    assert!(done * 3 > count && turns > 0 && refuted * 2 > done, "{done} done, {turns} turns, {refuted} refuted");
+}

@@ -1,0 +1,73 @@
+//! Random pick-and-place tasks against a replay by brute force: whatever is planned is done again step by step, with
+//! kinematics, distances and rules of its own, and looked at densely.
+//!
+//! `CPLAN_TASKS=10000 cargo test --test planning random_tasks -- --nocapture` runs so many; without it, a thousand.
+
+mod flood;
+mod judged;
+pub mod replay;
+mod task;
+
+use cplan::solve::{Effort, Method};
+use cplan::task::{Manner, TaskVerdict, plan};
+use cplan::trajectory::Drive;
+
+/// Planned, proven impossible, unknown.
+#[derive(Debug, Default, PartialEq)]
+struct Count {
+    done: usize,
+    infeasible: usize,
+    unknown: usize,
+    legs: usize,
+}
+
+fn manner() -> Manner {
+    // Samples need not be dense: the replay interpolates.
+    let effort = Effort { levels: 4, boxes: 20_000, ..Effort::default() };
+    Manner { method: Method::Visibility, effort, drive: Drive { period: 0.05, ..Drive::default() } }
+}
+
+#[test]
+fn what_is_planned_can_be_done() {
+    let count = std::env::var("CPLAN_TASKS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_u64);
+    let mut found = Count::default();
+    for seed in 0..count {
+        let task = task::task(seed);
+        let answer = plan(&task, &manner(), &mut |_| {});
+        match &answer.verdict {
+            TaskVerdict::Done => found.done += 1,
+            TaskVerdict::Infeasible(_) => found.infeasible += 1,
+            TaskVerdict::Unknown(_) => found.unknown += 1,
+        }
+        found.legs += answer.legs.len();
+        let all = matches!(answer.verdict, TaskVerdict::Done);
+        if let Err(violation) = replay::replay(&task, &answer, all) {
+            panic!("seed {seed}: {violation}");
+        }
+        assert!(!all || answer.lower_bound <= answer.duration(), "seed {seed}: faster than the bound");
+    }
+    println!("{count} tasks: {found:?}");
+    assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
+}
+
+/// The oracle is no rubber stamp: plans for smaller objects are not good for larger ones, nor for other targets.
+#[test]
+fn what_is_planned_for_another_task_is_refused() {
+    let (mut larger, mut elsewhere, mut done) = (0, 0, 0);
+    for seed in 0..40 {
+        let task = task::task(seed);
+        let answer = plan(&task, &manner(), &mut |_| {});
+        if answer.verdict != TaskVerdict::Done {
+            continue;
+        }
+        done += 1;
+        let mut changed = task.clone();
+        changed.objects.iter_mut().flat_map(|o| &mut o.pieces).for_each(|piece| *piece = piece.grown(0.4));
+        larger += usize::from(replay::replay(&changed, &answer, true).is_err());
+        let mut changed = task.clone();
+        changed.objects[0].at.translation.x += 1e-6;
+        elsewhere += usize::from(replay::replay(&changed, &answer, true).is_err());
+    }
+    assert!(done > 10 && elsewhere == done, "{elsewhere} of {done}");
+    assert!(larger * 2 > done, "{larger} of {done}");
+}

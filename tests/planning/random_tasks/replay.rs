@@ -1,0 +1,398 @@
+//! Does a planned task again. Shares no code with the library but the types of its input and output: what lies where,
+//! what is carried and what may be touched follows from the task alone.
+#![allow(dead_code, reason = "each test uses some of it")]
+
+use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
+use cplan::model::{Action, Goal, Holding, Item, Joint, Motion, Step, Task};
+use cplan::task::TaskAnswer;
+
+/// Positions agree to this, metres: inverse kinematics promises a few nanometres.
+const NEAR: f64 = 1e-7;
+
+/// Looks at each motion.
+const LOOKS: usize = 300;
+
+/// Share of the arm's reach to which an object may press into what supports it.
+const GIVE: f64 = 1e-4;
+
+/// A frame: cosine and sine of its turn, and its origin.
+type Frame = (V, V);
+
+fn compose(a: Frame, b: Frame) -> Frame {
+    (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
+}
+
+fn inverse(a: Frame) -> Frame {
+    let back = [a.0[0], -a.0[1]];
+    (back, rotate([-a.1[0], -a.1[1]], back))
+}
+
+fn turned(angle: f64, at: V) -> Frame {
+    ([angle.cos(), angle.sin()], at)
+}
+
+/// What is carried.
+struct Held {
+    object: usize,
+    /// Rigid: the object in link 2's frame. Level: the object about the tip, in the plane's directions.
+    frame: Frame,
+    level: bool,
+    supports: Vec<usize>,
+    grasp: V,
+}
+
+pub struct World<'a> {
+    task: &'a Task,
+    lies: Vec<Option<Frame>>,
+    held: Option<Held>,
+    released: Option<usize>,
+}
+
+/// # Errors
+/// What is wrong, in words.
+pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String> {
+    let mut world = World::at_first(task);
+    let renewed = order(task, answer, all)?;
+    let mut q = [task.start[0], task.start[1]];
+    let mut clock = 0.0;
+    for (index, leg) in answer.legs.iter().enumerate() {
+        for &object in &renewed[index] {
+            let (sin, cos) = task.objects[object].at.rotation.angle().sin_cos();
+            let at = task.objects[object].at.translation;
+            world.lies[object] = Some(([cos, sin], [at.x, at.y]));
+        }
+        let t = &leg.timed.trajectory;
+        let say = |what: &str| format!("leg {index}, step {}: {what}", leg.step.number);
+        if t.position[0] != q {
+            return Err(say("does not begin where the arm is"));
+        }
+        if (leg.begin - clock).abs() > 1e-9 {
+            return Err(say("does not begin when the step before ends"));
+        }
+        let target = match &leg.step.action {
+            Action::Pick { object, .. } => Some(*object),
+            _ => None,
+        };
+        let clearance = leg.clearance();
+        let keep = if clearance.is_finite() { clearance } else { task.workspace.clearance };
+        if keep < task.workspace.clearance {
+            return Err(say("keeps less than the clearance"));
+        }
+        let moves = t.time.len() > 1;
+        for look in 0..=if moves { LOOKS } else { 0 } {
+            let at = if moves { t.duration() * look as f64 / LOOKS as f64 } else { 0.0 };
+            let (position, velocity) = state(t, at);
+            limits(&task.arm.joints, position, velocity, leg.step.speed).map_err(|what| say(&what))?;
+            world.check(position, target, keep).map_err(|what| say(&format!("at {at} s: {what}")))?;
+        }
+        for k in 0..t.time.len() {
+            for joint in 0..2 {
+                let most = task.arm.joints[joint].acceleration * leg.step.speed.powi(2);
+                if t.acceleration[k][joint].abs() > most * (1.0 + 1e-6) {
+                    return Err(say("exceeds an acceleration limit"));
+                }
+            }
+        }
+        q = *t.position.last().ok_or_else(|| say("has no samples"))?;
+        clock += t.duration() + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds);
+        let then = next_supports(task, answer, index);
+        world
+            .finish(q, &leg.step, &then, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep)
+            .map_err(|what| say(&what))?;
+    }
+    Ok(())
+}
+
+/// What the object picked by a leg may touch where it is placed.
+fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
+    let picked = &answer.legs[index].step;
+    let follows = |step: &&Step| (step.cycle, step.number) > (picked.cycle, picked.number);
+    // Pairs stay together, and a place has the number after its pick, moves between them aside.
+    task.steps()
+        .filter(follows)
+        .find_map(|step| match &step.action {
+            Action::Place { supports, .. } => Some(supports.clone()),
+            _ => None,
+        })
+        .unwrap_or_default()
+}
+
+/// Of each leg the objects that are supplied before it.
+///
+/// # Errors
+/// Steps in an order that the task does not allow.
+fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>, String> {
+    let mut renewed = vec![Vec::new(); answer.legs.len() + 1];
+    let mut next = 0;
+    let take = |next: &mut usize| {
+        *next += 1;
+        answer.legs.get(*next - 1).map(|leg| leg.step.number)
+    };
+    for item in &task.items {
+        match item {
+            Item::Step(step) => match take(&mut next) {
+                Some(number) if number == step.number => {}
+                None if !all => return Ok(renewed),
+                other => return Err(format!("step {} is missing: {other:?}", step.number)),
+            },
+            Item::AnyOrder(pairs) => {
+                let mut open: Vec<[usize; 2]> = pairs.iter().map(|pair| [pair[0].number, pair[1].number]).collect();
+                while !open.is_empty() {
+                    match (take(&mut next), take(&mut next)) {
+                        (Some(pick), Some(place)) if open.contains(&[pick, place]) => {
+                            open.retain(|pair| *pair != [pick, place]);
+                        }
+                        (Some(pick), None) if !all && open.iter().any(|pair| pair[0] == pick) => return Ok(renewed),
+                        (None, None) if !all => return Ok(renewed),
+                        other => return Err(format!("{other:?} is no pair")),
+                    }
+                }
+            }
+            Item::Renew(objects) => renewed[next].extend(objects),
+        }
+    }
+    if next < answer.legs.len() { Err("more steps than asked for".into()) } else { Ok(renewed) }
+}
+
+/// Position and velocity between samples, as the documentation of trajectories says.
+fn state(t: &cplan::trajectory::Trajectory, time: f64) -> (V, V) {
+    let k = t.time.partition_point(|&at| at <= time).clamp(1, t.time.len() - 1) - 1;
+    let (h, s) = (t.time[k + 1] - t.time[k], time - t.time[k]);
+    let mut position = [0.0; 2];
+    let mut velocity = [0.0; 2];
+    for j in 0..2 {
+        let (p, v, a) = (t.position[k][j], t.velocity[k][j], t.acceleration[k][j]);
+        let e = t.position[k + 1][j] - p - v * h - a * h * h / 2.0;
+        let f = t.velocity[k + 1][j] - v - a * h;
+        let (c, d) = ((4.0 * e - f * h) / h.powi(3), (f * h - 3.0 * e) / h.powi(4));
+        position[j] = p + v * s + a * s * s / 2.0 + c * s.powi(3) + d * s.powi(4);
+        velocity[j] = v + a * s + 3.0 * c * s * s + 4.0 * d * s.powi(3);
+    }
+    (position, velocity)
+}
+
+fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(), String> {
+    for k in 0..2 {
+        let (lower, upper) = joints[k].axis.domain();
+        if !joints[k].axis.is_circle() && !(lower - 1e-9..=upper + 1e-9).contains(&position[k]) {
+            return Err(format!("joint {k} at {} is beyond its limits", position[k]));
+        }
+        if velocity[k].abs() > joints[k].velocity * share * (1.0 + 1e-6) {
+            return Err(format!("joint {k} moves at {}", velocity[k]));
+        }
+    }
+    Ok(())
+}
+
+impl<'a> World<'a> {
+    /// All objects where they lie at first.
+    pub fn at_first(task: &'a Task) -> Self {
+        let lies = task.objects.iter().map(|o| {
+            let (sin, cos) = o.at.rotation.angle().sin_cos();
+            Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
+        });
+        World { task, lies: lies.collect(), held: None, released: None }
+    }
+
+    /// The same with an object in the hand, as the arm at `q` would take it.
+    pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
+        let (frames, tip) = self.frames(q);
+        if let Some(lies) = self.lies[object].take() {
+            let level = self.task.objects[object].holding == Holding::Level;
+            let frame = if level { (lies.0, sub(lies.1, tip)) } else { compose(inverse(frames[1]), lies) };
+            self.held = Some(Held { object, frame, level, supports, grasp: [0.0; 2] });
+        }
+        self
+    }
+
+    /// Frames of both links, and the tip.
+    fn frames(&self, q: V) -> ([Frame; 2], V) {
+        let arm = &self.task.arm;
+        let joint = |k: usize| match arm.joints[k].motion {
+            Motion::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
+            Motion::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
+        };
+        let first = compose(([1.0, 0.0], [arm.base.x, arm.base.y]), joint(0));
+        let second = compose(compose(first, ([1.0, 0.0], [arm.offset.x, arm.offset.y])), joint(1));
+        let tip = compose(second, ([1.0, 0.0], [arm.tip.x, arm.tip.y])).1;
+        ([first, second], tip)
+    }
+
+    /// Where the carried object is.
+    fn carried(&self, held: &Held, q: V) -> Frame {
+        let (frames, tip) = self.frames(q);
+        if held.level { compose(([1.0, 0.0], tip), held.frame) } else { compose(frames[1], held.frame) }
+    }
+
+    /// Everything that can be met: number, body, heights.
+    fn obstacles(&self) -> Vec<(usize, Solid, [f64; 2])> {
+        let mut bodies = Vec::new();
+        for (number, obstacle) in self.task.workspace.obstacles.iter().enumerate() {
+            let heights = [obstacle.heights.lower, obstacle.heights.upper];
+            bodies.extend(obstacle.pieces.iter().map(|piece| (number, Solid::new(piece), heights)));
+        }
+        let fixed = self.task.workspace.obstacles.len();
+        for (index, object) in self.task.objects.iter().enumerate() {
+            let Some((turn, place)) = self.lies[index] else { continue };
+            let heights = [object.heights.lower, object.heights.upper];
+            let placed = |piece| (fixed + index, Solid::new(piece).placed(turn, place), heights);
+            bodies.extend(object.pieces.iter().map(placed));
+        }
+        bodies
+    }
+
+    /// Calls `f` with what moves, what it can meet, their distance at `q`, and whether the one rests on the other.
+    fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, bool)) {
+        let fixed = self.task.workspace.obstacles.len();
+        let (frames, _) = self.frames(q);
+        let spared = |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
+        let obstacles = self.obstacles();
+        for (link, frame) in frames.into_iter().enumerate() {
+            for part in &self.task.arm.links[link].parts {
+                let body = Solid::new(&part.shape).placed(frame.0, frame.1);
+                for (number, solid, heights) in &obstacles {
+                    let meets = part.heights.lower <= heights[1] && heights[0] <= part.heights.upper;
+                    if meets && (link == 0 || !spared(*number)) {
+                        f(["link 1", "link 2"][link], *number, body.distance(solid), false);
+                    }
+                }
+            }
+        }
+        let Some(held) = &self.held else { return };
+        let object = &self.task.objects[held.object];
+        let frame = self.carried(held, q);
+        for piece in &object.pieces {
+            let body = Solid::new(piece).placed(frame.0, frame.1);
+            for (number, solid, heights) in &obstacles {
+                if object.heights.lower + object.lift <= heights[1] && heights[0] <= object.heights.upper + object.lift
+                {
+                    f("the object", *number, body.distance(solid), held.supports.contains(number));
+                }
+            }
+        }
+    }
+
+    /// Whether nothing is nearer than `keep` at `q`, and supports are not pressed into.
+    fn check(&self, q: V, target: Option<usize>, keep: f64) -> Result<(), String> {
+        const ROUNDING: f64 = 1e-8;
+        let give = GIVE * self.task.arm.reach();
+        let mut wrong = Ok(());
+        self.distances(q, target, |what, number, distance, rests| {
+            let least = if rests { -give } else { keep };
+            if distance < least - ROUNDING {
+                wrong = Err(format!("{what} is {distance} from {number}, {least} is promised"));
+            }
+        });
+        wrong
+    }
+
+    /// By how much everything is farther from obstacles than it has to be at `q`.
+    pub fn room(&self, q: V) -> f64 {
+        let give = GIVE * self.task.arm.reach();
+        let mut least = f64::INFINITY;
+        self.distances(q, None, |_, _, distance, rests| {
+            least = least.min(if rests { distance + give } else { distance - self.task.workspace.clearance });
+        });
+        least
+    }
+
+    /// How fast any point can move for each unit of each joint's rate.
+    pub fn speeds(&self) -> V {
+        let arm = &self.task.arm;
+        let own = arm
+            .links
+            .iter()
+            .flat_map(|link| &link.parts)
+            .map(|part| Solid::new(&part.shape))
+            .map(|s| s.reach + s.radius);
+        let carried = self.held.iter().flat_map(|held| {
+            let bodies = self.task.objects[held.object].pieces.iter().map(Solid::new);
+            let tip = norm([arm.tip.x, arm.tip.y]);
+            bodies.map(move |body| norm(held.frame.1) + body.reach + body.radius + tip)
+        });
+        let second = own.chain(carried).fold(0.0, f64::max);
+        let (lower, upper) = arm.joints[1].axis.domain();
+        let slides = if arm.joints[1].motion.is_revolute() { 0.0 } else { lower.abs().max(upper.abs()) };
+        let first = second + slides + norm([arm.offset.x, arm.offset.y]);
+        [0, 1].map(|k| if arm.joints[k].motion.is_revolute() { [first, second][k] } else { 1.0 })
+    }
+
+    /// What happens at the end of a motion; `then` is what the next place may touch.
+    fn finish(&mut self, q: V, step: &Step, then: &[usize], turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
+        let (frames, tip) = self.frames(q);
+        let near = |a: V, b: V| norm(sub(a, b)) < NEAR;
+        match &step.action {
+            Action::Move(Goal::Tip(target)) if !near(tip, [target.x, target.y]) => {
+                return Err("the tip is not at its target".into());
+            }
+            Action::Move(Goal::Joints(target)) => {
+                for k in 0..2 {
+                    let off = q[k] - target[k];
+                    let turns = if self.task.arm.joints[k].axis.is_circle() {
+                        (off / std::f64::consts::TAU).round()
+                    } else {
+                        0.0
+                    };
+                    if (off - turns * std::f64::consts::TAU).abs() > NEAR {
+                        return Err("the joints are not at their target".into());
+                    }
+                }
+            }
+            Action::Move(_) => {}
+            Action::Pick { object, grasp, supports } => {
+                let lies = self.lies[*object].take().ok_or("what is picked lies nowhere")?;
+                let grasp = [grasp.x, grasp.y];
+                if !near(tip, compose(lies, ([1.0, 0.0], grasp)).1) {
+                    return Err("the tip is not at the object".into());
+                }
+                let level = self.task.objects[*object].holding == Holding::Level;
+                let frame = if level {
+                    (lies.0, rotate([-grasp[0], -grasp[1]], lies.0))
+                } else {
+                    compose(inverse(frames[1]), lies)
+                };
+                let mut supports = supports.clone();
+                supports.extend(then);
+                self.held = Some(Held { object: *object, frame, level, supports, grasp });
+                self.turn(q, turn, keep)?;
+                self.released = None;
+            }
+            Action::Place { at, angle, .. } => {
+                self.turn(q, turn, keep)?;
+                let held = self.held.take().ok_or("nothing is held")?;
+                let frame = self.carried(&held, q);
+                if !near(frame.1, [at.x, at.y]) {
+                    return Err("the object's origin is not at its target".into());
+                }
+                if let Some(angle) = angle
+                    && !near(frame.0, [angle.cos(), angle.sin()])
+                {
+                    return Err("the object is not turned as asked for".into());
+                }
+                self.lies[held.object] = Some(frame);
+                self.released = Some(held.object);
+                return Ok(());
+            }
+        }
+        self.released = None;
+        Ok(())
+    }
+
+    /// A turn of the wrist, looked at densely.
+    fn turn(&mut self, q: V, turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
+        let Some([from, to]) = turn else { return Ok(()) };
+        let held = self.held.as_mut().ok_or("nothing is held that could be turned")?;
+        if !held.level || norm(sub(held.frame.0, [from.cos(), from.sin()])) > NEAR {
+            return Err("the turn does not begin at the object's orientation".into());
+        }
+        for look in 0..=LOOKS {
+            let angle = from + (to - from) * look as f64 / LOOKS as f64;
+            if let Some(held) = self.held.as_mut() {
+                let direction = [angle.cos(), angle.sin()];
+                held.frame = (direction, rotate([-held.grasp[0], -held.grasp[1]], direction));
+            }
+            self.check(q, None, keep).map_err(|what| format!("while it turns, {what}"))?;
+        }
+        Ok(())
+    }
+}

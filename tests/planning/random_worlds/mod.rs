@@ -1,0 +1,288 @@
+//! Answers to random worlds against brute force, and against each other.
+//!
+//! 5 to 30 obstacles, arms of all kinds, joints with limits and without. The brute force shares no code with the library:
+//! a flood fill over up to 2048 x 2048 cells, wherever that is decisive. `cargo test` looks at a few worlds with little
+//! effort; the long run, with the default effort and counts printed, is
+//!
+//! ```sh
+//! CPLAN_WORLDS=2500 cargo test --profile quick --test planning random_worlds -- --nocapture
+//! ```
+//!
+//! for so many worlds of each kind of arm, on all cores. Also from the environment: `CPLAN_KIND` (only this kind),
+//! `CPLAN_FIRST` (the first seed, 0), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
+//! visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
+//! [`Effort::default`] has it), `CPLAN_THREADS`.
+
+mod flood;
+mod oracle;
+pub mod solid;
+pub mod world;
+
+use cplan::model::Problem;
+use cplan::solve::{Answer, Effort, Method, Verdict, solve};
+use flood::{Truth, connected};
+use oracle::Oracle;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+/// Largest sum of rounding errors in a distance.
+const ROUNDING: f64 = 1e-9;
+
+/// Answers that take longer are listed by the long run.
+const SLOW: Duration = Duration::from_secs(2);
+
+const PLANNERS: usize = Method::ALL.len();
+
+/// Verdicts of one planner.
+#[derive(Debug, Clone, Copy, Default)]
+struct Count {
+    found: usize,
+    infeasible: usize,
+    unknown: usize,
+    /// Unknown, where the flood fill is decisive.
+    unknown_yet_decided: usize,
+    time: Duration,
+    longest: (Duration, u64),
+}
+
+/// Verdicts on the worlds of one kind of arm.
+#[derive(Debug, Default)]
+struct Tally {
+    worlds: usize,
+    connected: usize,
+    disconnected: usize,
+    undecided: usize,
+    oracle: Duration,
+    planners: [Count; PLANNERS],
+    lies: Vec<String>,
+}
+
+/// How to look.
+struct Run {
+    effort: Effort,
+    lattice: usize,
+    /// Every so many worlds all planners answer.
+    share: u64,
+    long: bool,
+}
+
+/// What is wrong with an answer, if anything.
+fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
+    match &answer.verdict {
+        Verdict::Unknown(_) => None,
+        Verdict::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
+        Verdict::Found(certified) => {
+            let path = certified.path();
+            let topology = problem.scene.arm.topology();
+            if truth == Truth::Disconnected {
+                return Some("found, yet disconnected".into());
+            }
+            if path.start() != problem.start {
+                return Some(format!("starts at {:?}", path.start()));
+            }
+            if !problem.goals.iter().any(|&g| topology.distance(g, path.goal()) < ROUNDING) {
+                return Some(format!("ends at {:?}", path.goal()));
+            }
+            for q in path.waypoints() {
+                for (k, (lower, upper, circle)) in oracle.axes.into_iter().enumerate() {
+                    if !q[k].is_finite() || (!circle && !(lower..=upper).contains(&q[k])) {
+                        return Some(format!("{q:?} is outside the limits"));
+                    }
+                }
+            }
+            if certified.clearance() <= 0.0 || certified.clearance() < problem.scene.workspace.clearance {
+                return Some(format!("proves {}", certified.clearance()));
+            }
+            let proven = certified.clearance() - problem.scene.workspace.clearance;
+            let violation = oracle.violation(path, proven.min(1e9) - ROUNDING, 1e-4);
+            violation.map(|(at, room)| format!("room {room} at {at:?}, proven {proven}"))
+        }
+    }
+}
+
+/// Answers to one world; the lies among them.
+fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
+    let kind = problem.scene.arm.kind();
+    let clock = Instant::now();
+    let oracle = Oracle::new(&problem.scene);
+    let truth = connected(&oracle, problem.start, &problem.goals, run.lattice);
+    let oracle_time = clock.elapsed();
+    let mut lies = Vec::new();
+    let mut lengths = [None; PLANNERS];
+    let mut infeasible = None;
+    let mut counts = [Count::default(); PLANNERS];
+    for (i, method) in Method::ALL.into_iter().enumerate() {
+        let always = matches!(method, Method::Visibility | Method::Subdivision);
+        if !always && !seed.is_multiple_of(run.share) {
+            continue;
+        }
+        let clock = Instant::now();
+        let answer = solve(problem, method, &run.effort, &mut |_| {});
+        let time = clock.elapsed();
+        let count = &mut counts[i];
+        count.time = time;
+        count.longest = (time, seed);
+        if run.long && time > SLOW {
+            println!("slow: {kind} {seed} {method} {time:.1?} {:?}", answer.stages);
+        }
+        match &answer.verdict {
+            Verdict::Found(path) => {
+                count.found += 1;
+                lengths[i] = Some((path.path().length(), path.clearance(), answer.history.len()));
+            }
+            Verdict::Infeasible(_) => {
+                count.infeasible += 1;
+                infeasible = Some(method);
+            }
+            Verdict::Unknown(why) => {
+                count.unknown += 1;
+                count.unknown_yet_decided += usize::from(truth != Truth::Undecided);
+                println!("unknown: {kind} {seed} {method} ({truth:?}): {why} {:?}", answer.history);
+            }
+        }
+        if let Some(lie) = lie(problem, &oracle, truth, &answer) {
+            lies.push(format!("{kind} {seed} {method}: {lie}"));
+        }
+    }
+    if let (Some(method), Some(_)) = (infeasible, lengths.iter().flatten().next()) {
+        lies.push(format!("{kind} {seed}: infeasible by {method}, found by another"));
+    }
+    // Both roadmaps see the same polygons on the same level, and the visibility graph holds a shortest path in them.
+    if let [Some((shortest, _, level)), Some((other, _, at)), ..] = lengths
+        && level == at
+        && shortest > other * (1.0 + ROUNDING)
+    {
+        lies.push(format!("{kind} {seed}: visibility {shortest}, trapezoid {other}"));
+    }
+    // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
+    // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
+    let margin = 3.0 * run.effort.margin * problem.scene.arm.reach();
+    if let Some((shortest, _, _)) = lengths[0]
+        && problem.goals.iter().all(|&goal| oracle.room(goal) > margin)
+    {
+        let margin = margin + problem.scene.workspace.clearance;
+        for (length, clearance, _) in lengths[1..].iter().flatten() {
+            if *clearance > margin && shortest > length * (1.0 + ROUNDING) {
+                lies.push(format!("{kind} {seed}: visibility {shortest}, another {length}"));
+            }
+        }
+    }
+    lies.iter().for_each(|lie| println!("LIE: {lie}"));
+    let mut tally = tally.lock().expect("no thread panicked");
+    tally.worlds += 1;
+    tally.oracle += oracle_time;
+    match truth {
+        Truth::Connected => tally.connected += 1,
+        Truth::Disconnected => tally.disconnected += 1,
+        Truth::Undecided => tally.undecided += 1,
+    }
+    tally.lies.extend(lies);
+    for (all, one) in tally.planners.iter_mut().zip(counts) {
+        all.found += one.found;
+        all.infeasible += one.infeasible;
+        all.unknown += one.unknown;
+        all.unknown_yet_decided += one.unknown_yet_decided;
+        all.time += one.time;
+        all.longest = all.longest.max(one.longest);
+    }
+}
+
+/// All worlds of a kind with these seeds.
+fn look_at_all(kind: &str, seeds: std::ops::Range<u64>, run: &Run, threads: usize) -> Tally {
+    let next = AtomicU64::new(seeds.start);
+    let tally = Mutex::new(Tally::default());
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let seed = next.fetch_add(1, Ordering::Relaxed);
+                    if seed >= seeds.end {
+                        break;
+                    }
+                    if let Some(problem) = world::world(kind, seed) {
+                        look(&problem, seed, run, &tally);
+                    }
+                }
+            });
+        }
+    });
+    tally.into_inner().expect("no thread panicked")
+}
+
+fn print(kind: &str, tally: &Tally) {
+    let worlds = tally.worlds;
+    let mean = |time: Duration, n: usize| time.as_secs_f64() * 1e3 / n.max(1) as f64;
+    println!(
+        "{kind}: {worlds} worlds; flood fill: {} connected, {} disconnected, {} undecided, {:.1} ms each; {} lies",
+        tally.connected,
+        tally.disconnected,
+        tally.undecided,
+        mean(tally.oracle, worlds),
+        tally.lies.len()
+    );
+    for (method, count) in Method::ALL.into_iter().zip(tally.planners) {
+        let n = count.found + count.infeasible + count.unknown;
+        println!(
+            "{kind} {method}: {n} worlds; {} found, {} infeasible, {} unknown ({} of them decided by the flood fill); \
+             {:.1} ms each, at most {:.2?} (seed {})",
+            count.found,
+            count.infeasible,
+            count.unknown,
+            count.unknown_yet_decided,
+            mean(count.time, n),
+            count.longest.0,
+            count.longest.1
+        );
+    }
+}
+
+/// Worlds in which something went wrong once: link 1 touches an obstacle wherever it slides, which filled the memory with
+/// columns, or left the start in one that was not looked into (PP, PR); a proof asked for less depth than its check (RP).
+#[test]
+fn remembered_worlds_are_decided() {
+    let run = Run { effort: Effort::default(), lattice: 512, share: u64::MAX, long: false };
+    for (kind, seed) in [("PP", 2471), ("PP", 2434), ("PR", 54), ("RP", 2679)] {
+        let tally = look_at_all(kind, seed..seed + 1, &run, 1);
+        assert_eq!((tally.worlds, tally.lies.len()), (1, 0), "{kind} {seed}");
+        assert!(tally.planners.iter().all(|count| count.unknown == 0), "{kind} {seed}: {:?}", tally.planners);
+    }
+}
+
+#[test]
+fn answers_agree_with_brute_force_and_each_other() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let wanted = number("CPLAN_WORLDS");
+    let first = number("CPLAN_FIRST").unwrap_or(0);
+    let run = match wanted {
+        Some(_) => Run {
+            effort: Effort {
+                levels: number("CPLAN_LEVELS").map_or(Effort::default().levels, |n| n as usize),
+                ..Effort::default()
+            },
+            lattice: number("CPLAN_LATTICE").unwrap_or(2048) as usize,
+            share: number("CPLAN_SHARE").unwrap_or(20).max(1),
+            long: true,
+        },
+        None => Run {
+            effort: Effort { levels: 2, margin: 1e-3, cells: 128, boxes: 20_000, ..Effort::default() },
+            lattice: 512,
+            share: 2,
+            long: false,
+        },
+    };
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = number("CPLAN_THREADS").map_or(cores, |n| n as usize).max(1);
+    let chosen = std::env::var("CPLAN_KIND");
+    let mut lies = Vec::new();
+    let (mut decided, mut decisive) = (0, 0);
+    for kind in world::KINDS.into_iter().filter(|kind| chosen.as_ref().map_or(true, |k| k == kind)) {
+        let tally = look_at_all(kind, first..first + wanted.unwrap_or(8), &run, threads);
+        print(kind, &tally);
+        decided += tally.planners.iter().map(|count| count.found + count.infeasible).sum::<usize>();
+        decisive += tally.connected + tally.disconnected;
+        lies.extend(tally.lies);
+    }
+    assert!(lies.is_empty(), "{lies:#?}");
+    assert!(decided > 0 && decisive > 0);
+}

@@ -1,0 +1,235 @@
+//! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
+
+use super::oracle::Oracle;
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{
+    Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+};
+use cplan::space::{Axis, Configuration};
+use nalgebra::Vector3;
+use std::f64::consts::{PI, TAU};
+
+/// The four kinds of arms.
+pub const KINDS: [&str; 4] = ["RR", "RP", "PR", "PP"];
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    pub fn range(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+
+    pub fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+
+    fn chance(&mut self, share: f64) -> bool {
+        self.range(0.0, 1.0) < share
+    }
+}
+
+/// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
+pub fn world(kind: &str, seed: u64) -> Option<Problem> {
+    let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
+    let arm = arm(&mut dice, kind);
+    let clearance = if dice.chance(0.25) { dice.range(0.0, 0.05) } else { 0.0 };
+    let reach = arm.reach() + 0.3;
+    let count = 5 + dice.below(26);
+    let mut obstacles = Vec::new();
+    while obstacles.len() < count as usize {
+        obstacles.extend(obstacle(&mut dice, reach, arm.base));
+    }
+    let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
+    let scene = Scene::new(arm, workspace);
+    let start = free(&mut dice, &scene)?;
+    let count = 1 + dice.below(3);
+    let goals: Vec<Configuration> = (0..count).filter_map(|_| free(&mut dice, &scene)).collect();
+    let goal = Goal::Joints(*goals.first()?);
+    Some(Problem { scene, start, goal, goals })
+}
+
+fn arm(dice: &mut Dice, kind: &str) -> Arm {
+    let mut joint = |which: char| {
+        let (motion, axis) = if which == 'R' {
+            let sign = if dice.chance(0.3) { -1.0 } else { 1.0 };
+            let axis = match dice.below(4) {
+                0 | 1 => Axis::Circle,
+                2 => Axis::Interval { lower: dice.range(-3.0, -0.5), upper: dice.range(0.5, 3.0) },
+                _ => Axis::Interval { lower: dice.range(-2.0 * PI, -PI), upper: dice.range(PI, 1.5 * PI) },
+            };
+            (Motion::Revolute { sign }, axis)
+        } else {
+            let angle = if dice.chance(0.3) { dice.below(4) as f64 * PI / 2.0 } else { dice.range(-PI, PI) };
+            let direction = Vector::new(angle.cos(), angle.sin());
+            let axis = Axis::Interval { lower: dice.range(-0.9, 0.1), upper: dice.range(0.3, 1.2) };
+            (Motion::Prismatic { direction }, axis)
+        };
+        Joint { name: which.to_string(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
+    };
+    let mut letters = kind.chars();
+    let joints = [letters.next().unwrap_or('R'), letters.next().unwrap_or('R')].map(&mut joint);
+    let length = dice.range(0.3, 1.0);
+    let offset = Vector::new(length, if dice.chance(0.5) { 0.0 } else { dice.range(-0.2, 0.2) });
+    let links = [link(dice, "first", length), link(dice, "second", length)];
+    let base = if dice.chance(0.5) { Point::origin() } else { Point::new(dice.range(-1.0, 1.0), 0.3) };
+    Arm {
+        name: "random".into(),
+        joints,
+        links,
+        base,
+        offset,
+        tip: Point::new(0.5, 0.0),
+        tip_name: "tip".into(),
+        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
+    }
+}
+
+fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64, radius: f64) -> Convex {
+    Convex::new(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], radius)
+}
+
+/// A bar, a hammer, a hook, an offset plate, a capsule, a wire, or next to nothing.
+fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
+    let width = dice.range(0.01, 0.08);
+    let shapes = match dice.below(7) {
+        0 | 1 => vec![rectangle(0.0, length, -width, width, 0.0)],
+        2 => vec![
+            rectangle(0.0, length, -width, width, 0.0),
+            rectangle(length - width, length + width, -3.0 * width, 4.0 * width, 0.0),
+        ],
+        3 => vec![
+            rectangle(-0.1, length, -width, width, 0.0),
+            rectangle(length - 0.05, length, width, 0.3, 0.0),
+            Convex::disc(Point::new(length, 0.3), width),
+        ],
+        4 => vec![rectangle(0.2, 0.2 + length / 2.0, 0.1, 0.1 + 2.0 * width, 0.0)],
+        5 => vec![Convex::new(vec![Point::new(0.0, 0.0), Point::new(length, 0.0)], width)],
+        _ if dice.chance(0.5) => vec![Convex::segment(Point::new(0.0, 0.0), Point::new(length, 0.1))],
+        _ => {
+            let radius = if dice.chance(0.5) { 0.0 } else { width };
+            vec![Convex::disc(Point::new(length, 0.0), radius)]
+        }
+    };
+    let lower = dice.range(0.0, 0.2);
+    let parts = shapes
+        .into_iter()
+        .map(|shape| Part { shape, heights: Heights { lower, upper: lower + 0.1 }, body: name.into() })
+        .collect();
+    Link { name: name.into(), parts, source: OutlineSource::Collision }
+}
+
+/// One obstacle, or several that touch.
+fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
+    let (angle, radius) = (dice.range(-PI, PI), reach * dice.range(0.02, 1.0).sqrt());
+    let center = base + Vector::new(angle.cos(), angle.sin()) * radius;
+    let size = dice.range(0.02, 0.3);
+    let polygon = |dice: &mut Dice, center: Point| {
+        let n = 3 + dice.below(5);
+        let (turn, flat) = (dice.range(0.0, TAU), dice.range(0.2, 1.0));
+        let corner = |k| {
+            let t = turn + TAU * k as f64 / n as f64;
+            center + Vector::new(size * t.cos(), size * flat * t.sin())
+        };
+        Convex::new((0..n).map(corner).collect(), 0.0)
+    };
+    let pieces = match dice.below(9) {
+        0..=2 => vec![polygon(dice, center)],
+        3 => vec![Convex::disc(center, size / 2.0)],
+        4 => {
+            let t = dice.range(0.0, TAU);
+            vec![Convex::segment(center, center + Vector::new(t.cos(), t.sin()) * 3.0 * size)]
+        }
+        5 => vec![Convex::disc(center, 0.0)],
+        6 => {
+            // A bent wall.
+            let mut corner = || center + Vector::new(dice.range(-size, size), dice.range(-size, size));
+            let points: Vec<Point> = (0..4).map(|_| corner()).collect();
+            points.windows(2).map(|w| Convex::segment(w[0], w[1])).collect()
+        }
+        7 => {
+            // Two walls that leave a passage.
+            let gap = dice.range(0.0, 0.15);
+            let [x, y] = [center.x, center.y];
+            vec![
+                rectangle(x, x + size, y + gap, y + gap + size, 0.0),
+                rectangle(x, x + size, y - gap - size, y - gap, 0.0),
+            ]
+        }
+        _ => {
+            // Lattice squares that share a side and a corner.
+            let at = |k: f64| (k * 5.0).round() / 5.0;
+            let [x, y] = [at(center.x), at(center.y)];
+            vec![
+                rectangle(x, x + 0.2, y, y + 0.2, 0.0),
+                rectangle(x + 0.2, x + 0.4, y, y + 0.2, 0.0),
+                rectangle(x + 0.4, x + 0.6, y + 0.2, y + 0.4, 0.0),
+            ]
+        }
+    };
+    let heights = if dice.chance(0.2) { Heights { lower: 0.15, upper: 0.25 } } else { Heights::ALL };
+    let obstacle = |piece: Convex| Obstacle {
+        name: "o".into(),
+        shape: Shape::Polygon(piece.core().to_vec()),
+        pieces: vec![piece],
+        heights,
+    };
+    if dice.chance(0.3) {
+        vec![Obstacle { pieces: pieces.clone(), ..obstacle(pieces[0].clone()) }]
+    } else {
+        pieces.into_iter().map(obstacle).collect()
+    }
+}
+
+/// A free configuration: anywhere, on a limit, beyond a turn, or next to an obstacle.
+fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
+    let oracle = Oracle::new(scene);
+    let topology = scene.arm.topology();
+    let mut blocked = None;
+    let mut found = None;
+    for _ in 0..200 {
+        let q = Configuration::from_fn(|k, _| {
+            let (lower, upper) = topology.axes[k].domain();
+            match dice.below(40) {
+                0 => lower,
+                1 => upper,
+                _ => dice.range(lower, upper),
+            }
+        });
+        if oracle.room(q) <= 1e-9 {
+            blocked = Some(q);
+        } else if found.is_none() {
+            found = Some(q);
+        }
+        if found.is_some() && (blocked.is_some() || dice.chance(0.5)) {
+            break;
+        }
+    }
+    let mut q = found?;
+    if let Some(mut far) = blocked.filter(|_| dice.chance(0.3)) {
+        // Bisect towards the obstacle, to a room of 1e-2 down to 1e-6.
+        let near = 10_f64.powf(dice.range(-6.0, -2.0));
+        for _ in 0..60 {
+            let middle = (q + far) / 2.0;
+            if oracle.room(middle) > near { q = middle } else { far = middle }
+        }
+    }
+    for k in 0..2 {
+        if topology.axes[k].is_circle() && dice.chance(0.1) {
+            q[k] += TAU * (dice.below(5) as f64 - 2.0);
+        }
+    }
+    (oracle.room(q) > 1e-9).then_some(q)
+}

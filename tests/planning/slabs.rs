@@ -1,0 +1,261 @@
+//! Slabs of joint 1 against collision tests of sampled postures, the subdivision into boxes, and the independent check.
+
+use crate::common::{
+    Benchmark, all_kinds, arm, benchmark, clutter, inside, joint, link, problem, q, rectangle, rr, scene,
+};
+use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::input::{self, Overrides};
+use cplan::model::{Motion, Scene};
+use cplan::solve::{Verdict, decide, shorten};
+use cplan::space::{Axis, Configuration};
+use proptest::prelude::*;
+use std::path::Path;
+
+const SLABS: usize = 20_000;
+
+/// Checks an answer by what shares no code with the slabs: paths by the judge of motions, proofs by the check of boxes,
+/// both against postures sampled on them. Says which answer it was.
+fn check(scene: &Scene, start: Configuration, goals: &[Configuration], clearance: f64) -> Option<bool> {
+    match slab_connectivity(scene, start, goals, clearance, SLABS) {
+        Connectivity::Connected(channel) => {
+            let path = channel.path();
+            let topology = scene.arm.topology();
+            assert_eq!(path.start(), start);
+            assert!(goals.iter().any(|&g| topology.distance(path.goal(), g) < 1e-12), "{path:?}");
+            for (a, b) in path.segments() {
+                for i in 0..=200 {
+                    let at = a + (b - a) * (f64::from(i) / 200.0);
+                    let distance = scene.clearance(at);
+                    assert!(distance > 0.0 && distance >= clearance, "{distance} at {at:?}");
+                }
+            }
+            let certified = certify(scene, path, clearance);
+            assert!(certified.is_ok(), "{certified:?}");
+            Some(true)
+        }
+        Connectivity::Disconnected(proof) => {
+            assert_eq!(recheck(proof.stuck(), scene, start, goals, clearance), Ok(()));
+            for stuck in proof.stuck() {
+                assert!(corners_and_middle(&stuck.cell).all(|at| scene.clearance(at) < clearance), "{stuck:?}");
+            }
+            Some(false)
+        }
+        Connectivity::Undecided { .. } => None,
+    }
+}
+
+fn corners_and_middle(cell: &Cell) -> impl Iterator<Item = Configuration> + use<> {
+    let (l, u) = (cell.lower, cell.upper);
+    [cell.center(), q(l[0], l[1]), q(l[0], u[1]), q(u[0], l[1]), q(u[0], u[1])].into_iter()
+}
+
+#[test]
+fn benchmark_problems_are_decided() {
+    for (which, connected) in
+        [(Benchmark::A, true), (Benchmark::B, true), (Benchmark::Inf, false), (Benchmark::T, false)]
+    {
+        let (scene, start, goal) = benchmark(which);
+        assert_eq!(check(&scene, start, &[goal], 0.0), Some(connected), "{which:?}");
+    }
+}
+
+/// A small convex obstacle of any kind.
+fn obstacle() -> impl Strategy<Value = Convex> {
+    let at = (0.2..1.9_f64, -3.2..3.2_f64).prop_map(|(r, t)| Point::new(r * t.cos(), r * t.sin()));
+    (at, 0..4_u8, 0.03..0.3_f64, 0.0..6.3_f64).prop_map(|(at, kind, size, turn)| {
+        let corner = |k: u8, n: u8| {
+            let angle = turn + std::f64::consts::TAU * f64::from(k) / f64::from(n);
+            at + Vector::new(angle.cos(), angle.sin()) * size
+        };
+        match kind {
+            0 => Convex::disc(at, size),
+            1 => Convex::segment(corner(0, 2), corner(1, 2)),
+            2 => Convex::new(vec![corner(0, 2), corner(1, 2)], size / 3.0),
+            _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn random_scenes_are_answered_as_the_boxes_answer_them(
+        kind in 0_usize..5, obstacles in prop::collection::vec(obstacle(), 1..7),
+        a in (0.0..1.0_f64, 0.0..1.0_f64), b in (0.0..1.0_f64, 0.0..1.0_f64),
+        clearance in prop_oneof![Just(0.0), 0.0..0.05_f64],
+    ) {
+        let scene = scene(all_kinds().swap_remove(kind), obstacles);
+        let (start, goal) = (inside(&scene, a), inside(&scene, b));
+        prop_assume!(scene.clearance(start) > clearance + 1e-6 && scene.clearance(goal) > clearance + 1e-6);
+        agrees_with_the_boxes(&scene, start, goal, clearance);
+    }
+}
+
+/// Where both decide, slabs and boxes say the same.
+fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) {
+    if let Some(connected) = check(scene, start, &[goal], clearance) {
+        match connectivity(scene, start, &[goal], clearance, 20_000) {
+            Connectivity::Connected(_) => assert!(connected),
+            Connectivity::Disconnected(_) => assert!(!connected),
+            Connectivity::Undecided { .. } => {}
+        }
+    }
+}
+
+/// Found by `random_scenes_are_answered_as_the_boxes_answer_them`: stuck intervals across the seam of joint 2 belong to
+/// the proof.
+#[test]
+fn a_proof_across_the_seam() {
+    let disc = Convex::disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
+    let wall = [(-0.8754122955094447, -0.6096296790282105), (-1.1648286518001902, -0.6096296790282105)];
+    let capsule = Convex::new(wall.map(|(x, y)| Point::new(x, y)).to_vec(), 0.04823605938179094);
+    let scene = scene(all_kinds().swap_remove(0), vec![disc, capsule]);
+    let (start, goal) = (inside(&scene, (0.14021252832200662, 0.39818998128329575)), inside(&scene, (0.0, 0.0)));
+    assert!(scene.clearance(start) > 0.0 && scene.clearance(goal) > 0.0);
+    agrees_with_the_boxes(&scene, start, goal, 0.0);
+}
+
+/// Two segments without thickness: nothing to erode, so that only a path can be decided, or what joint 1 alone closes.
+#[test]
+fn thin_links_among_thin_walls() {
+    let turn = Motion::Revolute { sign: 1.0 };
+    let thin = |length| Convex::segment(Point::origin(), Point::new(length, 0.0));
+    let arm = arm(
+        [joint("a", turn, Axis::Circle), joint("b", turn, Axis::Circle)],
+        [link("one", vec![thin(1.0)]), link("two", vec![thin(0.8)])],
+        Vector::new(1.0, 0.0),
+        Point::new(0.8, 0.0),
+    );
+    let front = Convex::segment(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
+    let back = Convex::segment(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
+    let one_wall = scene(arm.clone(), vec![front.clone()]);
+    assert_eq!(check(&one_wall, q(-1.2, 0.4), &[q(1.3, -0.4)], 0.0), Some(true));
+    let closed = scene(arm, vec![front, back]);
+    assert_eq!(check(&closed, q(-1.2, 0.4), &[q(1.3, -0.4)], 0.0), Some(false));
+}
+
+#[test]
+fn nothing_to_meet_is_free() {
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![]);
+    assert_eq!(check(&scene, q(0.1, 0.2), &[q(3.0, -3.0)], 0.0), Some(true));
+    assert_eq!(check(&scene, q(0.1, 0.2), &[q(0.1, 0.2)], 0.0), Some(true));
+    // Copies of a goal on a circle are the goal.
+    assert_eq!(check(&scene, q(0.1, 0.2), &[q(9.0, -9.0)], 0.0), Some(true));
+}
+
+#[test]
+fn a_base_inside_an_obstacle_is_never_connected() {
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(-0.1, 0.1, -0.1, 0.1)]);
+    assert_ne!(check(&scene, q(0.0, 0.0), &[q(1.0, 0.0)], 0.0), Some(true));
+}
+
+/// Links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
+#[test]
+fn odd_links_and_elbows_on_obstacles() {
+    let turn = Motion::Revolute { sign: -1.0 };
+    let arm = arm(
+        [joint("a", turn, Axis::Circle), joint("b", turn, Axis::Circle)],
+        [link("one", vec![rectangle(0.2, 0.5, 0.1, 0.2)]), link("two", vec![rectangle(0.3, 0.8, -0.3, -0.25)])],
+        Vector::new(0.0, 1.0),
+        Point::new(0.8, 0.0),
+    );
+    // On the elbow's circle (radius 1), touching it from inside and from outside, and a corner upon it.
+    let around = [
+        Convex::disc(Point::new(0.6, 0.8), 0.2),
+        Convex::disc(Point::new(0.8, 0.0), 0.2),
+        Convex::disc(Point::new(-1.2, 0.0), 0.2),
+        rectangle(0.0, 0.3, -1.3, -1.0),
+    ];
+    let mut answers = Vec::new();
+    for (i, first) in around.iter().enumerate() {
+        for second in &around[i..] {
+            let scene = scene(arm.clone(), vec![first.clone(), second.clone()]);
+            let free: Vec<_> = (0..40)
+                .map(|k| q(f64::from(k) * 2.4 - 40.0, f64::from(k) * 1.7))
+                .map(|at| scene.arm.topology().wrap(at))
+                .filter(|&at| scene.clearance(at) > 1e-3)
+                .collect();
+            assert!(free.len() > 1);
+            answers.extend(free.windows(2).map(|w| check(&scene, w[0], &[w[1]], 0.0)));
+        }
+    }
+    let decided = answers.iter().filter(|a| a.is_some()).count();
+    assert!(decided == answers.len(), "{decided} of {}", answers.len());
+}
+
+/// Within limits longer than a turn postures repeat, configurations do not: the way between them can be closed.
+#[test]
+fn limits_longer_than_a_turn() {
+    let long = Axis::Interval { lower: -5.0, upper: 5.0 };
+    let narrow = Axis::Interval { lower: -0.5, upper: 0.5 };
+    let pole = Convex::disc(Point::new(0.0, 0.7), 0.1);
+    let closed = scene(rr([long, narrow]), vec![pole.clone()]);
+    let turn = std::f64::consts::TAU;
+    assert_eq!(check(&closed, q(-4.0, 0.1), &[q(turn - 4.0, 0.1)], 0.0), Some(false));
+    let open = scene(rr([long, narrow]), vec![]);
+    assert_eq!(check(&open, q(-4.0, 0.1), &[q(turn - 4.0, 0.1)], 0.0), Some(true));
+    // Within reach of the forearm from wherever the elbow can be.
+    let second = scene(rr([narrow, long]), vec![Convex::disc(Point::new(1.2, 0.3), 0.15)]);
+    assert_eq!(check(&second, q(0.0, -4.0), &[q(0.0, turn - 4.0)], 0.0), Some(false));
+}
+
+#[test]
+fn clearance_closes_ways() {
+    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
+    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
+    let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
+    assert_eq!(check(&pole, start, &[goal], 0.0), Some(true));
+    assert_eq!(check(&pole, start, &[goal], 0.4), Some(false));
+}
+
+#[test]
+fn joints_that_cannot_move_are_left_to_others() {
+    let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
+    let scene = scene(rr([fixed, Axis::Circle]), clutter());
+    assert_eq!(check(&scene, q(0.5, 0.0), &[q(0.5, 0.1)], 0.0), None);
+}
+
+/// All shipped workspaces, the six closed twins and the six open ones among them.
+#[test]
+fn shipped_workspaces_are_answered_as_they_say() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<_> = std::fs::read_dir(root.join("workspaces")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml") && !f.ends_with("suite.toml"));
+    files.sort();
+    let mut undecided = Vec::new();
+    for file in &files {
+        let text = std::fs::read_to_string(file).unwrap();
+        let stated = |key: &str| text.lines().find_map(|l| l.strip_prefix(key)).unwrap().trim().to_owned();
+        let urdf = root.join("robots").join(format!("{}.urdf", stated("# robot: ")));
+        let problem = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem;
+        let (scene, clearance) = (&problem.scene, problem.scene.workspace.clearance);
+        let feasible = stated("# expect: ") == "found";
+        match check(scene, problem.start, &problem.goals, clearance) {
+            Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
+            None => undecided.push(file.file_stem().unwrap().to_owned()),
+        }
+        for verdict in [decide(&problem, SLABS), shorten(&problem, 1e-3, SLABS)] {
+            match verdict {
+                Verdict::Found(path) => assert!(feasible && path.clearance() >= clearance, "{}", file.display()),
+                Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
+                Verdict::Unknown(why) => panic!("{}: {why}", file.display()),
+            }
+        }
+    }
+    assert!(undecided.is_empty(), "{undecided:?} of {}", files.len());
+}
+
+#[test]
+fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        let problem = problem(which);
+        let Verdict::Found(certified) = shorten(&problem, 1e-4, SLABS) else { panic!("{which:?}") };
+        let length = certified.path().length();
+        // The published optima have four digits behind the point.
+        assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");
+        assert!(certify(&problem.scene, certified.path().clone(), 0.0).is_ok());
+    }
+}

@@ -1,0 +1,103 @@
+//! The benchmark problems whose answers are published, with every planner.
+
+use crate::common::{Benchmark, benchmark, problem, q, rectangle, rr, scene};
+use cplan::model::{Goal, Problem, Scene};
+use cplan::solve::{Answer, Effort, Method, Verdict, solve};
+use cplan::space::Axis;
+
+fn answer(which: Benchmark, method: Method) -> Answer {
+    solve(&problem(which), method, &Effort::default(), &mut |_| {})
+}
+
+/// Length of the path, which must be found.
+fn length(which: Benchmark, method: Method) -> f64 {
+    let answer = answer(which, method);
+    let Verdict::Found(certified) = &answer.verdict else {
+        panic!("{which:?} by {method}: {:?}\n{:?}", answer.verdict, answer.history);
+    };
+    assert!(certified.clearance() > 0.0);
+    certified.path().length()
+}
+
+#[test]
+fn the_visibility_path_is_within_three_thousandths_of_the_optimum() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        let length = length(which, Method::Visibility);
+        assert!(length >= optimum - 1e-3, "{which:?}: {length} is shorter than the optimum");
+        assert!(length <= optimum * 1.003, "{which:?}: {length}");
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_trapezoids() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Trapezoid) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_the_wavefront() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Wavefront) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_the_harmonic_field() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Harmonic) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn narrow_passages_are_found_by_subdivision() {
+    for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
+        assert!(length(which, Method::Subdivision) >= optimum - 1e-3);
+    }
+}
+
+#[test]
+fn closed_ways_are_proven_closed() {
+    for which in [Benchmark::Inf, Benchmark::T] {
+        for method in Method::ALL {
+            let answer = answer(which, method);
+            assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{which:?} by {method}: {:?}", answer.verdict);
+        }
+    }
+}
+
+/// The outstretched arm points at a wall a micrometre away, far less than the margin that polygons are grown by.
+#[test]
+fn ends_with_little_room_are_answered_at_the_first_level() {
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
+    let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
+    let effort = Effort { levels: 1, ..Effort::default() };
+    for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {
+        let problem = Problem { scene: scene.clone(), start, goal: Goal::Joints(goal), goals: vec![goal] };
+        for method in Method::ALL {
+            let answer = solve(&problem, method, &effort, &mut |_| {});
+            let Verdict::Found(certified) = &answer.verdict else {
+                panic!("{method} from {start:?}: {:?}\n{:?}", answer.verdict, answer.history);
+            };
+            assert_eq!(certified.path().start(), start, "{method}");
+            assert!(problem.scene.arm.topology().distance(certified.path().goal(), goal) < 1e-9, "{method}");
+            assert!(certified.clearance() > 0.0 && certified.clearance() <= 1e-6 + 1e-12, "{method}");
+        }
+    }
+}
+
+/// The start keeps the clearance exactly.
+#[test]
+fn a_start_without_room_to_spare_is_answered() {
+    let (scene, start, goal) = benchmark(Benchmark::A);
+    let (arm, mut workspace) = (scene.arm, scene.workspace);
+    workspace.clearance = Scene::new(arm.clone(), workspace.clone()).clearance(start);
+    let scene = Scene::new(arm, workspace);
+    let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] };
+    let effort = Effort { levels: 1, boxes: 1000, ..Effort::default() };
+    for method in [Method::Visibility, Method::Trapezoid] {
+        let answer = solve(&problem, method, &effort, &mut |_| {});
+        // Exactly as much as is asked for can be no more than undecided.
+        assert!(!matches!(answer.verdict, Verdict::Found(_)), "{method}");
+    }
+}

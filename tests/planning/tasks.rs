@@ -1,0 +1,176 @@
+//! Every shipped task gives its stated outcome, and what is planned can be done.
+//!
+//! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or
+//! `# expect: infeasible`).
+
+use crate::random_tasks::replay;
+use cplan::certify::recheck;
+use cplan::geometry::Point;
+use cplan::input::{self, Overrides};
+use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
+use cplan::solve::{Effort, Method};
+use cplan::space::Configuration;
+use cplan::task::{Manner, TaskAnswer, TaskVerdict, plan};
+use cplan::trajectory::Drive;
+use std::path::{Path, PathBuf};
+
+fn manner() -> Manner {
+    Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() }
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")
+}
+
+/// A shipped task and its stated outcome.
+fn load(file: &Path) -> (Task, String) {
+    let text = std::fs::read_to_string(file).unwrap();
+    let stated = |key: &str| {
+        let line = text.lines().find_map(|l| l.strip_prefix(&format!("# {key}: ")));
+        line.unwrap_or_else(|| panic!("{}: no line \"# {key}: ...\"", file.display())).trim().to_owned()
+    };
+    let urdf = folder().join("../../robots").join(format!("{}.urdf", stated("robot")));
+    let scene = input::load_scene(&urdf, file).unwrap_or_else(|e| panic!("{e}"));
+    let loaded = scene.task(&Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
+    (loaded.task, stated("expect"))
+}
+
+fn shipped(name: &str) -> Task {
+    load(&folder().join(format!("{name}.toml"))).0
+}
+
+fn planned(task: &Task) -> TaskAnswer {
+    plan(task, &manner(), &mut |_| {})
+}
+
+#[test]
+fn every_task_gives_its_stated_outcome() {
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder()).unwrap().map(|e| e.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
+    files.sort();
+    assert!(files.len() >= 8, "only {} tasks", files.len());
+    for file in files {
+        let (task, expect) = load(&file);
+        let name = file.file_stem().unwrap().display().to_string();
+        let answer = planned(&task);
+        let outcome = match &answer.verdict {
+            TaskVerdict::Done => "done",
+            TaskVerdict::Infeasible(_) => "infeasible",
+            TaskVerdict::Unknown(_) => "unknown",
+        };
+        assert_eq!(outcome, expect, "{name}: {:?}", answer.verdict);
+        replay::replay(&task, &answer, outcome == "done").unwrap_or_else(|what| panic!("{name}: {what}"));
+        if outcome == "done" {
+            assert_eq!(answer.legs.len(), task.steps().count(), "{name}");
+            assert!(answer.lower_bound <= answer.duration(), "{name}");
+            assert!(answer.duration() <= 1.35 * answer.lower_bound, "{name}: {answer:?}");
+        }
+    }
+}
+
+/// The level and the rigid payload have the same world, but for the key that tells them apart.
+#[test]
+fn holding_level_or_rigid_makes_the_difference() {
+    let [level, rigid] = ["slot_level", "slot_rigid"].map(shipped);
+    let differ = |task: &Task| Task {
+        objects: task.objects.iter().map(|o| Object { holding: Holding::Rigid, ..o.clone() }).collect(),
+        workspace: Workspace { name: String::new(), ..task.workspace.clone() },
+        items: Vec::new(),
+        ..task.clone()
+    };
+    assert_eq!(differ(&level), differ(&rigid));
+    assert!(level.objects.iter().all(|o| o.holding == Holding::Level));
+    assert_eq!(planned(&level).verdict, TaskVerdict::Done);
+    assert!(matches!(planned(&rigid).verdict, TaskVerdict::Infeasible(_)));
+}
+
+/// Empty-handed the arm passes where it does not with the board.
+#[test]
+fn carrying_closes_a_passage() {
+    let task = shipped("board_and_gate");
+    let answer = planned(&task);
+    let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    assert_eq!(impossible.step.number, 3, "the board is what does not pass");
+    assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
+    // What is said of the motion that fails bears checking: a gantry has one posture for a place, its coordinates.
+    let [to] = &impossible.postures[..] else { panic!("{:?}", impossible.postures) };
+    assert_eq!((impossible.from, to.posture), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
+    assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
+    let clearance = impossible.scene.workspace.clearance;
+    let held = recheck(&to.proof, &impossible.scene, impossible.from, &[to.posture], clearance);
+    assert!(!to.proof.is_empty() && held.is_ok(), "{held:?}");
+}
+
+/// Two ways to take the rail, and two to reach the slot with each.
+#[test]
+fn reasons_name_the_motions_that_were_tried() {
+    let task = shipped("slot_rigid");
+    let answer = planned(&task);
+    let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
+    assert_eq!((impossible.postures.len(), impossible.reasons.len()), (2, 4));
+    let from = format!("from joints ({:.4}, {:.4}) rad to (", impossible.from[0], impossible.from[1]);
+    assert_eq!(impossible.reasons.iter().filter(|reason| reason.starts_with(&from)).count(), 2);
+    assert!(impossible.reasons.iter().all(|reason| reason.starts_with("from joints (")));
+    for to in &impossible.postures {
+        assert!(!impossible.scene.obstructions(to.posture).is_empty() && to.proof.is_empty(), "{to:?}");
+    }
+}
+
+/// All postures within the limits that put the tip where a step wants it, from the closed form.
+fn postures(task: &Task, step: &Step) -> Vec<Configuration> {
+    let target = match &step.action {
+        Action::Pick { object, .. } => Point::from(task.objects[*object].at.translation.vector),
+        Action::Place { at, .. } => *at,
+        Action::Move(_) => panic!("picks and places only"),
+    };
+    let branches = inverse(&task.arm, target, task.start).branches;
+    let copies = |q: &Configuration| {
+        let [a, b] = [0, 1].map(|k| within(task.arm.joints[k].axis, true, q[k]));
+        a.into_iter()
+            .flat_map(move |a| b.clone().into_iter().map(move |b| Configuration::new(a, b)))
+            .collect::<Vec<_>>()
+    };
+    branches.iter().flat_map(copies).collect()
+}
+
+/// Taking the posture that is nearest in time, step by step, is at least a fifth slower.
+#[test]
+fn the_greedy_choice_of_postures_is_slower() {
+    let task = shipped("elbow_choice");
+    let mut taken: Vec<Item> = Vec::new();
+    let mut greedy = 0.0;
+    for step in task.steps() {
+        // Going to a posture first and doing the step there forces that posture; objects lie below the arm.
+        let forced = |q: &Configuration| {
+            let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
+            let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
+            let answer = planned(&Task { items, ..task.clone() });
+            (answer.verdict == TaskVerdict::Done).then(|| (answer.duration(), *q))
+        };
+        let all = postures(&task, step);
+        let (seconds, q) =
+            all.iter().filter_map(forced).min_by(|a, b| a.0.total_cmp(&b.0)).expect("a posture that can be taken");
+        let there = Step { action: Action::Move(Goal::Joints(q)), dwell: 0.0, ..step.clone() };
+        taken.extend([Item::Step(there), Item::Step(step.clone())]);
+        greedy = seconds;
+    }
+    let ours = planned(&task).duration();
+    assert!(greedy >= 1.2 * ours, "greedy {greedy} s, ours {ours} s");
+}
+
+/// Cycles after which the world is the same are planned once, also where a rigid payload's orientation comes from the arm's.
+#[test]
+fn identical_cycles_are_planned_once() {
+    let once = planned(&shipped("feeder"));
+    assert_eq!(once.legs.len(), 300);
+    assert!(once.motions < 40, "{} motions", once.motions);
+    let mut task = shipped("elbow_choice");
+    let first: Vec<Step> = task.steps().cloned().collect();
+    let home = Step { action: Action::Move(Goal::Joints(task.start)), number: 3, ..first[0].clone() };
+    let cycle = |cycle| first.iter().chain([&home]).map(move |step| Item::Step(Step { cycle, ..step.clone() }));
+    task.items = (1..=50).flat_map(cycle).collect();
+    let answer = planned(&task);
+    assert_eq!(answer.verdict, TaskVerdict::Done);
+    assert_eq!(answer.legs.len(), 150);
+    assert!(answer.motions < 60, "{} motions", answer.motions);
+}

@@ -1,0 +1,219 @@
+//! The three commands and their options.
+
+use super::{FREE, Place, shelf, shipped};
+use serde_json::Value;
+
+#[test]
+fn wrong_command_lines_end_with_2() {
+    let place = Place::new();
+    let cases = [
+        ("", "not provided"),
+        ("--planner magic", "visibility, trapezoid, wavefront, harmonic, subdivision"),
+        ("--start 1", "two values"),
+        ("--start nan,0", "finite"),
+        ("--start 1e300,0", "too large"),
+        ("--goal 1,2 --goal-tip 1,2", "cannot be used with"),
+        ("--goal-tip 1,2deg", "not a number"),
+        ("--clearance -1", "not negative"),
+        ("--clearance nan", "number of metres"),
+        ("--margin 0", "more than 0"),
+        ("--blend 0", "more than 0"),
+        ("--blend=-0.1", "more than 0"),
+        ("--blend inf", "none, auto"),
+        ("--blend round", "none, auto"),
+        ("--tip-speed 0", "more than 0"),
+        ("--tip-speed nan", "more than 0"),
+        ("--jerk 200", "two numbers"),
+        ("--jerk 200,none,200", "two numbers"),
+        ("--jerk 200,0", "more than 0"),
+        ("--jerk=-1,200", "more than 0"),
+        ("--jerk nan,200", "more than 0"),
+        ("--jerk none,inf", "more than 0"),
+        ("--period 0", "at least"),
+        ("--period -1", "at least"),
+        ("--cells 3", "8..=2048"),
+        ("--levels 0", "1..=12"),
+        ("--output result.txt", ".json, .csv, .yaml"),
+        ("--output .json", ".json, .csv, .yaml"),
+        ("--picture drawing.pdf", ".svg, .png or .html"),
+        ("--gap 0", "more than 0"),
+        ("--gap nan", "more than 0"),
+        ("--gap 0.1 --planner wavefront", "needs --planner visibility"),
+        ("--metric time --planner harmonic", "needs --planner visibility"),
+        ("--metric weighted", "--weights"),
+        ("--metric weighted --weights 1,-1", "two positive numbers"),
+        ("--metric weighted --weights 1,2,3", "two positive numbers"),
+        ("--weights 1,2", "--metric weighted"),
+        ("--frobnicate", "unexpected argument"),
+    ];
+    for (options, part) in cases {
+        // The files are not there: the command line is judged first.
+        let files: &[&str] = if options.is_empty() { &[] } else { &["no.urdf", "no.toml"] };
+        place.run(files, options).refused(2, &[part]);
+    }
+    place.run(&["check", "no.urdf", "no.toml"], "").refused(2, &["--at"]);
+    place.run(&["check", "no.urdf", "no.toml"], "--at 0,0 --clearance inf").refused(2, &["finite"]);
+    place.run(&["compare", "no.urdf", "no.toml"], "--json --csv").refused(2, &["--csv"]);
+}
+
+#[test]
+fn help_names_files_that_exist_and_all_exit_codes() {
+    let place = Place::new();
+    let help = place.run(&["--help"], "");
+    assert_eq!(help.code, 0);
+    let files: Vec<&str> =
+        help.stdout.split_whitespace().filter(|word| word.contains('/') && word.contains('.')).collect();
+    assert!(files.len() >= 6, "{files:?}");
+    for file in files {
+        assert!(std::path::Path::new(&shipped(file)).is_file(), "{file}");
+    }
+    for part in ["compare", "check", "recheck", "0 found", "1 bad input", "2 wrong", "3 proven", "4 unknown"] {
+        assert!(help.stdout.replace('\n', " ").contains(part), "{part}");
+    }
+    assert_eq!(place.run(&["check", "--help"], "").code, 0);
+    assert_eq!(place.run(&["compare", "--help"], "").code, 0);
+}
+
+#[test]
+fn options_go_over_the_world_file() {
+    let place = Place::new();
+    let world = format!("clearance = 0.02\n{FREE}");
+    let path = |options: &str| place.plan(&world, &format!("--json --quiet {options}")).json()["path"].clone();
+    assert_eq!(path("")[0], serde_json::json!([-0.9, 0.4]));
+    assert_eq!(path("--start 0.1,0")[0], serde_json::json!([0.1, 0.0]));
+    assert_eq!(path("--goal=-0.25,90deg")[1], serde_json::json!([-0.25, std::f64::consts::FRAC_PI_2]));
+    let reached = path("--goal-tip 0.5,1.2");
+    assert_ne!(reached[1], serde_json::json!([1.55, -0.35]), "{reached}");
+}
+
+#[test]
+fn corners_are_rounded_as_far_as_asked_for() {
+    let place = Place::new();
+    let run = |options: &str| {
+        let done = place.run(&shelf(), &format!("{options} --output plan.json"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let result: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let [urdf, world] = shelf();
+        let verified = place.run(&["verify", &urdf, &world, "plan.json"], "");
+        assert_eq!(verified.code, 0, "{}", verified.stdout);
+        (done.stdout, result)
+    };
+    let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
+    let radius = |result: &Value| result["blends"]["largest_radius"].as_f64().unwrap();
+    let (text, stops) = run("--blend none");
+    assert!(text.contains("; stops at 11 corners"), "{text}");
+    assert_eq!((&stops["blends"]["count"], radius(&stops)), (&serde_json::json!(0), 0.0));
+    let (text, blended) = run("");
+    assert!(text.contains("; 11 of 11 corners blended, radius up to 0.0"), "{text}");
+    assert_eq!((&blended["path"], &blended["length"]), (&stops["path"], &stops["length"]));
+    assert!(number(&blended, "duration") < 0.7 * number(&stops, "duration"));
+    assert!(number(&blended, "clearance") >= 0.5 * number(&stops, "clearance"));
+    let (_, small) = run("--blend 0.002");
+    assert!(radius(&small) <= 0.002 && radius(&small) < radius(&blended));
+    assert!(number(&small, "duration") > number(&blended, "duration"));
+    assert!(number(&small, "duration") < number(&stops, "duration"));
+}
+
+#[test]
+fn limits_of_the_jerk_are_kept_in_every_format() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let text = std::fs::read_to_string(&world).unwrap();
+    place.write("smooth.toml", format!("{text}\n[robot]\njerk = {{ shoulder = 200.0, elbow = 300.0 }}\n"));
+    let smooth = [urdf.as_str(), "smooth.toml"];
+    let done = place.run(&smooth, "--output m.json --output m.yaml --output m.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    for part in ["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; stops at 11 corners"] {
+        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
+    }
+    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    assert_eq!(result["blends"]["count"], 0);
+    assert!(result["interpolation"].as_str().unwrap().ends_with("the jerk is constant"));
+    let verify = |file: &str| place.run(&["verify", &urdf, "smooth.toml", file], "");
+    for file in ["m.json", "m.yaml", "m.csv"] {
+        let verified = verify(file);
+        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+    }
+    // The command line over the world, either way round.
+    let option = place.run(&shelf(), "--jerk 200,300 --json --quiet");
+    assert_eq!(option.json(), result);
+    assert_eq!(place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").code, 0);
+    let jumps = verify("jumps.yaml");
+    assert_eq!(jumps.code, 3, "{}", jumps.stdout);
+    assert!(jumps.stdout.contains("shoulder: acceleration jumps by"), "{}", jumps.stdout);
+}
+
+#[test]
+fn check_says_why() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let files = ["check".into(), urdf, world];
+    let free = place.run(&files, "--at 10deg,45deg");
+    assert_eq!((free.code, free.stdout.contains("result     free")), (0, true), "{}", free.stdout);
+    let hit = place.run(&files, "--at 0.14,0.35");
+    assert_eq!(hit.code, 0);
+    for part in ["plane", "link \"forearm\", obstacle \"shelf\": penetrates by", "crosses obstacle side", "not free"] {
+        assert!(hit.stdout.contains(part), "{part}: {}", hit.stdout);
+    }
+    let json = place.run(&files, "--at 0.14,0.35 --json").json();
+    assert_eq!((&json["free"], &json["within_limits"]), (&Value::Bool(false), &serde_json::json!([true, true])));
+    // The shortest way out is along the link's normal, past the shelf's upper left corner.
+    let angle = 0.49_f64;
+    let elbow = [0.14_f64.cos(), 0.14_f64.sin()];
+    let corner = [1.15 - elbow[0], 0.3 - elbow[1]];
+    let beyond = corner[1] * angle.cos() - corner[0] * angle.sin();
+    let depth = json["contacts"][0]["depth"].as_f64().unwrap();
+    assert!((depth - (0.05 + beyond)).abs() < 1e-9, "{depth} {beyond}");
+    let outside = place.run(&files, "--at 9,0");
+    assert_eq!(outside.code, 0);
+    assert!(outside.stdout.contains("OUTSIDE") && outside.stdout.contains("not free"), "{}", outside.stdout);
+    let near = place.run(&files, "--at 10deg,45deg --clearance 0.05");
+    assert!(near.stdout.contains("less than the clearance of 0.05 m"), "{}", near.stdout);
+}
+
+#[test]
+fn compare_lists_every_planner() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    let files = ["compare".into(), shipped("robots/planar_2r.urdf"), "world.toml".into()];
+    let planners = ["visibility", "trapezoid", "wavefront"];
+    let options = "--planner visibility --planner trapezoid --planner wavefront --quiet";
+    let text = place.run(&files, options);
+    assert_eq!((text.code, text.stderr.as_str()), (0, ""));
+    assert!(planners.iter().all(|p| text.stdout.contains(p)), "{}", text.stdout);
+    let json = place.run(&files, &format!("{options} --json --picture all.svg")).json();
+    for (row, name) in json["planners"].as_array().unwrap().iter().zip(planners) {
+        assert_eq!((row["planner"].as_str(), row["outcome"].as_str()), (Some(name), Some("found")));
+        assert!(row["ratio"].as_f64().unwrap() >= 1.0);
+    }
+    assert!(place.read("all.svg").contains("</svg>"));
+    let csv = place.run(&files, &format!("{options} --csv")).stdout;
+    let columns: Vec<usize> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, [columns[0]; 4]);
+}
+
+#[test]
+fn recheck_accepts_true_proofs_and_no_others() {
+    let place = Place::new();
+    let [urdf, closed, open] =
+        ["robots/planar_2r.urdf", "workspaces/limits_closed.toml", "workspaces/limits_open.toml"].map(shipped);
+    let made =
+        place.run(&[&urdf, &closed], "--planner subdivision --json --quiet --output proof.json --picture proof.svg");
+    assert_eq!((made.code, made.stderr.as_str()), (3, ""));
+    let boxes = made.json()["proof"].as_array().unwrap().len();
+    assert!(place.read("proof.svg").contains("proof: separating boxes"));
+    let judge = |world: &str, options: &str| place.run(&["recheck", &urdf, world], &format!("--proof {options}"));
+    let holds = judge(&closed, "proof.json");
+    assert_eq!((holds.code, holds.stdout.contains(&format!("holds: {boxes} boxes"))), (0, true), "{}", holds.stderr);
+    // Another problem, another goal on the start's side, a proof with a hole, no proof.
+    judge(&open, "proof.json").refused(1, &["proof.json", "does not hold"]);
+    judge(&closed, "proof.json --goal 0.4,0").refused(1, &["do not separate"]);
+    let mut lesser = made.json();
+    lesser["proof"].as_array_mut().unwrap().truncate(boxes / 2);
+    place.write("lesser.json", lesser.to_string());
+    judge(&closed, "lesser.json").refused(1, &["do not separate"]);
+    place.write("none.json", r#"{"status": "found"}"#);
+    judge(&closed, "none.json").refused(1, &["holds no proof"]);
+    judge(&closed, "absent.json").refused(1, &["absent.json"]);
+    place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
+}

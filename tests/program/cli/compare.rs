@@ -1,0 +1,280 @@
+//! `cplan compare` on many problems, and its files.
+
+use super::{FREE, Place, shelf, shipped};
+use cplan::input::{Overrides, load};
+use serde_json::Value;
+
+/// A pocket that nothing leaves, for `planar_2r` with these limits of its own.
+const CLOSED: &str = "[robot]\nlimits = { shoulder = [-1.0, 1.0], elbow = [-1.0, 1.0] }\n[start]\njoints = [-0.9, 0.0]\n\
+                      [goal]\njoints = [0.9, 0.0]\n[[obstacle]]\nname = \"wall\"\npolyline = [[0.3, 0.0], [1.5, 0.0]]\n";
+
+/// A suite of two worlds.
+fn suite(place: &Place) {
+    let robot = shipped("robots/planar_2r.urdf");
+    std::fs::create_dir(place.path("worlds")).unwrap();
+    place.write("worlds/open.toml", FREE);
+    place.write("worlds/closed.toml", CLOSED);
+    let problem = |world: &str| format!("[[problem]]\nrobot = \"{robot}\"\nworld = \"{world}\"\n");
+    place.write(
+        "worlds/suite.toml",
+        format!("name = \"two worlds\"\n{}{}", problem("open.toml"), problem("closed.toml")),
+    );
+}
+
+/// The result without times and memory.
+fn without_costs(mut json: Value) -> Value {
+    fn clean(value: &mut Value) {
+        match value {
+            Value::Object(map) => {
+                for key in ["time", "memory", "build", "query", "certify", "total"] {
+                    map.remove(key);
+                }
+                map.values_mut().for_each(clean);
+            }
+            Value::Array(all) => all.iter_mut().for_each(clean),
+            _ => {}
+        }
+    }
+    clean(&mut json);
+    // The words speak of times, too.
+    json.as_object_mut().unwrap().remove("summary");
+    json
+}
+
+const QUICK: &str = "--planner visibility --planner wavefront --cells 64 --quiet";
+
+#[test]
+fn suites_list_every_problem_with_every_planner() {
+    let place = Place::new();
+    suite(&place);
+    let done = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json"));
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let json = done.json();
+    assert_eq!(json["title"], "two worlds");
+    let outcomes = |problem: usize| -> Vec<&str> {
+        let rows = json["problems"][problem]["planners"].as_array().unwrap();
+        rows.iter().map(|row| row["outcome"].as_str().unwrap()).collect()
+    };
+    assert_eq!((outcomes(0), outcomes(1)), (vec!["found"; 2], vec!["infeasible"; 2]));
+    for planner in json["planners"].as_array().unwrap() {
+        let counts = ["found", "infeasible", "unknown", "total"].map(|key| planner[key].as_u64().unwrap());
+        assert_eq!(counts, [1, 1, 0, 2]);
+        assert_eq!(planner["distributions"]["total"]["n"], 2);
+        assert_eq!(planner["distributions"]["over_optimum"]["n"], 1);
+    }
+    // The robot goes with all worlds of the folder just as well; the manifest is none of them.
+    let folder =
+        place.run(&["compare", &shipped("robots/planar_2r.urdf"), "--suite", "worlds"], &format!("{QUICK} --json"));
+    assert_eq!(folder.code, 0, "{}", folder.stderr);
+    let folder = folder.json();
+    let names: Vec<&str> =
+        folder["problems"].as_array().unwrap().iter().map(|p| p["problem"].as_str().unwrap()).collect();
+    assert_eq!((names, folder["title"].as_str()), (vec!["closed", "open"], Some("worlds")));
+    // A manifest by its own name, and the tables.
+    let text = place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK);
+    assert_eq!(text.code, 0);
+    for part in
+        ["two worlds\n", "outcomes\n", "total [ms]\n", "2 problems: 1 with a certified path, 1 proven to have none"]
+    {
+        assert!(text.stdout.contains(part), "no {part:?} in {}", text.stdout);
+    }
+}
+
+#[test]
+fn what_is_wrong_with_a_suite_is_told_at_once() {
+    let place = Place::new();
+    suite(&place);
+    let refused = |content: &str, parts: &[&str]| {
+        place.write("worlds/suite.toml", content);
+        place.run(&["compare", "--suite", "worlds"], "").refused(1, parts);
+    };
+    let robot = shipped("robots/planar_2r.urdf");
+    refused("[[problem]]\nrobot = 3\n", &["suite.toml: line 2", "string", "robot = 3"]);
+    refused("[[problem]]\nrobot = \"a\"\nwordl = \"b\"\n", &["line 3", "unknown key `wordl`", "`world`"]);
+    refused("[[problem]]\nrobot = \"a\"\n", &["missing key `world`"]);
+    refused("name = \"x\"\n", &["lists no problem", "cure: add a [[problem]]"]);
+    refused(
+        "[[problem]]\nrobot = \"absent.urdf\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"a.urdf\"\nworld = \"b.toml\"\n",
+        &["line 2", "no file worlds/absent.urdf", "worlds/a.urdf", "worlds/b.toml", "relative to the manifest"],
+    );
+    // All worlds' defects together, each with its file and place.
+    place.write("worlds/open.toml", "[start]\njoints = [9.0, 0.0]\n[goal]\njoints = [0.0, 0.0]\n");
+    place.write("worlds/closed.toml", "[start]\njoints = [0.0, 0.0]\n");
+    let two = format!(
+        "[[problem]]\nrobot = \"{robot}\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"{robot}\"\nworld = \"closed.toml\"\n"
+    );
+    refused(&two, &["open.toml: line 2", "outside the joint limits", "closed.toml: there is no goal", "cure:"]);
+    place.write("worlds/closed.toml", "obstcle = 1\n");
+    refused(&two, &["closed.toml: line 1", "unknown key `obstcle`"]);
+    std::fs::remove_file(place.path("worlds/suite.toml")).unwrap();
+    place.run(&["compare", "--suite", "worlds"], "").refused(1, &["has no suite.toml", "compare URDF --suite worlds"]);
+    place.run(&["compare", "--suite", "absent"], "").refused(1, &["absent", "cannot be read"]);
+    std::fs::create_dir(place.path("empty")).unwrap();
+    place.run(&["compare", &robot, "--suite", "empty"], "").refused(1, &["empty: there is no world in it", "cure:"]);
+}
+
+#[test]
+fn worlds_with_steps_are_left_out_and_said_to_be() {
+    let place = Place::new();
+    std::fs::create_dir(place.path("worlds")).unwrap();
+    place.write("worlds/free.toml", FREE);
+    let step = "[start]\njoints = [-0.9, 0.4]\n[[step]]\nmove = { joints = [0.0, 0.0] }\n";
+    place.write("worlds/task.toml", step);
+    let robot = shipped("robots/planar_2r.urdf");
+    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stderr.contains("note: worlds/task.toml is left out: it has steps"), "{}", done.stderr);
+    let json = done.json();
+    assert_eq!((json["problems"].as_array().unwrap().len(), json["left_out"].as_array().unwrap().len()), (1, 1));
+    std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
+    place
+        .run(&["compare", &robot, "--suite", "worlds"], "")
+        .refused(1, &["task.toml", "have steps, not a goal", "cure:"]);
+    place
+        .run(&["compare", &robot, "worlds/task.toml"], "--queries 3")
+        .refused(1, &["task.toml", "has steps, not a goal"]);
+}
+
+#[test]
+fn random_queries_are_free_and_follow_from_the_seed() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let run = |options: &str| {
+        let done = place.run(&["compare", &urdf, &world], &format!("{QUICK} --json --clearance 0.02 {options}"));
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+        done.json()
+    };
+    let six = run("--queries 6 --seed 5");
+    assert_eq!((six["queries"].as_u64(), six["seed"].as_u64()), (Some(6), Some(5)));
+    let scene = load(urdf.as_ref(), world.as_ref(), &Overrides::default()).unwrap().problem.scene;
+    let problems = six["problems"].as_array().unwrap();
+    for problem in problems {
+        for end in ["start", "goal"] {
+            let [a, b] = [0, 1].map(|k| problem[end][k].as_f64().unwrap());
+            let q = cplan::space::Configuration::new(a, b);
+            assert!(scene.arm.topology().contains(q) && scene.clearance(q) > 0.02, "{problem}");
+        }
+        let bound = problem["lower_bound"].as_f64().unwrap();
+        for row in problem["planners"].as_array().unwrap() {
+            assert!(row["length"].as_f64().unwrap() >= bound && row["clearance"].as_f64().unwrap() >= 0.02, "{row}");
+        }
+    }
+    assert_eq!(without_costs(run("--queries 6 --seed 5 --jobs 3")), without_costs(six.clone()));
+    let four = run("--queries 4 --seed 5");
+    assert_eq!(four["problems"][3]["start"], six["problems"][3]["start"]);
+    assert_ne!(run("--queries 1 --seed 6")["problems"][0]["start"], six["problems"][0]["start"]);
+    // The world's own start and goal are not looked at; without room there are no queries.
+    place.write("bare.toml", "[[obstacle]]\ncircle = { center = [1.2, 0.9], radius = 0.1 }\n");
+    assert_eq!(place.run(&["compare", &urdf, "bare.toml"], "--queries 2 --planner trapezoid --quiet").code, 0);
+    place
+        .run(&["compare", &urdf, "bare.toml"], "--queries 2 --clearance 99")
+        .refused(1, &["--queries", "clearance of 99 m"]);
+    let usage = [("--seed 3", "--queries"), ("--queries 0", "1..=100000"), ("--queries 2 --start 0,0", "--start")];
+    for (options, part) in usage {
+        place.run(&["compare", &urdf, &world], options).refused(2, &[part]);
+    }
+    place.run(&["compare", &urdf, &world, "--suite", "worlds"], "").refused(2, &["--suite"]);
+    place.run(&["compare", &urdf], "").refused(2, &["WORLD"]);
+}
+
+#[test]
+fn every_file_is_written_or_none() {
+    let place = Place::new();
+    suite(&place);
+    let files = ["r.md", "r.csv", "r.json", "r.html", "r.log"];
+    let outputs: String = files.iter().map(|file| format!(" --output {file}")).collect();
+    let done = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK}{outputs}"));
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    assert!(place.read("r.md").starts_with("# two worlds\n"));
+    let csv = place.read("r.csv");
+    let columns: Vec<usize> = csv.lines().map(|line| line.split(',').count()).collect();
+    assert_eq!(columns, [columns[0]; 5], "{csv}");
+    let json: Value = serde_json::from_str(&place.read("r.json")).unwrap();
+    assert_eq!(json["problems"].as_array().unwrap().len(), 2);
+    assert!(place.read("r.log").ends_with("\n.\n"));
+    well_formed(&place.read("r.html"));
+    for (options, code, part) in [
+        ("--output new.txt", 2, ".md, .csv, .json, .html or .log"),
+        ("--output new.md --output new.md", 2, "twice"),
+        ("--output new.md --output absent/new.md", 1, "no folder absent"),
+        ("--markdown --csv", 2, "--csv"),
+        ("--jobs 0", 2, "1..=1024"),
+        ("--picture new.svg", 2, "--picture"),
+    ] {
+        place.run(&["compare", "--suite", "worlds"], options).refused(code, &[part]);
+    }
+    assert!(!place.path("new.md").exists());
+}
+
+/// HTML that is XML, too, as our pages are.
+fn well_formed(html: &str) -> usize {
+    let body = html.strip_prefix("<!DOCTYPE html>\n").expect("a page");
+    let document = roxmltree::Document::parse(body).unwrap_or_else(|e| panic!("{e}: {html}"));
+    for node in document.descendants() {
+        assert_ne!(node.tag_name().name(), "script");
+        for attribute in node.attributes() {
+            // Pictures are data, in which a name space is a name.
+            let is_data = attribute.value().starts_with("data:image/svg+xml,");
+            assert!(is_data || !attribute.value().contains("//"), "{attribute:?}: no page but this one");
+        }
+    }
+    document.descendants().filter(|node| node.tag_name().name() == "figure").count()
+}
+
+#[test]
+fn odd_names_stay_names_in_the_page() {
+    let place = Place::new();
+    let odd = format!("name = '<b>&\"]]>'\n{FREE}");
+    place.write("odd.toml", odd);
+    let files = ["compare".into(), shipped("robots/planar_2r.urdf"), "odd.toml".into()];
+    let done = place.run(&files, &format!("{QUICK} --output page.html --output page.log --output page.md"));
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let html = place.read("page.html");
+    assert!(html.contains("&lt;b&gt;&amp;&quot;]]&gt;") && !html.contains("<b>"));
+    assert!(well_formed(&html) >= 5);
+    let queries = place.run(&files, &format!("{QUICK} --queries 3 --output page.html"));
+    assert_eq!(queries.code, 0, "{}", queries.stderr);
+    let html = place.read("page.html");
+    assert!(well_formed(&html) >= 5 && html.contains("id=\"blocked0\""));
+}
+
+#[test]
+fn one_problem_is_told_in_all_formats() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let markdown = place.run(&["compare", &urdf, &world], &format!("{QUICK} --markdown"));
+    assert!(markdown.stdout.starts_with("| planner"), "{}", markdown.stdout);
+    let json = place.run(&["compare", &urdf, &world], &format!("{QUICK} --json")).json();
+    for row in json["planners"].as_array().unwrap() {
+        let [ratio, over] = ["ratio", "over_optimum"].map(|key| row[key].as_f64().unwrap());
+        assert!(over >= ratio && row["memory"].as_u64().unwrap() > 1000, "{row}");
+        assert!(row["time"]["total"].as_f64().unwrap() >= row["time"]["query"].as_f64().unwrap());
+    }
+    let parallel = place.run(&["compare", &urdf, &world], "--planner trapezoid --planner wavefront --jobs 2 --json");
+    assert!(parallel.stderr.contains("memory is told for --jobs 1 only"), "{}", parallel.stderr);
+    assert!(parallel.json()["planners"][0]["memory"].is_null());
+}
+
+#[test]
+fn the_shipped_suite_names_the_robot_of_each_workspace() {
+    let folder = shipped("workspaces");
+    let text = std::fs::read_to_string(format!("{folder}/suite.toml")).unwrap();
+    let mut named: Vec<(String, String)> = Vec::new();
+    for problem in text.split("[[problem]]").skip(1) {
+        let value =
+            |key: &str| problem.lines().find_map(|l| l.strip_prefix(&format!("{key} = "))).unwrap().trim_matches('"');
+        named.push((value("world").to_owned(), value("robot").to_owned()));
+    }
+    let mut stated = Vec::new();
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let file = entry.unwrap().path();
+        let name = file.file_name().unwrap().to_str().unwrap().to_owned();
+        if name.ends_with(".toml") && name != "suite.toml" {
+            let text = std::fs::read_to_string(&file).unwrap();
+            let robot = text.lines().find_map(|l| l.strip_prefix("# robot: ")).unwrap().trim().to_owned();
+            stated.push((name, format!("../robots/{robot}.urdf")));
+        }
+    }
+    stated.sort();
+    assert_eq!(named, stated);
+}

@@ -1,0 +1,189 @@
+//! Options for fields.
+
+use super::{FREE, Place, shelf, shipped};
+use serde_json::{Value, json};
+
+/// Coarse, so that debug builds answer soon.
+const COARSE: &str = "--planner harmonic --cells 48 --json";
+
+fn u_trap() -> [String; 2] {
+    [shipped("robots/planar_2r.urdf"), shipped("workspaces/u_trap.toml")]
+}
+
+#[test]
+fn options_that_do_not_go_together_end_with_2() {
+    let place = Place::new();
+    for (options, part) in [
+        ("--field oriented", "--field needs --planner harmonic: visibility follows no such field"),
+        ("--planner wavefront --tolerance 1e-3", "--tolerance needs --planner harmonic"),
+        ("--planner harmonic --field laplace", "possible values: harmonic, oriented, local, bvp, bvp2, khatib"),
+        ("--planner harmonic --field oriented", "needs --epsilon and --direction"),
+        ("--planner harmonic --field oriented --epsilon 1", "needs --epsilon and --direction"),
+        ("--planner harmonic --field oriented --epsilon x --direction 0,1", "finite"),
+        ("--planner harmonic --field oriented --epsilon 1 --direction 0,0", "not both 0"),
+        ("--planner harmonic --epsilon 1", "--epsilon is for --field oriented, bvp or bvp2"),
+        ("--planner harmonic --field bvp --direction 0,1", "--direction is for --field oriented or local"),
+        ("--planner harmonic --field bvp2 --difference upwind", "--difference is for --field oriented, local or bvp"),
+        ("--planner harmonic --relaxation jacobi --order rows", "all cells go at once"),
+        ("--planner harmonic --relaxation jacobi --factor 0.5", "weighted-jacobi and sor"),
+        ("--planner harmonic --relaxation weighted-jacobi", "needs --factor"),
+        ("--planner harmonic --relaxation gauss-seidel --factor 1.5", "sor with 1"),
+        ("--planner harmonic --relaxation sor --factor 0", "more than 0"),
+        ("--planner harmonic --tolerance -1", "more than 0"),
+        ("--planner harmonic --max-sweeps 0", "1.."),
+        ("--planner harmonic --field khatib --relaxation sor", "--relaxation is for --field harmonic"),
+        ("--planner harmonic --saturated", "--saturated is for --field khatib"),
+        ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
+        ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
+        ("--planner harmonic --field khatib --repulsion ranged:1", "ranged:K,P0"),
+    ] {
+        // The files are not there: the command line is judged first.
+        place.run(&["no.urdf", "no.toml"], options).refused(2, &[part]);
+    }
+    for (field, part) in [
+        ("local", "needs [[preference]] regions"),
+        ("bvp", "--field bvp needs [[preference]] regions in the world file, or --epsilon"),
+        ("bvp2", "--field bvp2 needs"),
+    ] {
+        place.run(&shelf(), &format!("--planner harmonic --field {field}")).refused(2, &[part]);
+    }
+    let region = "[[preference]]\nname = \"bay\"\nepsilon = 1\nconfigurations = [[0, 0], [1, 0], [0, 1]]\n";
+    let local = place.plan(format!("{FREE}{region}"), "--planner harmonic --field local");
+    local.refused(2, &["\"bay\" has no direction", "--direction"]);
+}
+
+#[test]
+fn the_result_tells_which_field_was_followed() {
+    let place = Place::new();
+    let field = |options: &str| {
+        let done = place.run(&shelf(), &format!("{COARSE} {options}"));
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        let result = done.json();
+        assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
+        (result["field"].clone(), result["size"]["sweeps"].clone())
+    };
+    assert_eq!(field("").0, Value::Null);
+    assert_eq!(field("--field harmonic").0, Value::Null);
+    let relaxed = |own: Value| {
+        let mut all = json!({ "tolerance": 1e-6, "max_sweeps": 10_000, "limits": "high", "converged": true });
+        all.as_object_mut().unwrap().extend(own.as_object().unwrap().clone());
+        all
+    };
+    for (options, expected) in [
+        (
+            "--relaxation gauss-seidel --order rows",
+            json!({ "equation": "harmonic", "relaxation": "gauss-seidel", "order": "rows" }),
+        ),
+        ("--relaxation jacobi --limits high", json!({ "equation": "harmonic", "relaxation": "jacobi" })),
+        (
+            "--relaxation weighted-jacobi --factor 0.9 --tolerance 1e-4",
+            json!({ "equation": "harmonic", "relaxation": "weighted-jacobi", "factor": 0.9, "tolerance": 1e-4 }),
+        ),
+        (
+            "--relaxation sor --factor 1.5 --order red-black --limits reflecting",
+            json!({ "equation": "harmonic", "relaxation": "sor", "factor": 1.5, "order": "red-black",
+                "limits": "reflecting" }),
+        ),
+        (
+            "--field oriented --epsilon 0.5 --direction 0,-2 --order columns",
+            json!({ "equation": "oriented", "epsilon": 0.5, "direction": [0.0, -1.0], "difference": "central",
+                "relaxation": "gauss-seidel", "order": "columns" }),
+        ),
+        (
+            "--field oriented --epsilon 5 --direction 1,0 --difference upwind",
+            json!({ "equation": "oriented", "epsilon": 5.0, "direction": [1.0, 0.0], "difference": "upwind",
+                "relaxation": "gauss-seidel", "order": "corners" }),
+        ),
+        (
+            "--field bvp --epsilon -0.5",
+            json!({ "equation": "bvp", "epsilon": -0.5, "difference": "central", "relaxation": "gauss-seidel",
+                "order": "corners" }),
+        ),
+        (
+            "--field bvp2 --epsilon 0.5 --max-sweeps 9000",
+            json!({ "equation": "bvp2", "epsilon": 0.5, "relaxation": "gauss-seidel", "order": "corners",
+                "max_sweeps": 9000 }),
+        ),
+    ] {
+        let (field, sweeps) = field(options);
+        assert_eq!(field, relaxed(expected), "{options}");
+        assert!(sweeps.as_u64().unwrap() > 1, "{options}");
+    }
+    let (sor, _) = field("--relaxation sor");
+    // The formula's: 2 / (1 + sin(pi / 48)).
+    assert!((sor["factor"].as_f64().unwrap() - 2.0 / (1.0 + (std::f64::consts::PI / 48.0).sin())).abs() < 1e-12);
+    let khatib = "--field khatib --attraction constant:1 --repulsion inverse-square:0.001";
+    let free = place.plan(FREE, &format!("{COARSE} {khatib}")).json();
+    let (khatib, sweeps) = (free["field"].clone(), free["size"]["sweeps"].clone());
+    let expected = json!({ "equation": "khatib", "attraction": "constant:1", "repulsion": "inverse-square:0.001",
+        "saturated": false, "limits": "high" });
+    assert_eq!((khatib, sweeps), (expected, json!(0)));
+}
+
+#[test]
+fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
+    let place = Place::new();
+    let trap = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib"));
+    assert_eq!(trap.code, 4, "{}", trap.stderr);
+    let reason = trap.json()["reason"].as_str().unwrap().to_owned();
+    assert!(reason.contains("the potential has a local minimum at ("), "{reason}");
+    let saturated = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib --saturated"));
+    assert_eq!(saturated.code, 4, "{}", saturated.stderr);
+    assert!(saturated.json()["reason"].as_str().unwrap().contains("the forces trap the arm at ("));
+    let diverged = place.run(&u_trap(), &format!("{COARSE} --levels 1 --relaxation sor --factor 2.5"));
+    assert_eq!(diverged.code, 4, "{}", diverged.stderr);
+    assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
+}
+
+#[test]
+fn regions_of_the_world_are_followed() {
+    let place = Place::new();
+    let region =
+        "[[preference]]\nname = \"bay\"\nepsilon = 1\ndirection = [0, 1]\npolygon = [[0, 0], [1, 0], [0, 1]]\n";
+    let world = format!("{FREE}{region}");
+    for field in ["local", "bvp", "bvp2"] {
+        let done = place.plan(&world, &format!("{COARSE} --field {field}"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        assert_eq!(done.json()["field"]["equation"], json!(field));
+    }
+    let text = place.plan(&world, "--planner harmonic --cells 48 --field local --picture field.svg").stdout;
+    assert!(
+        text.contains("field      oriented by region, central differences; gauss-seidel, corners; limits high"),
+        "{text}"
+    );
+    assert!(place.read("field.svg").contains("ln of the potential"));
+    let khatib = place.plan(&world, "--planner harmonic --cells 48 --field khatib --picture field.svg");
+    assert_eq!(khatib.code, 0, "{}", khatib.stderr);
+    let picture = place.read("field.svg");
+    assert!(picture.contains("equipotentials") && !picture.contains("ln of the potential"));
+}
+
+#[test]
+fn compare_takes_rows_with_options() {
+    let place = Place::new();
+    let with = "harmonic  --field oriented --epsilon 0.5 --direction 0,-1";
+    let mut command = place.command();
+    command.arg("compare").args(shelf()).args(["--cells", "48", "--planner", "wavefront", "--json", "--quiet"]);
+    let done = command
+        .args(["--with", with, "--with", "harmonic --field khatib", "--with", "wavefront --search astar"])
+        .output()
+        .unwrap();
+    let table: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let rows: Vec<&str> =
+        table["planners"].as_array().unwrap().iter().map(|row| row["planner"].as_str().unwrap()).collect();
+    let oriented = "harmonic --field oriented --epsilon 0.5 --direction 0,-1";
+    assert_eq!(rows, ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar"]);
+    for (with, part) in [
+        ("harmonic --field oriented", "needs --epsilon and --direction"),
+        ("wavefront --field bvp", "needs --planner harmonic"),
+        ("harmonic --search bfs", "needs --planner wavefront"),
+        ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: visibility, "),
+        ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
+        ("", "not provided"),
+    ] {
+        let done = place.command().args(["compare", "no.urdf", "no.toml", "--with", with]).output().unwrap();
+        let text = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(2), "{text}");
+        assert!(text.contains(part), "{part:?} is not in: {text}");
+    }
+}

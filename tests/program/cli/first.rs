@@ -1,0 +1,178 @@
+//! The first five minutes: the demo, and files to start from.
+
+use super::{Done, Place};
+use std::fs;
+
+const KINDS: [&str; 5] = ["rr", "rp", "pr", "pp", "scara"];
+
+fn names(place: &Place, folder: &str) -> Vec<String> {
+    let mut names: Vec<String> = fs::read_dir(place.path(folder))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+fn init(place: &Place, kind: &str) -> Done {
+    place.run(&["init", kind, "--kind", kind], "")
+}
+
+#[test]
+fn the_demo_needs_no_files() {
+    let place = Place::new();
+    let done = place.run(&["demo"], "");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    for part in ["arm        scara (RR)", "found and certified", "file       plan.json", "next       open plan.html"] {
+        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
+    }
+    assert_eq!(names(&place, "."), ["plan.html", "plan.json"]);
+    let result: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    assert_eq!((&result["status"], &result["certified"]), (&"found".into(), &true.into()));
+    assert!(place.read("plan.html").contains("SCARA cell"));
+    // The cell that is built in is the one that `init` writes: what is true of one is true of the other.
+    assert_eq!(init(&place, "scara").code, 0);
+    let verified = place.run(&["verify", "scara/arm.urdf", "scara/world.toml", "plan.json"], "");
+    assert_eq!(verified.code, 0, "{}", verified.stdout);
+    let planned = place.run(&["scara/arm.urdf", "scara/world.toml"], "--json --quiet");
+    assert_eq!(planned.stdout, place.read("plan.json"));
+}
+
+#[test]
+fn the_demo_spares_what_is_there() {
+    let place = Place::new();
+    place.write("plan.json", "mine");
+    place.run(&["demo"], "").refused(1, &["plan.json exists already", "nothing was written", "--force", "--dir"]);
+    assert_eq!((names(&place, "."), place.read("plan.json")), (vec!["plan.json".to_owned()], "mine".to_owned()));
+    let elsewhere = place.run(&["demo"], "--dir new/folder --quiet --planner wavefront");
+    assert_eq!((elsewhere.code, elsewhere.stdout.as_str()), (0, ""));
+    assert_eq!(names(&place, "new/folder"), ["plan.html", "plan.json"]);
+    place.run(&["demo"], "--dir new/folder").refused(1, &["plan.json and new/folder/plan.html exist already"]);
+    let forced = place.run(&["demo"], "--force --json --output more.csv");
+    assert_eq!((forced.code, place.read("plan.json")), (0, forced.stdout));
+    assert!(place.read("more.csv").starts_with("time,axis_1,"));
+    place.run(&["demo"], "--dir plan.json/x").refused(1, &["cannot make the folder plan.json/x"]);
+    place.run(&["demo"], "--dir plan.json").refused(1, &["plan.json: it exists and is not a folder"]);
+    // Bad options are those of the main job.
+    place.run(&["demo"], "--force --goal-tip 9,9").refused(1, &["--goal-tip", "out of reach"]);
+    place.run(&["demo"], "--force --planner wavefront --gap 0.1").refused(2, &["--gap needs --planner visibility"]);
+}
+
+#[test]
+fn what_init_writes_can_be_planned_at_once() {
+    let place = Place::new();
+    for (kind, arm) in KINDS.into_iter().zip(["RR", "RP", "PR", "PP", "RR"]) {
+        let done = init(&place, kind);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{kind}");
+        assert_eq!(names(&place, kind), ["arm.urdf", "world.schema.json", "world.toml"]);
+        assert!(!place.read(&format!("{kind}/world.toml")).contains("{{"), "{kind}: a mark is left");
+        // The commands that it prints.
+        let commands: Vec<&str> = done.stdout.lines().filter_map(|l| l.split_once(" cplan ").map(|c| c.1)).collect();
+        assert_eq!(commands.len(), 4, "{}", done.stdout);
+        for command in commands {
+            let words: Vec<&str> = command.split_whitespace().collect();
+            let ran = place.run(&words, "");
+            assert_eq!(ran.code, 0, "{command}: {}", ran.stderr);
+            assert!(!ran.stderr.contains("warning"), "{command}: {}", ran.stderr);
+            match words[0] {
+                "check" => assert!(ran.stdout.contains("result     "), "{}", ran.stdout),
+                "inspect" => {
+                    assert!(ran.stdout.contains("result     the robot can be planned with"), "{}", ran.stdout);
+                    assert!(!ran.stdout.contains("warning"), "{}", ran.stdout);
+                }
+                "compare" => assert_eq!(ran.stdout.matches("found").count(), 5, "{kind}: {}", ran.stdout),
+                _ => {
+                    assert!(ran.stdout.contains(&format!("({arm})")), "{}", ran.stdout);
+                    assert!(ran.stdout.contains("found and certified"), "{}", ran.stdout);
+                }
+            }
+        }
+    }
+}
+
+/// Lines of a starter world that are keys behind a `#`: it stands right before them, before words there is a blank.
+fn is_key(line: &str) -> bool {
+    line.strip_prefix('#').is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))
+}
+
+#[test]
+fn keys_that_are_commented_out_are_valid() {
+    let place = Place::new();
+    for kind in ["rr", "rp", "pr", "pp"] {
+        assert_eq!(init(&place, kind).code, 0);
+        let world = place.read(&format!("{kind}/world.toml"));
+        let lines: Vec<&str> = world.lines().collect();
+        let mut tried = 0;
+        let mut i = 0;
+        while i < lines.len() {
+            if !is_key(lines[i]) {
+                i += 1;
+                continue;
+            }
+            // A table goes with the keys below it, other keys stand alone.
+            let is_table = lines[i].starts_with("#[");
+            let end =
+                if is_table { (i..lines.len()).find(|&j| !is_key(lines[j])).unwrap_or(lines.len()) } else { i + 1 };
+            let mut changed: Vec<&str> = lines.clone();
+            changed[i..end].iter_mut().for_each(|line| *line = &line[1..]);
+            if lines[i - 1].starts_with("# Instead of the line above") {
+                changed[i - 2] = "";
+            }
+            place.write(&format!("{kind}/changed.toml"), changed.join("\n"));
+            let [robot, changed] = ["arm.urdf", "changed.toml"].map(|file| format!("{kind}/{file}"));
+            let done = place.run(&[robot, changed], "--quiet");
+            assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{kind}, line {}: {}", i + 1, lines[i]);
+            tried += 1;
+            i = end;
+        }
+        assert!(tried >= 10, "{kind}: only {tried} keys were found");
+    }
+}
+
+#[test]
+fn init_spares_what_is_there() {
+    let place = Place::new();
+    let done = place.run(&["init"], "");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stdout.contains("cplan arm.urdf world.toml --picture plan.html"), "{}", done.stdout);
+    place.write("world.toml", "mine");
+    fs::remove_file(place.path("world.schema.json")).unwrap();
+    place
+        .run(&["init"], "--kind pp")
+        .refused(1, &["arm.urdf and world.toml exist already", "--force", "cplan init DIR"]);
+    assert_eq!(
+        (names(&place, "."), place.read("world.toml")),
+        (vec!["arm.urdf".into(), "world.toml".into()], "mine".into())
+    );
+    assert_eq!(place.run(&["init"], "--kind pp --force").code, 0);
+    assert!(place.read("world.toml").contains("bridge_slide"));
+    place.run(&["init", "world.toml"], "").refused(1, &["cannot make the folder world.toml"]);
+    place.run(&["init"], "--kind xyz").refused(2, &["rr, rp, pr, pp, scara"]);
+    // Names that a shell would take apart are printed in quotes.
+    let done = place.run(&["init", "a b"], "");
+    assert!(done.stdout.contains("cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""), "{}", done.stdout);
+}
+
+/// A folder in which nothing can be made gives one error, and none of its contents changes.
+#[cfg(unix)]
+#[test]
+fn places_that_cannot_be_written_give_one_error() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let place = Place::new();
+    symlink("nowhere", place.path("plan.json")).unwrap();
+    place.run(&["demo"], "").refused(1, &["plan.json exists already"]);
+    fs::create_dir(place.path("locked")).unwrap();
+    fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o555)).unwrap();
+    // Whoever may write everywhere (root) finds no place locked; /proc is so for everybody, where there is one.
+    let locked = if fs::write(place.path("locked/probe"), "").is_ok() { "/proc" } else { "locked" };
+    if fs::metadata(locked).is_ok() || locked == "locked" {
+        for command in ["demo --dir", "init", "man"] {
+            let words: Vec<&str> = command.split(' ').chain([locked]).collect();
+            place.run(&words, "").refused(1, &["cannot write"]);
+            let inside = format!("{locked}/new");
+            let words: Vec<&str> = command.split(' ').chain([inside.as_str()]).collect();
+            place.run(&words, "").refused(1, &["cannot make the folder"]);
+        }
+    }
+    fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o755)).unwrap();
+}

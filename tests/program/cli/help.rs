@@ -1,0 +1,142 @@
+//! Help, completions, manual pages: every example is a command that runs.
+
+use super::Place;
+use std::path::Path;
+
+/// Examples that are only read: they run without end, or longer than a test should.
+const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
+
+/// The commands, as the help lists them.
+fn commands(place: &Place) -> Vec<String> {
+    let help = place.run(&["--help"], "").stdout;
+    let listed = help.split("Commands:\n").nth(1).expect("a list of commands").split("\n\n").next().unwrap();
+    let names: Vec<String> = listed
+        .lines()
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .map(str::to_owned)
+        .collect();
+    assert!(names.len() > 8, "{names:?}");
+    names.into_iter().filter(|name| name != "help").collect()
+}
+
+/// The words of a command line, quotes taken off, without what the shell does with its output.
+fn words(line: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    for (i, part) in line.split('"').enumerate() {
+        if i % 2 == 1 {
+            words.push(part.to_owned());
+        } else {
+            words.extend(part.split_whitespace().map(str::to_owned));
+        }
+    }
+    let end = words.iter().position(|word| [">", ">>", "|"].contains(&word.as_str()));
+    words.truncate(end.unwrap_or(words.len()));
+    words
+}
+
+/// Copies the files of a shipped folder, its own folders included.
+fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).unwrap();
+    for entry in std::fs::read_dir(from).unwrap() {
+        let entry = entry.unwrap();
+        let target = to.join(entry.file_name());
+        if entry.path().is_dir() {
+            copy(&entry.path(), &target);
+        } else {
+            std::fs::copy(entry.path(), target).unwrap();
+        }
+    }
+}
+
+#[test]
+fn every_command_has_examples_and_they_run() {
+    let place = Place::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    for folder in ["robots", "workspaces"] {
+        copy(&root.join(folder), &place.path(folder));
+    }
+    place.write("recorded.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
+    place.write("turns.csv", "time,shoulder,elbow\n0,0.0,3.1\n1,0.0,-3.1\n");
+    let mut helps = vec![("main".to_owned(), place.run(&["--help"], "").stdout)];
+    for name in commands(&place) {
+        helps.push((name.clone(), place.run(&[name.as_str(), "--help"], "").stdout));
+    }
+    let mut ran = 0;
+    for (name, help) in &helps {
+        assert!(help.contains("Exit codes:"), "{name}: no exit codes");
+        let examples: Vec<&str> = help.lines().filter_map(|line| line.strip_prefix("  cplan ")).collect();
+        assert!(!examples.is_empty(), "{name}: no examples");
+        for example in examples {
+            if ONLY_READ.iter().any(|part| format!("cplan {example}").contains(part)) {
+                continue;
+            }
+            let done = place.run(&words(example), "");
+            assert!([0, 3].contains(&done.code), "{name}: {example}: {} {}", done.code, done.stderr);
+            assert!(!done.stderr.contains("error"), "{name}: {example}: {}", done.stderr);
+            // Files that one example writes are not in the way of the next command's.
+            for file in ["plan.json", "plan.html"] {
+                let _ = std::fs::remove_file(place.path(file));
+            }
+            let _ = std::fs::remove_dir_all(place.path("cell"));
+            let _ = std::fs::remove_dir_all(place.path("wider"));
+            ran += 1;
+        }
+    }
+    assert!(ran >= 30, "only {ran} examples");
+}
+
+#[test]
+fn completions_know_commands_options_and_values() {
+    let place = Place::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let done = place.run(&["completions", shell], "");
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{shell}");
+        for part in ["planner", "goal-tip", "recheck", "completions"] {
+            assert!(done.stdout.contains(part), "{shell}: no {part}");
+        }
+        // The generators for the other two list no values.
+        for part in ["visibility", "subdivision", "astar", "scara", "gauss-seidel"] {
+            let has_values = ["bash", "zsh", "fish"].contains(&shell);
+            assert!(!has_values || done.stdout.contains(part), "{shell}: no {part}");
+        }
+    }
+    place.run(&["completions", "csh"], "").refused(2, &["bash, elvish, fish, powershell, zsh"]);
+    let bash = place.run(&["completions", "bash"], "").stdout;
+    let planner = bash.split("--planner)\n").nth(1).expect("values of --planner").lines().next().unwrap();
+    assert!(planner.contains("compgen -W \"visibility trapezoid wavefront harmonic subdivision\""), "{planner}");
+    let output = bash.split("--output)\n").nth(1).expect("values of --output").split(";;").next().unwrap();
+    assert!(output.contains("compgen -f"), "{output}");
+    let dir = bash.split("--dir)\n").nth(1).expect("values of --dir").split(";;").next().unwrap();
+    assert!(dir.contains("compgen -d") || dir.contains("-o plusdirs"), "{dir}");
+}
+
+#[test]
+fn manual_pages_say_what_the_help_says() {
+    let place = Place::new();
+    let main = place.run(&["man"], "").stdout;
+    assert!(main.contains(".TH cplan 1"), "{main}");
+    let written = place.run(&["man", "pages/man1"], "");
+    assert_eq!((written.code, written.stderr.as_str()), (0, ""));
+    let mut pages: Vec<&str> = written.stdout.lines().collect();
+    let mut expected: Vec<String> = commands(&place).iter().map(|name| format!("pages/man1/cplan-{name}.1")).collect();
+    expected.push("pages/man1/cplan.1".into());
+    pages.sort_unstable();
+    expected.sort_unstable();
+    assert_eq!(pages, expected);
+    assert_eq!(place.read("pages/man1/cplan.1"), main);
+    for page in pages {
+        let text = place.read(page);
+        for section in ["NAME", "SYNOPSIS", "DESCRIPTION", "OPTIONS", "EXIT STATUS", "EXAMPLES"] {
+            assert!(text.lines().any(|l| l.replace('"', "") == format!(".SH {section}")), "{page}: no {section}");
+        }
+        // An example stays on a line of its own, between the requests that switch filling off and on.
+        let examples = text.split(".SH \"EXAMPLES\"\n").nth(1).unwrap();
+        assert!(examples.contains(".EX\ncplan "), "{page}: {examples}");
+        assert_eq!(text.matches("\n.EX\n").count(), text.matches("\n.EE\n").count(), "{page}");
+    }
+    // Written again over what is there.
+    assert_eq!(place.run(&["man", "pages/man1"], "").code, 0);
+    place.write("file", "");
+    place.run(&["man", "file"], "").refused(1, &["cannot make the folder file"]);
+}

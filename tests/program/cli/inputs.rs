@@ -1,0 +1,98 @@
+//! Every kind of bad input once through the binary; `input_errors` has the details.
+
+use super::{FREE, Place, shipped};
+
+#[test]
+fn bad_worlds_are_refused_with_their_place() {
+    let place = Place::new();
+    let obstacle = |shape: &str| format!("{FREE}[[obstacle]]\n{shape}\n").into_bytes();
+    let with = |text: &str| format!("{FREE}{text}\n").into_bytes();
+    let cases: &[(Vec<u8>, &str)] = &[
+        (vec![], "there is no start"),
+        ((0..=255).collect(), "UTF-8"),
+        (b"name = \"Stra\xdfe\"\n".to_vec(), "UTF-8"),
+        (b"[start\n".to_vec(), "line 1, column 7"),
+        (b"colour = 1\n".to_vec(), "unknown key `colour`"),
+        (with("[robot]\ncolour = 1"), "line 6, column 1"),
+        (with("tip = [1, 1]"), "it has both"),
+        (obstacle("radius = 1"), "unknown key `radius`"),
+        (obstacle("name = \"x\""), "exactly one shape"),
+        (obstacle("polyline = [[1, 1]]"), "at least two points"),
+        (obstacle("circle = { center = [5, 5], radius = 0 }"), "must be positive"),
+        (obstacle("circle = { center = [5, nan], radius = 1 }"), "line 6, column 25"),
+        (obstacle("polygon = [[5, 5], [6, 6], [6, 5], [5, 6]]"), "sides 1 and 3 cross"),
+        (obstacle("polygon = [[5, 5], [6, 5], [6, 6], [5, 5]]"), "corners 1 and 4 coincide"),
+        (obstacle("circle = { center = [5, 5], radius = 1 }\nheight = [1, 0]"), "is empty"),
+        (FREE.replace("0.4", "inf").into_bytes(), "line 2, column 17"),
+        (FREE.replace("-0.9", "\"10deg\"").into_bytes(), "expected a number"),
+        (with("[robot]\nlimits = { elbow = [1, -1] }"), "lower (1)"),
+        (with("[robot]\nvelocity = { wrist = 1 }"), "\"shoulder\", \"elbow\""),
+    ];
+    place.write("out.json", "kept");
+    for (world, part) in cases {
+        place.plan(world, "--output out.json --picture out.svg").refused(1, &["world.toml", part]);
+    }
+    assert_eq!(place.read("out.json"), "kept");
+    assert!(!place.path("out.svg").exists());
+}
+
+#[test]
+fn harmless_oddities_are_read() {
+    let place = Place::new();
+    for world in [format!("\u{feff}{FREE}"), FREE.replace('\n', "\r\n"), FREE.replace("-0.9", "-1")] {
+        let done = place.plan(&world, "--quiet");
+        assert_eq!((done.code, done.stdout.as_str(), done.stderr.as_str()), (0, "", ""), "{world:?}");
+    }
+}
+
+#[test]
+fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
+    let place = Place::new();
+    let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
+    place.plan(&world, "").refused(1, &["world.toml: line 2", "link \"upper_arm\" hits obstacle \"post\"", " m deep"]);
+    place.plan(FREE, "--start 9,0").refused(1, &["--start", "exceeds its limits", "cure"]);
+    place.plan(FREE, "--goal-tip 9,9").refused(1, &["--goal-tip", "out of reach", "cure"]);
+    let far = format!("{FREE}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [3, 0], radius = 0.1 }}\n");
+    place.plan(&far, "--clearance 3").refused(1, &["nearer than the clearance of 3 m", "cure"]);
+}
+
+#[test]
+fn files_that_are_no_urdf() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    place.write("text.urdf", "hello");
+    place.write("cut.urdf", "<robot name=\"r\">\n  <link name=\"a\"");
+    std::fs::create_dir(place.path("folder.urdf")).unwrap();
+    for (file, part) in [("missing.urdf", "cannot be read"), ("folder.urdf", "cannot be read"), ("text.urdf", "XML")] {
+        place.run(&[file, "world.toml"], "").refused(1, &[file, part, "cure"]);
+    }
+    place.run(&["cut.urdf", "world.toml"], "").refused(1, &["cut.urdf: line 1", "never closed", "cure"]);
+    place.run(&["world.toml", &shipped("robots/planar_2r.urdf")], "").refused(1, &["URDF first"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn files_without_end_are_refused() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    place.run(&["/dev/zero", "world.toml"], "").refused(1, &["/dev/zero", "larger than"]);
+}
+
+#[test]
+fn the_suggested_pair_of_joints_turns() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    let joint = |name: &str, kind: &str, parent: &str, child: &str| {
+        format!(
+            "<link name=\"{child}\"/><joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/>\
+             <child link=\"{child}\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"1\"/>\
+             </joint>"
+        )
+    };
+    let joints =
+        [joint("lift", "prismatic", "base", "a"), joint("j1", "revolute", "a", "b"), joint("j2", "revolute", "b", "c")];
+    place.write("lift.urdf", format!("<robot name=\"r\"><link name=\"base\"/>{}</robot>", joints.concat()));
+    place
+        .run(&["lift.urdf", "world.toml"], "")
+        .refused(1, &["\"lift\" (prismatic)", "[robot] joints = [\"j1\", \"j2\"]"]);
+}

@@ -1,0 +1,347 @@
+//! Worlds with steps.
+
+use super::{Done, Place, shipped};
+use cplan::certify::limits_kept;
+use cplan::input::load_scene;
+use cplan::model::Arm;
+use cplan::space::{Configuration, Recording};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Two objects, one of them on a wrist, and a post in the way. Steps follow.
+const CELL: &str = r#"name = "cell"
+[robot]
+wrist = { velocity = 6.0, acceleration = 60.0 }
+[start]
+joints = [0.3, 0.4]
+[[obstacle]]
+name = "post"
+circle = { center = [1.45, 0.25], radius = 0.02 }
+height = [0.0, 0.3]
+[[object]]
+name = "part"
+polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]
+at = [1.1, 0.9]
+renew = true
+[[object]]
+name = "cup"
+circle = { center = [0.0, 0.0], radius = 0.03 }
+at = [0.4, 1.3]
+angle = 0.5
+payload = "level"
+renew = true
+"#;
+
+/// Standing still at some ends of steps and not at others; the last step moves nothing.
+const STEPS: &str = r#"[[step]]
+pick = "part"
+dwell = 0.2
+[[step]]
+place = { at = [1.4, -0.5] }
+speed = 0.5
+[[step]]
+pick = "cup"
+[[step]]
+place = { at = [0.9, -1.0], angle = 1.5 }
+dwell = 0.1
+[[step]]
+move = { joints = [0.3, 0.4] }
+[[step]]
+move = { joints = [0.3, 0.4] }
+"#;
+
+const REPEATED: &str = "[task]\nrepeat = 5\n";
+
+/// Something to place, into the post.
+const BARRED: &str = "[[step]]\npick = \"part\"\n[[step]]\nplace = { at = [1.45, 0.25] }\n";
+/// The same for what could also be turned on the way.
+const DOUBTFUL: &str = "[[step]]\npick = \"cup\"\n[[step]]\nplace = { at = [1.45, 0.25], angle = 1.0 }\n";
+
+impl Place {
+    fn task(&self, steps: &str, options: &str) -> Done {
+        self.plan(format!("{CELL}{steps}"), options)
+    }
+
+    /// The arm of the last task.
+    fn arm(&self) -> Arm {
+        load_scene(Path::new(&shipped("robots/planar_2r.urdf")), &self.path("world.toml")).unwrap().scene.arm
+    }
+}
+
+fn numbers(value: &Value) -> Vec<f64> {
+    serde_json::from_value(value.clone()).unwrap()
+}
+
+fn rows(value: &Value) -> Vec<[f64; 2]> {
+    serde_json::from_value(value.clone()).unwrap()
+}
+
+/// Tip of `planar_2r`.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Position, velocity and limits agree with each other: the judge of recorded motions finds nothing, rest at both ends
+/// included.
+fn moves_within_limits(arm: &Arm, time: &[f64], position: &[[f64; 2]], velocity: &[[f64; 2]]) {
+    let vectors = |rows: &[[f64; 2]]| rows.iter().map(|row| Configuration::new(row[0], row[1])).collect();
+    let recording = Recording::new(vectors(position), Some(time.to_vec()), Some(vectors(velocity))).unwrap();
+    assert_eq!(limits_kept(&arm.joints, &recording), []);
+}
+
+/// Everything that holds of every task that is done.
+fn consistent(arm: &Arm, result: &Value) {
+    assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
+    let trajectory = &result["trajectory"];
+    let (time, position, velocity) =
+        (numbers(&trajectory["time"]), rows(&trajectory["position"]), rows(&trajectory["velocity"]));
+    let of_sample: Vec<usize> = serde_json::from_value(trajectory["step"].clone()).unwrap();
+    assert_eq!([position.len(), velocity.len(), of_sample.len()], [time.len(); 3]);
+    moves_within_limits(arm, &time, &position, &velocity);
+    let steps = result["steps"].as_array().unwrap();
+    let number = |step: &Value, key: &str| step[key].as_f64().unwrap();
+    let sample = |step: &Value, key: &str| step[key].as_u64().unwrap() as usize;
+    let mut path: Vec<[f64; 2]> = Vec::new();
+    for (i, step) in steps.iter().enumerate() {
+        let (first, last) = (sample(step, "first_sample"), sample(step, "last_sample"));
+        let own = rows(&step["path"]);
+        assert_eq!((position[first], position[last]), (own[0], own[own.len() - 1]), "step {i}");
+        assert_eq!((velocity[first], velocity[last]), ([0.0; 2], [0.0; 2]), "step {i}");
+        assert_eq!((time[first], time[last]), (number(step, "begin"), number(step, "arrival")), "step {i}");
+        assert!((first..last).all(|k| of_sample[k] == i), "step {i}");
+        let end = steps.get(i + 1).map_or(time[time.len() - 1], |next| {
+            let follows = sample(next, "first_sample");
+            assert!(follows == last || (follows == last + 1 && of_sample[last] == i), "step {i}");
+            number(next, "begin")
+        });
+        assert_eq!(number(step, "end"), end, "step {i}");
+        let length: f64 = own.windows(2).map(|leg| distance(leg[0], leg[1])).sum();
+        assert!((length - number(step, "length")).abs() < 1e-12, "step {i}");
+        assert!(number(result, "clearance") <= number(step, "clearance"), "step {i}");
+        path.extend(&own[usize::from(path.last() == own.first())..]);
+    }
+    assert_eq!(rows(&result["path"]), path);
+    let length: f64 = steps.iter().map(|step| number(step, "length")).sum();
+    assert!((length - number(result, "length")).abs() < 1e-12);
+    let (duration, lower) = (number(result, "duration"), number(result, "lower_bound"));
+    assert!(duration == time[time.len() - 1] && 0.0 < lower && lower <= duration);
+    assert!((number(result, "gap") - (duration / lower - 1.0)).abs() < 1e-12);
+
+    let handling: Vec<&Value> = steps.iter().filter(|step| !step["object"].is_null()).collect();
+    let events = result["events"].as_array().unwrap();
+    assert_eq!(events.len(), handling.len());
+    for (event, step) in events.iter().zip(handling) {
+        assert_eq!(
+            (&event["step"], &event["cycle"], &event["object"]),
+            (&step["step"], &step["cycle"], &step["object"])
+        );
+        let own = rows(&step["path"]);
+        let at = arm.tip_at(own[own.len() - 1].into());
+        let told: [f64; 2] = serde_json::from_value(event["tip"].clone()).unwrap();
+        assert!(distance(told, at.into()) < 1e-12, "{event}");
+        let (time, arrival) = (number(event, "time"), number(step, "arrival"));
+        if event["event"] == "grasp" {
+            assert_eq!((&step["action"], &step["carried"], time), (&json!("pick"), &Value::Null, arrival));
+            assert!(event.get("pose").is_none());
+        } else {
+            let turn = step["turn"]["seconds"].as_f64().unwrap_or(0.0);
+            assert_eq!((&step["action"], &step["carried"]), (&json!("place"), &step["object"]));
+            assert!((time - (arrival + turn)).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_task_is_one_motion_with_steps_and_events() {
+    let place = Place::new();
+    let done = place.task(STEPS, "--json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let result = done.json();
+    consistent(&place.arm(), &result);
+    let steps = result["steps"].as_array().unwrap();
+    let words: Vec<_> = steps.iter().map(|step| [&step["action"], &step["object"], &step["carried"]]).collect();
+    let (part, cup, none) = (json!("part"), json!("cup"), Value::Null);
+    let [pick, put, go] = ["pick", "place", "move"].map(|word| json!(word));
+    assert_eq!(
+        words,
+        [
+            [&pick, &part, &none],
+            [&put, &part, &part],
+            [&pick, &cup, &none],
+            [&put, &cup, &cup],
+            [&go, &none, &none],
+            [&go, &none, &none]
+        ]
+    );
+    // Objects are held at their origins here.
+    for (event, i) in result["events"].as_array().unwrap().iter().zip(0..) {
+        let own = rows(&steps[i]["path"]);
+        let goes_to = [[1.1, 0.9], [1.4, -0.5], [0.4, 1.3], [0.9, -1.0]][i];
+        assert!(distance(tip(own[own.len() - 1]), goes_to) < 1e-9, "{event}");
+        assert!(event["event"] == "grasp" || event["pose"]["at"] == json!(goes_to), "{event}");
+    }
+    let still = |i: usize| steps[i]["end"].as_f64().unwrap() - steps[i]["arrival"].as_f64().unwrap();
+    let turned = |i: usize| steps[i]["turn"]["seconds"].as_f64().unwrap_or(0.0);
+    assert!((still(0) - 0.2).abs() < 1e-12 && still(1) == 0.0 && still(4) == 0.0);
+    // The wrist turns the cup by 1 rad after it is taken or before it is let go of: 1 / 6 s at top speed, 6 / 60 s to it.
+    assert!((turned(2) + turned(3) - (1.0 / 6.0 + 0.1)).abs() < 1e-12);
+    assert!((still(2) + still(3) - (1.0 / 6.0 + 0.2)).abs() < 1e-12);
+    assert_eq!((&steps[5]["first_sample"], &steps[5]["path"]), (&steps[5]["last_sample"], &json!([[0.3, 0.4]])));
+}
+
+#[test]
+fn repeated_tasks_are_counted_in_cycles() {
+    let place = Place::new();
+    let world = format!("{STEPS}{REPEATED}");
+    let result = place.task(&world, "--json --quiet").json();
+    consistent(&place.arm(), &result);
+    let cycles: Vec<_> = result["steps"].as_array().unwrap().iter().map(|s| s["cycle"].as_u64().unwrap()).collect();
+    assert_eq!(cycles, (0..30).map(|i| i / 6 + 1).collect::<Vec<_>>());
+    let text = place.task(&world, "").stdout;
+    for part in
+        ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "done and certified: 30 steps"]
+    {
+        assert!(text.contains(part), "{part:?} is not in: {text}");
+    }
+    for part in ["carrying \"cup\"", "proven: no sequence of motions takes less than", "closest: ", "motions planned"] {
+        assert!(text.contains(part), "{part:?} is not in: {text}");
+    }
+    assert!(!text.contains("(cycle 4)"), "{text}");
+}
+
+#[test]
+fn shipped_tasks_are_consistent() {
+    for (robot, world) in [("scara", "feeder"), ("room_gantry", "room_mission"), ("rrbot_vertical", "tower")] {
+        let files =
+            [format!("robots/{robot}.urdf"), format!("workspaces/tasks/{world}.toml")].map(|file| shipped(&file));
+        let done = Place::new().run(&files, "--json --quiet");
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{world}");
+        let [urdf, world] = files.each_ref().map(Path::new);
+        consistent(&load_scene(urdf, world).unwrap().scene.arm, &done.json());
+    }
+}
+
+#[test]
+fn the_first_step_that_fails_is_named() {
+    let place = Place::new();
+    for (steps, code, status, verdict) in [
+        (BARRED, 3, "infeasible", "result     proven: step 2, place at (1.45, 0.25) m"),
+        (DOUBTFUL, 4, "unknown", "result     unknown: no way to do step 2"),
+    ] {
+        place.write("a.csv", "old");
+        let done = place.task(steps, "--output a.csv --json");
+        let result = done.json();
+        assert_eq!((done.code, &result["status"], &result["certified"]), (code, &json!(status), &json!(false)));
+        for key in ["path", "length", "clearance", "trajectory"] {
+            assert!(result.as_object().unwrap().contains_key(key) && result[key].is_null(), "{key}");
+        }
+        let failed = &result["failed"];
+        assert_eq!((&failed["step"], &failed["cycle"], &failed["action"]), (&json!(2), &json!(1), &json!("place")));
+        assert!(failed["place"].as_str().unwrap().contains("world.toml:"), "{failed}");
+        let reasons = failed["reasons"].as_array().unwrap();
+        assert!(reasons.iter().any(|reason| reason.as_str().unwrap().contains("post")), "{failed}");
+        assert_eq!(&failed["from"], result["steps"][0]["path"].as_array().unwrap().last().unwrap());
+        let postures = failed["postures"].as_array().unwrap();
+        let ends = rows(&postures.iter().map(|posture| posture["joints"].clone()).collect());
+        assert!(!ends.is_empty() && postures.iter().all(|posture| posture["reason"].is_string()), "{failed}");
+        let off = |q: [f64; 2]| (tip(q)[0] - 1.45).hypot(tip(q)[1] - 0.25);
+        assert!(ends.into_iter().all(|q| off(q) < 1e-9), "{failed}");
+        let before = result["steps"].as_array().unwrap();
+        assert_eq!((before.len(), &before[0]["action"]), (1, &json!("pick")));
+        assert!(before[0]["path"].as_array().unwrap().len() > 1 && before[0]["first_sample"].is_null());
+        assert_eq!(result["events"].as_array().unwrap().len(), 1);
+        assert!(done.stderr.contains("a.csv is not written") && place.read("a.csv") == "old", "{}", done.stderr);
+        let text = place.task(steps, "").stdout;
+        assert_eq!(place.task(steps, "--quiet --picture a.svg").code, code);
+        assert!(place.read("a.svg").contains(if code == 3 { "step 2 fails: proven" } else { "step 2 fails: unknown" }));
+        for part in [verdict, "why ", "1 step can be done"] {
+            assert!(text.contains(part), "{part:?} is not in: {text}");
+        }
+    }
+}
+
+#[test]
+fn the_same_task_gives_the_same_bytes() {
+    let place = Place::new();
+    let names = ["a.json", "a.csv", "a.yaml", "a.svg", "a.html"];
+    let outputs = "--output a.json --output a.csv --output a.yaml --picture a.svg --picture a.html";
+    let read = || names.map(|name| place.read(name));
+    assert_eq!(place.task(STEPS, outputs).code, 0);
+    let before = read();
+    let again = place.task(STEPS, &format!("{outputs} --json"));
+    assert!(read() == before && again.stdout == before[0]);
+    assert!(before[3].starts_with("<svg") && before[3].contains("done, certified"));
+    let timed = place.task(STEPS, "--json --timings").json();
+    assert!(timed["timings"]["plan"].is_number() && !before[0].contains("timings"));
+
+    let table: Vec<Vec<&str>> = before[1].lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(table[0].last(), Some(&"step"));
+    let steps: Vec<usize> = serde_json::from_value(again.json()["trajectory"]["step"].clone()).unwrap();
+    let column: Vec<usize> = table[1..].iter().map(|row| row[7].parse().unwrap()).collect();
+    assert_eq!(column, steps.iter().map(|step| step + 1).collect::<Vec<_>>());
+    assert_eq!(before[2].matches("time_from_start").count(), steps.len());
+}
+
+#[test]
+fn each_step_has_a_file_of_its_own() {
+    let place = Place::new();
+    place.write("a-007.csv", "old");
+    let done = place.task(STEPS, "--per-step --output a.csv --output a.yaml --output a.json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stdout.contains("a-001.csv to a-006.csv") && done.stderr.contains("a-007.csv"), "{}", done.stderr);
+    assert!(!place.path("a.csv").exists() && !place.path("a.yaml").exists() && !place.path("a-001.json").exists());
+    let result: Value = serde_json::from_str(&place.read("a.json")).unwrap();
+    let whole = rows(&result["trajectory"]["position"]);
+    for (i, step) in result["steps"].as_array().unwrap().iter().enumerate() {
+        let text = place.read(&format!("a-{:03}.csv", i + 1));
+        let table: Vec<Vec<f64>> =
+            text.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        assert!(table.iter().all(|row| row[7] == (i + 1) as f64));
+        let column = |k: usize| table.iter().map(|row| row[k]).collect::<Vec<f64>>();
+        let pairs = |k: usize| table.iter().map(|row| [row[k], row[k + 1]]).collect::<Vec<_>>();
+        let [first, last] = ["first_sample", "last_sample"].map(|key| step[key].as_u64().unwrap() as usize);
+        assert_eq!((column(0)[0], pairs(1)), (0.0, whole[first..=last].to_vec()));
+        let seconds = step["arrival"].as_f64().unwrap() - step["begin"].as_f64().unwrap();
+        assert!((column(0)[table.len() - 1] - seconds).abs() < 1e-12);
+        moves_within_limits(&place.arm(), &column(0), &pairs(1), &pairs(3));
+        let message: Value = serde_saphyr::from_str(&place.read(&format!("a-{:03}.yaml", i + 1))).unwrap();
+        assert_eq!(message["points"].as_array().unwrap().len(), table.len());
+    }
+}
+
+#[test]
+fn what_cannot_be_done_for_steps_is_refused() {
+    let place = Place::new();
+    let refused = |options: &str, code: i32, part: &str| place.task(STEPS, options).refused(code, &[part]);
+    refused("--gap 0.01", 2, "--gap is for a single motion");
+    refused("--per-step", 2, "--per-step needs an --output");
+    refused("--per-step --output a.json", 2, ".csv or .yaml");
+    refused("--goal 0.1,0.2", 1, "goal");
+    let plain = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
+    place.plan(plain, "--per-step --output a.csv").refused(2, &["--per-step is for worlds with steps"]);
+    std::fs::create_dir(place.path("a-002.csv")).unwrap();
+    refused("--per-step --output a.csv", 1, "a-002.csv");
+    assert!(!place.path("a-001.csv").exists(), "nothing is written if not all can be");
+}
+
+#[cfg(feature = "mcap")]
+#[test]
+fn a_recording_has_a_message_for_each_motion() {
+    let place = Place::new();
+    let result = place.task(STEPS, "--per-step --output a.csv --output a.mcap --json").json();
+    let file = std::fs::read(place.path("a.mcap")).unwrap();
+    let topic = |topic: &str| {
+        let messages = mcap::MessageStream::new(&file).unwrap().map(Result::unwrap);
+        messages.filter(|message| message.channel.topic == topic).map(|message| message.log_time).collect::<Vec<u64>>()
+    };
+    let steps = result["steps"].as_array().unwrap();
+    let begins: Vec<u64> = steps.iter().map(|step| (step["begin"].as_f64().unwrap() * 1e9).round() as u64).collect();
+    assert_eq!(topic("/joint_trajectory"), begins);
+    let sample = |step: &Value, key: &str| step[key].as_u64().unwrap() as usize;
+    let samples: usize = steps.iter().map(|step| sample(step, "last_sample") - sample(step, "first_sample") + 1).sum();
+    assert_eq!(topic("/joint_states").len(), samples);
+}

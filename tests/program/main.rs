@@ -1,0 +1,11 @@
+//! The program from outside: its commands, pictures, pages and server.
+
+mod cli;
+#[path = "../common/mod.rs"]
+mod common;
+mod draw;
+mod pictures;
+mod search;
+#[cfg(feature = "serve")]
+mod serve;
+mod verify;

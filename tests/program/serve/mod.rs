@@ -1,0 +1,26 @@
+//! The live page's server from outside: plain HTTP, and its WebSocket as a page would use it.
+
+mod client;
+mod pages;
+mod plans;
+mod refusals;
+mod server;
+
+use serde_json::{Value, json};
+
+/// The obstacle of `shelf.toml` that the arm goes round, moved by so much.
+fn shelf_moved(by: [f64; 2]) -> Value {
+    let corners = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]];
+    let moved: Vec<_> = corners.iter().map(|[x, y]| [x + by[0], y + by[1]]).collect();
+    json!({ "from": 0, "polygon": moved })
+}
+
+/// The state of `shelf.toml` with that obstacle in place of its own.
+fn shelf_state(shelf: Value) -> Value {
+    json!({
+        "obstacles": [shelf, { "from": 1 }],
+        "start": { "joints": [-0.9, 0.4] },
+        "goal": { "joints": [1.55, -0.35] },
+        "clearance": 0.0,
+    })
+}

@@ -1,0 +1,8 @@
+//! `cplan verify`: recorded motions against closed forms, dense sampling and tampering.
+
+mod bad_input;
+mod command;
+mod files;
+mod limits;
+mod motion;
+mod tasks;
