@@ -58,6 +58,9 @@ pub mod task;
 pub mod draw;
 pub mod report;
 pub mod cli;
+#[cfg(test)]
+#[path = "../tests/common/random.rs"]
+mod random;
 
 /// The README's example is compiled and run as a documentation test.
 #[cfg(doctest)]

@@ -258,7 +258,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(600))]
+        #![proptest_config(crate::random::cases(600))]
 
         /// The oracle is the distance of the shapes at sampled postures, which knows no contact angles.
         #[test]

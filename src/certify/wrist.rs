@@ -148,6 +148,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Against a look at 4000 places of the turn, each of which is in the arc or not.
         #[test]
         fn a_turn_meets_an_arc_where_it_first_is_in_it(

@@ -263,7 +263,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(48))]
+        #![proptest_config(crate::random::cases(48))]
 
         /// Between two near rows without an event, no interval appears away from all others.
         #[test]

@@ -87,6 +87,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn finds_what_looking_at_all_finds(
             boxes in proptest::collection::vec((0..50i32, 0..50i32, 0..9i32, 0..9i32), 0..200),

@@ -37,6 +37,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn discs_fit_about_what_is_left_and_about_nothing_else(
             points in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 3..8), radius in 0.0..0.2f64,

@@ -84,7 +84,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(500))]
+        #![proptest_config(crate::random::cases(500))]
 
         #[test]
         fn corners_are_the_extreme_points(points in prop::collection::vec((-4..=4i32, -4..=4i32), 1..12)) {

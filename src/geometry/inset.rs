@@ -75,6 +75,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn points_are_left_as_far_as_they_lie_deep(
             corners in prop::collection::vec((-1.0..1.0f64, -1.0..1.0f64), 3..9),

@@ -28,7 +28,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(500))]
+        #![proptest_config(crate::random::cases(500))]
 
         /// Intervals with integer ends; half-integers then test membership of their ends and of what lies between.
         #[test]

@@ -161,7 +161,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(4000))]
+        #![proptest_config(crate::random::cases(4000))]
 
         #[test]
         fn lattice_segments_agree_with_integer_arithmetic(a in lattice(), b in lattice(), c in lattice(), d in lattice()) {

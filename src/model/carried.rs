@@ -78,8 +78,11 @@ pub(crate) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: 
             let period = if joint.motion.is_revolute() { TAU } else { f64::INFINITY };
             for &[start, end] in intervals {
                 let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
-                while start + shift <= upper && end + shift >= lower {
-                    f([(start + shift).max(lower), (end + shift).min(upper)]);
+                while start + shift <= upper {
+                    // Where the first copy ends at the limit itself, rounding may put it before: the next one may count.
+                    if end + shift >= lower {
+                        f([(start + shift).max(lower), (end + shift).min(upper)]);
+                    }
                     shift += period;
                 }
             }
@@ -99,6 +102,50 @@ pub(crate) fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
             let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
             let core = if from == to { vec![from] } else { vec![from, to] };
             Convex::new(core, shape.reach_from(center))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Axis;
+
+    /// Copies of the intervals on a turning joint's axis.
+    fn copies(axis: Axis, interval: [f64; 2]) -> Vec<[f64; 2]> {
+        let joint = Joint {
+            name: "turn".into(),
+            motion: Motion::Revolute { sign: 1.0 },
+            axis,
+            velocity: 1.0,
+            acceleration: 1.0,
+            jerk: None,
+        };
+        let mut copies = Vec::new();
+        on_axis(&joint, Hits::Within, &[interval], |copy| copies.push(copy));
+        copies
+    }
+
+    #[test]
+    fn a_range_of_more_than_a_turn_has_an_interval_more_than_once() {
+        let axis = Axis::Interval { lower: -4.0, upper: 4.5 };
+        assert_eq!(copies(axis, [2.0, 3.0]), [[2.0 - TAU, 3.0 - TAU], [2.0, 3.0]].map(|[a, b]| [a.max(-4.0), b]));
+        // Past half a turn, up to one and a half: two turns down it is within the limits still.
+        assert_eq!(copies(axis, [3.0, 9.0]), [[-4.0, 9.0 - 2.0 * TAU], [3.0 - TAU, 9.0 - TAU], [3.0, 4.5]]);
+    }
+
+    #[test]
+    fn an_interval_that_ends_a_turn_from_the_limit_is_kept() {
+        for lower in [-4.2, -3.5, -8.042] {
+            for turns in [1.0, 2.0] {
+                let end: f64 = lower + turns * TAU;
+                for end in [end.next_down(), end, end.next_up()] {
+                    let copies = copies(Axis::Interval { lower, upper: 6.0 }, [end - 0.5, end]);
+                    let is_there =
+                        copies.iter().any(|[start, to]| (start - (end - 0.5)).abs() < 1e-12 && *to == end.min(6.0));
+                    assert!(is_there || end - 0.5 > 6.0, "[{}, {end}] from {lower} on: {copies:?}", end - 0.5);
+                }
+            }
         }
     }
 }

@@ -154,6 +154,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Against a sorted list: places of sides are known numbers.
         #[test]
         fn keeps_order_like_a_sorted_list(steps in proptest::collection::vec((0usize..60, any::<bool>()), 0..300)) {

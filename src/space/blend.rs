@@ -185,6 +185,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// A parabola tangent to both legs: its ends lie on them, its middle halfway between the corner and the middle of
         /// the ends, and its cubic form is the same curve.
         #[test]

@@ -163,6 +163,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Extremes against 2000 samples; what is bounded against what was seen, and never far from it.
         #[test]
         fn extremes_bound_the_samples(

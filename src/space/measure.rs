@@ -70,6 +70,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Against the least over many points of the segment.
         #[test]
         fn bounds_are_the_least_way_through(

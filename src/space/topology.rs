@@ -160,6 +160,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn copies_are_the_same_posture_and_the_lift_is_the_nearest(value in -50.0..50.0_f64, near in -50.0..50.0_f64) {
             let lifted = Axis::Circle.lift(value, near);

@@ -303,7 +303,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(64))]
+        #![proptest_config(crate::random::cases(64))]
 
         /// What is said of large groups is less than the best of all orders.
         #[test]

@@ -236,6 +236,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Against the vertices of the polygon, by brute force.
         #[test]
         fn bounds_are_those_of_the_polygon(

@@ -217,6 +217,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// From what an arm does to far beyond it; `tests/motion` has the durations.
         #[test]
         fn phases_join_and_keep_the_limits(

@@ -175,6 +175,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn limits_floor_and_optimum(
             length in -18.0..6.0f64, speed in -4.0..5.0f64, acceleration in -4.0..6.0f64,

@@ -105,6 +105,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn any_name_is_read_back(name in any::<String>()) {
             let read: String = serde_saphyr::from_str(&quoted(&name)).expect("valid YAML");

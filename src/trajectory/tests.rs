@@ -163,6 +163,8 @@ fn joints() -> impl Strategy<Value = [Joint; 2]> {
 }
 
 proptest! {
+    #![proptest_config(crate::random::cases(256))]
+
     #[test]
     fn random_paths(
         waypoints in prop::collection::vec(prop::array::uniform2(-7.0..7.0f64), 1..6),

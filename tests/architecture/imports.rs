@@ -1,7 +1,8 @@
 //! Holds the table of imports: every module may use only what lies below it.
 
+use crate::rust_files;
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Imports nothing, and all may import it.
 const EVERYWHERE: &str = "interrupt";
@@ -41,20 +42,6 @@ const MAY_IMPORT: [(&str, &[&str]); 15] = [
         ],
     ),
 ];
-
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|e| e == "rs") {
-            files.push(path);
-        }
-    }
-    files.sort();
-    files
-}
 
 /// The modules that a file names as `crate::module`, in code; `//` comments may name any.
 fn imports(text: &str) -> BTreeSet<String> {

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "every test and benchmark uses some of it")]
 
 pub mod mazes;
+pub mod random;
 pub mod roadmap;
 
 use cplan::geometry::{Convex, Point, Vector};

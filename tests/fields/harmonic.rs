@@ -85,7 +85,7 @@ fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::common::random::cases(40))]
 
     #[test]
     fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
@@ -124,7 +124,7 @@ fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(12))]
+    #![proptest_config(crate::common::random::cases(12))]
 
     #[test]
     fn every_cell_has_a_greater_neighbor_in_large_grids_of_all_kinds((grid, goals) in large_grid()) {
@@ -218,7 +218,7 @@ fn interpolated(grid: &Grid, ln: &[f64], at: [f64; 2]) -> Option<f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(crate::common::random::cases(300))]
 
     /// The path between the cells rises all along, stays in free cells and ends at the goal.
     #[test]

@@ -34,7 +34,7 @@ fn polygon() -> impl Strategy<Value = Vec<Point>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::common::random::cases(2000))]
 
     #[test]
     fn lattice_differences_are_hulls_of_all_differences(a in core(), b in core()) {
@@ -63,7 +63,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::common::random::cases(200))]
 
     #[test]
     fn translations_that_collide_are_the_points_of_the_difference(a in core(), b in core()) {

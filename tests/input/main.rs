@@ -1,6 +1,8 @@
 //! Robots, worlds, tasks and maps as they are read, and what is said of bad ones.
 
 mod arms;
+#[path = "../common/mod.rs"]
+mod common;
 mod errors;
 mod inspect;
 mod maps;

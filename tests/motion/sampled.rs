@@ -139,7 +139,7 @@ fn a_right_angle() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(crate::common::random::cases(96))]
 
     #[test]
     fn random_paths(

@@ -184,7 +184,7 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::common::random::cases(200))]
 
     #[test]
     fn labels_of_small_grids((grid, sources, start) in with_cells(random_grid(1..12, 1..12, 0.6))) {

@@ -78,7 +78,7 @@ fn obstacle() -> impl Strategy<Value = Convex> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(crate::common::random::cases(400))]
 
     #[test]
     fn random_scenes_are_answered_as_the_boxes_answer_them(

@@ -135,7 +135,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(300))]
+        #![proptest_config(crate::random::cases(300))]
 
         /// Against all pairs of cells and of their copies.
         #[test]

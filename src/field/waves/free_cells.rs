@@ -223,6 +223,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn scans_are_those_cell_by_cell(
             blocked in proptest::collection::vec(proptest::bool::weighted(0.03), 1..300), at in 0..300_usize, to in 0..300_usize,

@@ -146,6 +146,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Against a textbook search, on sizes that do and do not fill the tiles, some of a single row or column.
         #[test]
         fn labels_are_those_of_a_search(

@@ -172,7 +172,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #![proptest_config(crate::random::cases(20_000))]
 
         /// All critical angles, sorted, with one distance between neighbours, give the same arcs; and the shapes touch
         /// at the ends, by an independent distance. Corners at the very reach of the bar are among the positions.

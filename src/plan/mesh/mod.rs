@@ -128,6 +128,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// By their definitions: triangles are counter-clockwise, joined in pairs, cover free space, and are Delaunay; an
         /// index finds those that contain a point.
         #[test]

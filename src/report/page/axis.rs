@@ -120,6 +120,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         #[test]
         fn every_axis_holds_its_values_and_has_ticks(
             values in prop::collection::vec(prop_oneof![-1e3..1e3_f64, 1e-9..1e-3_f64, Just(0.0), 1e3..1e9_f64], 1..20)

@@ -72,7 +72,7 @@ fn equations() -> Vec<EquationChoice> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(crate::common::random::cases(150))]
 
     /// Every field finds a path exactly where the wave does, through free cells, step by step.
     #[test]

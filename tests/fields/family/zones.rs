@@ -21,6 +21,8 @@ fn torus() -> Arm {
 }
 
 proptest! {
+    #![proptest_config(crate::common::random::cases(256))]
+
     /// A rectangle of angles, anywhere on the line, holds where some copy of the angle is in it.
     #[test]
     fn a_region_of_angles_holds_for_every_copy(

@@ -175,7 +175,7 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(crate::common::random::cases(96))]
 
     #[test]
     fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {

@@ -90,7 +90,7 @@ fn check_turning(part: &Convex, pivot: Point, piece: &Convex, grow: f64) -> Resu
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(crate::common::random::cases(2000))]
 
     #[test]
     fn arcs_agree_with_sampled_distances(

@@ -11,7 +11,6 @@ mod worlds;
 use cplan::certify::least_length;
 use cplan::model::Problem;
 use cplan::space::Metric;
-use proptest::test_runner::Config;
 
 /// What rounding may add to a length, as a share of it.
 const ROUNDING: f64 = 1e-9;
@@ -28,10 +27,4 @@ fn bound(problem: &Problem, metric: Metric, limit: f64, gap: f64) -> f64 {
 /// Euclidean, weighted, and time.
 fn metrics() -> [Metric; 3] {
     [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds: [0.7, 2.0] }]
-}
-
-/// Random cases; `CPLAN_CASES` asks for another number of them.
-fn cases(default: u32) -> Config {
-    let cases = std::env::var("CPLAN_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default);
-    Config { cases, max_global_rejects: 20 * cases, ..Config::default() }
 }

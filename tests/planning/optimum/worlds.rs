@@ -61,7 +61,7 @@ fn obstacle() -> impl Strategy<Value = Convex> {
 }
 
 proptest! {
-    #![proptest_config(super::cases(60))]
+    #![proptest_config(crate::common::random::cases(60))]
 
     #[test]
     fn no_motion_is_shorter_than_the_bound(

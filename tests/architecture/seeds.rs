@@ -1,0 +1,88 @@
+//! Holds that random tests are the same in every run: every `proptest!` takes its configuration from `common::random`.
+
+use crate::rust_files;
+use std::path::{Path, PathBuf};
+
+/// The one place where seeds and numbers of cases are made, and this file.
+const HERE: [&str; 2] = ["tests/common/random.rs", "tests/architecture/seeds.rs"];
+
+/// What makes a seed of its own, or none.
+const ELSEWHERE: [&str; 7] =
+    ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Lines of code that leave the choice of random cases to chance, by number.
+fn left_to_chance(text: &str) -> Vec<usize> {
+    let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+    let wrong = |at: usize| {
+        let opens = code[at].contains("proptest! {");
+        let next = code[at + 1..].iter().map(|line| line.trim()).find(|line| !line.is_empty()).unwrap_or_default();
+        let is_fixed = ["common::random", "random"]
+            .iter()
+            .any(|module| next.starts_with(&format!("#![proptest_config(crate::{module}::cases(")));
+        (opens && !is_fixed) || ELSEWHERE.iter().any(|word| code[at].contains(word))
+    };
+    (0..code.len()).filter(|&at| wrong(at)).map(|at| at + 1).collect()
+}
+
+#[test]
+fn no_random_test_is_left_to_chance() {
+    let (mut wrong, mut blocks) = (Vec::new(), 0);
+    for folder in ["src", "tests"] {
+        for file in rust_files(&root().join(folder)) {
+            if HERE.iter().any(|here| file.ends_with(here)) {
+                continue;
+            }
+            let text = std::fs::read_to_string(&file).unwrap();
+            blocks += text.matches("proptest! {").count();
+            let name = file.strip_prefix(root()).unwrap().display();
+            wrong.extend(left_to_chance(&text).into_iter().map(|line| format!("{name}:{line}")));
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "begin with #![proptest_config(crate::common::random::cases(100))], in src with crate::random::cases, and use no \
+         other source of chance:\n{}",
+        wrong.join("\n")
+    );
+    assert!(blocks > 50, "only {blocks} random tests were found: the test reads the wrong files");
+}
+
+#[test]
+fn nothing_is_left_behind_by_a_failure() {
+    let of_failures = |folder: &Path| -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        let mut folders = vec![folder.to_owned()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                match path.is_dir() {
+                    true => folders.push(path),
+                    false => {
+                        found.extend(path.extension().is_some_and(|e| e == "proptest-regressions").then_some(path))
+                    }
+                }
+            }
+        }
+        found
+    };
+    let found: Vec<_> = ["src", "tests"].iter().flat_map(|folder| of_failures(&root().join(folder))).collect();
+    assert!(found.is_empty(), "make these cases tests with names: {found:?}");
+}
+
+#[test]
+fn the_search_for_chance_sees_all_forms() {
+    let fixed = "proptest! {\n    // why\n    #![proptest_config(crate::common::random::cases(9))]\n";
+    assert!(left_to_chance(fixed).is_empty());
+    assert!(left_to_chance("proptest! {\n    #![proptest_config(crate::random::cases(9))]\n").is_empty());
+    assert_eq!(left_to_chance("proptest! {\n    #[test]\n    fn f() {}\n}"), [1]);
+    assert_eq!(
+        left_to_chance("let x = 1;\nproptest! {\n    #![proptest_config(ProptestConfig::with_cases(9))]"),
+        [2, 3]
+    );
+    assert_eq!(left_to_chance("let runner = TestRunner::default();"), [1]);
+    assert!(left_to_chance("// not TestRunner::default()").is_empty());
+}

@@ -1,0 +1,51 @@
+//! How many random cases a test tries, and which: the same in every run, unless the environment asks for others.
+//!
+//! - `CPLAN_TIMES=20`: twenty times as many (0.1: a tenth).
+//! - `CPLAN_SEED=7`: others, the seventh choice; 0 is the usual one. A failure comes again with the same two variables.
+#![allow(dead_code, reason = "every test program uses some of it")]
+
+use proptest::test_runner::{Config, RngSeed};
+use std::ops::Range;
+use std::str::FromStr;
+
+/// Seeds of handwritten generators are counted from here on, for one `CPLAN_SEED` after the other.
+const STRIDE: u64 = 1 << 32;
+
+/// For `proptest!`: this many cases, always the same. Every block has to have it (`tests/architecture/seeds.rs`).
+pub fn cases(usual: u32) -> Config {
+    let cases = u32::try_from(times(u64::from(usual))).expect("CPLAN_TIMES is too large");
+    Config {
+        cases,
+        // `prop_assume` may turn down twenty draws for each case that is kept.
+        max_global_rejects: cases.saturating_mul(20).max(1024),
+        rng_seed: RngSeed::Fixed(seed()),
+        // A file of failures would make the next run another one. What failed becomes a test with a name.
+        failure_persistence: None,
+        ..Config::default()
+    }
+}
+
+/// Seeds for generators written by hand: this many, always the same.
+pub fn seeds(usual: u64) -> Range<u64> {
+    let first = seed().wrapping_mul(STRIDE);
+    first..first + times(usual)
+}
+
+/// The number of cases where usually there are so many; at least one.
+pub fn times(usual: u64) -> u64 {
+    let factor = from_environment("CPLAN_TIMES", 1.0);
+    assert!(factor > 0.0 && factor < 1e9, "CPLAN_TIMES is a positive factor, not {factor}");
+    ((usual as f64 * factor).round() as u64).max(1)
+}
+
+/// The choice of cases.
+pub fn seed() -> u64 {
+    from_environment("CPLAN_SEED", 0)
+}
+
+fn from_environment<T: FromStr>(name: &str, usual: T) -> T {
+    match std::env::var(name) {
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is no number: {text:?}")),
+        Err(_) => usual,
+    }
+}
