@@ -282,9 +282,15 @@ impl Search<'_> {
     }
 }
 
-/// Rounding of a configuration that is computed from control points, relative to the largest of them: a dozen
-/// operations.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Rounding of a configuration that is computed from control points, for each degree of the piece and relative to the
+/// largest of them: three operations a step, and some for the control points themselves.
+const ROUNDING: f64 = 6.0 * f64::EPSILON;
+
+/// The rounding of a piece's configurations in one joint.
+fn rounding(piece: &Piece, joint: usize) -> f64 {
+    let largest = piece.control().iter().map(|p| p[joint].abs()).fold(0.0, f64::max);
+    ROUNDING * piece.degree() as f64 * largest
+}
 
 /// The box about several pieces.
 fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
@@ -294,7 +300,7 @@ fn around(pieces: &[Piece]) -> (Configuration, Deviation) {
         let lower = points().map(|p| p[k]).fold(f64::INFINITY, f64::min);
         let upper = points().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
         middle[k] = (lower + upper) / 2.0;
-        (upper - lower) / 2.0 + ROUNDING * lower.abs().max(upper.abs())
+        (upper - lower) / 2.0 + pieces.iter().map(|piece| rounding(piece, k)).fold(0.0, f64::max)
     });
     (middle, Deviation::Box(half))
 }
@@ -306,8 +312,7 @@ pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configur
     let bend = piece.bend(from, to);
     let off_chord = (first + last) / 2.0 - middle;
     let half = [0, 1].map(|k| {
-        let largest = piece.control().iter().map(|p| p[k].abs()).fold(0.0, f64::max);
-        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + ROUNDING * largest + beside
+        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + rounding(piece, k) + beside
     });
     (middle, Deviation::Tube((last - first) / 2.0, half))
 }

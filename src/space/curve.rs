@@ -1,6 +1,7 @@
-//! Cubic pieces of motions.
+//! Pieces of motions.
 
 use super::Configuration;
+use super::bernstein::Polynomial;
 
 /// What of a motion is looked at: its value or a derivative by time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,45 +12,76 @@ pub enum Derivative {
     Velocity,
     /// Per second squared.
     Acceleration,
+    /// Per second cubed.
+    Jerk,
 }
 
-/// A piece of a motion, cubic in time for each joint; straight ones included.
+/// A piece of a motion: for each joint a polynomial in time, of the fifth degree at the most; straight ones included.
 ///
-/// In Bernstein form: with `u` from 0 to 1 over the piece, `q(u) = sum binomial(3, i) u^i (1 - u)^(3 - i) c_i`. The
-/// piece lies in the box of its control points `c_i`.
+/// In Bernstein form: with `u` from 0 to 1 over the piece and `n` its degree,
+/// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box of its control points `c_i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Time at which it begins, seconds; without a clock, the number of its first waypoint.
     pub from: f64,
     /// Where it ends, in the same unit.
     pub to: f64,
-    control: [Configuration; 4],
+    curve: Polynomial<Configuration>,
 }
 
+/// What is given at an end of a piece: position, velocity, acceleration.
+pub type State = [Configuration; 3];
+
 impl Piece {
+    fn new<const N: usize>(from: f64, to: f64, points: [Configuration; N]) -> Self {
+        Self { from, to, curve: Polynomial::new(points) }
+    }
+
     /// From `a` to `b` at constant velocity.
     #[must_use]
     pub fn line(from: f64, to: f64, a: Configuration, b: Configuration) -> Self {
-        Self { from, to, control: [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b] }
+        Self::new(from, to, [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b])
     }
 
     /// The cubic with these values and velocities at its ends (Hermite).
     #[must_use]
     pub fn hermite(from: f64, to: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Self {
         let third = (to - from) / 3.0;
-        Self { from, to, control: [a, a + va * third, b - vb * third, b] }
+        Self::new(from, to, [a, a + va * third, b - vb * third, b])
+    }
+
+    /// The polynomial of the fourth degree with this position, velocity and acceleration at its beginning, and position and
+    /// velocity at its end.
+    #[must_use]
+    pub fn quartic(from: f64, to: f64, [a, va, aa]: State, [b, vb]: [Configuration; 2]) -> Self {
+        let h = to - from;
+        Self::new(from, to, [a, a + va * (h / 4.0), a + va * (h / 2.0) + aa * (h * h / 12.0), b - vb * (h / 4.0), b])
+    }
+
+    /// The polynomial of the fifth degree with these positions, velocities and accelerations at its ends.
+    #[must_use]
+    pub fn quintic(from: f64, to: f64, [a, va, aa]: State, [b, vb, ab]: State) -> Self {
+        let h = to - from;
+        let (one, two, bend) = (h / 5.0, h * 2.0 / 5.0, h * h / 20.0);
+        Self::new(from, to, [a, a + va * one, a + va * two + aa * bend, b - vb * two + ab * bend, b - vb * one, b])
     }
 
     /// The quadratic curve with these control points, raised to a cubic.
     #[must_use]
     pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
-        Self { from, to, control: [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c] }
+        Self::new(from, to, [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c])
     }
 
-    /// Its control points, the ends first and last.
+    /// Its control points, the ends first and last: one more than its degree.
     #[must_use]
-    pub fn control(&self) -> &[Configuration; 4] {
-        &self.control
+    pub fn control(&self) -> &[Configuration] {
+        self.curve.coefficients()
+    }
+
+    /// The degree of its polynomials: 3, 4 or 5. Those of straight pieces are raised.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.curve.degree()
     }
 
     /// Time at a share of the piece.
@@ -61,68 +93,42 @@ impl Piece {
     /// Configuration at a share of the piece; exact at the ends.
     #[must_use]
     pub fn at(&self, u: f64) -> Configuration {
-        // Mixed so, both ends come out exactly.
-        let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
-        let [a, b, c, d] = self.control;
-        let (ab, bc, cd) = (mix(a, b), mix(b, c), mix(c, d));
-        mix(mix(ab, bc), mix(bc, cd))
+        self.curve.at(u)
     }
 
     /// Value of a derivative by time at a share of the piece. A piece without duration stands still.
     #[must_use]
     pub fn derivative(&self, of: Derivative, u: f64) -> Configuration {
         let duration = self.to - self.from;
-        if of != Derivative::Position && duration <= 0.0 {
+        if of == Derivative::Position {
+            return self.at(u);
+        }
+        if duration <= 0.0 {
             return Configuration::zeros();
         }
-        let [d0, d1, d2] = self.differences();
-        match of {
-            Derivative::Position => self.at(u),
-            Derivative::Velocity => {
-                let v = 1.0 - u;
-                (d0 * (v * v) + d1 * (2.0 * u * v) + d2 * (u * u)) * (3.0 / duration)
-            }
-            Derivative::Acceleration => ((d1 - d0) * (1.0 - u) + (d2 - d1) * u) * (6.0 / duration) / duration,
-        }
+        let order = of as usize;
+        let Some(scaled) = self.curve.differences(order) else { return Configuration::zeros() };
+        // Divided one by one: a power of a short duration is far smaller.
+        (0..order).fold(scaled.at(u), |value, k| value * ((self.degree() - k) as f64 / duration))
     }
 
     /// Shares of the piece among which one joint's value (or derivative) is least and greatest: both ends, and where its
     /// own derivative vanishes.
     pub fn critical(&self, of: Derivative, joint: usize) -> impl Iterator<Item = f64> {
-        let [d0, d1, d2] = self.differences().map(|d| d[joint]);
-        // The derivative of the value is 3 (c + b u + a u^2), that of the velocity proportional to b + 2 a u.
-        let (a, b, c) = (d0 - 2.0 * d1 + d2, 2.0 * (d1 - d0), d0);
-        let inner = match of {
-            Derivative::Position => roots(a, b, c),
-            Derivative::Velocity => [-b / (2.0 * a), f64::NAN],
-            Derivative::Acceleration => [f64::NAN; 2],
-        };
-        [0.0, 1.0].into_iter().chain(inner.into_iter().filter(|u| 0.0 < *u && *u < 1.0))
+        let slope = self.curve.differences(of as usize + 1).map(|slope| slope.map(|d| d[joint]));
+        [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
     }
 
-    /// Greatest magnitude of each joint's second derivative by `u` between two shares: it is linear, so at one of them.
+    /// A bound on the magnitude of each joint's second derivative by `u` between two shares; of cubics the greatest there is.
     #[must_use]
     pub fn bend(&self, from: f64, to: f64) -> [f64; 2] {
-        let [d0, d1, d2] = self.differences();
-        let at = |u: f64| ((d1 - d0) * (1.0 - u) + (d2 - d1) * u) * 6.0;
-        let (first, last) = (at(from), at(to));
-        [0, 1].map(|k| first[k].abs().max(last[k].abs()))
+        let factor = (self.degree() * (self.degree() - 1)) as f64;
+        let Some(second) = self.curve.differences(2) else { return [0.0; 2] };
+        [0, 1].map(|k| {
+            let part = second.map(|d| d[k]).restricted(from, to);
+            part.coefficients().iter().map(|c| (c * factor).abs()).fold(0.0, f64::max)
+        })
     }
-
-    fn differences(&self) -> [Configuration; 3] {
-        let [a, b, c, d] = self.control;
-        [b - a, c - b, d - c]
-    }
-}
-
-/// Real roots of `a u^2 + b u + c` without cancellation; NaN or infinite where there is none.
-fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
-    let discriminant = b * b - 4.0 * a * c;
-    if discriminant < 0.0 {
-        return [f64::NAN; 2];
-    }
-    let s = -0.5 * (b + discriminant.sqrt().copysign(b));
-    [s / a, c / s]
 }
 
 #[cfg(test)]
@@ -162,17 +168,58 @@ mod tests {
         assert_eq!(piece.bend(0.0, 1.0), [0.0; 2]);
     }
 
+    /// A piece of each degree through the same states.
+    fn pieces(duration: f64, [a, va, aa, b, vb, ab]: [f64; 6]) -> [Piece; 3] {
+        let (first, last) = ([q(a, b), q(va, vb), q(aa, ab)], [q(b, a), q(vb, va), q(ab, aa)]);
+        let two = |[p, v, _]: State| [p, v];
+        [
+            Piece::hermite(0.0, duration, two(first), two(last)),
+            Piece::quartic(0.0, duration, first, two(last)),
+            Piece::quintic(0.0, duration, first, last),
+        ]
+    }
+
     proptest! {
         #![proptest_config(crate::random::cases(256))]
+
+        /// What was asked for at the ends, by differences of the motion itself; and the jerk by those of the acceleration.
+        #[test]
+        fn a_piece_has_the_states_of_its_ends(
+            values in prop::array::uniform6(-3.0..3.0_f64), duration in 0.1..5.0_f64, u in 0.001..0.999_f64,
+        ) {
+            let [a, va, aa, b, vb, ab] = values;
+            for piece in pieces(duration, values) {
+                let at = |of, u| piece.derivative(of, u);
+                prop_assert_eq!([piece.at(0.0), piece.at(1.0)], [q(a, b), q(b, a)]);
+                prop_assert!((at(Derivative::Velocity, 0.0) - q(va, vb)).amax() < 1e-10);
+                prop_assert!((at(Derivative::Velocity, 1.0) - q(vb, va)).amax() < 1e-10);
+                if piece.degree() > 3 {
+                    prop_assert!((at(Derivative::Acceleration, 0.0) - q(aa, ab)).amax() < 1e-9);
+                }
+                if piece.degree() > 4 {
+                    prop_assert!((at(Derivative::Acceleration, 1.0) - q(ab, aa)).amax() < 1e-9);
+                }
+                const STEP: f64 = 1e-4;
+                for (of, next) in [
+                    (Derivative::Position, Derivative::Velocity),
+                    (Derivative::Velocity, Derivative::Acceleration),
+                    (Derivative::Acceleration, Derivative::Jerk),
+                ] {
+                    let slope = (at(of, u + STEP) - at(of, u - STEP)) / (2.0 * STEP * duration);
+                    let size = 1.0 + (0..=20).map(|i| at(next, f64::from(i) / 20.0).amax()).fold(0.0, f64::max);
+                    prop_assert!((slope - at(next, u)).amax() < 1e-4 * size, "{:?} of {}", next, piece.degree());
+                }
+            }
+        }
 
         /// Extremes against 2000 samples; what is bounded against what was seen, and never far from it.
         #[test]
         fn extremes_bound_the_samples(
-            values in prop::array::uniform4(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,
+            values in prop::array::uniform6(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,
+            degree in 0..3_usize,
         ) {
-            let [a, va, b, vb] = values;
-            let piece = Piece::hermite(0.0, duration, [q(a, b), q(va, vb)], [q(b, a), q(vb, va)]);
-            for of in [Derivative::Position, Derivative::Velocity, Derivative::Acceleration] {
+            let piece = pieces(duration, values)[degree];
+            for of in [Derivative::Position, Derivative::Velocity, Derivative::Acceleration, Derivative::Jerk] {
                 for joint in 0..2 {
                     let value = |u: f64| piece.derivative(of, u)[joint];
                     let greatest = piece.critical(of, joint).map(value).fold(f64::NEG_INFINITY, f64::max);
@@ -189,10 +236,10 @@ mod tests {
 
         #[test]
         fn a_piece_stays_as_near_to_its_chord_as_its_bend_says(
-            values in prop::array::uniform4(-3.0..3.0_f64), ends in (0.0..1.0_f64, 0.0..1.0_f64), at in 0.0..1.0_f64,
+            values in prop::array::uniform6(-3.0..3.0_f64), ends in (0.0..1.0_f64, 0.0..1.0_f64), at in 0.0..1.0_f64,
+            degree in 0..3_usize,
         ) {
-            let [a, va, b, vb] = values;
-            let piece = Piece::hermite(0.0, 1.5, [q(a, b), q(va, vb)], [q(b, a), q(vb, va)]);
+            let piece = pieces(1.5, values)[degree];
             let (from, to) = (ends.0.min(ends.1), ends.0.max(ends.1));
             let chord = piece.at(from) + (piece.at(to) - piece.at(from)) * at;
             let far = piece.at(from + (to - from) * at) - chord;

@@ -1,7 +1,9 @@
 //! Configurations, motions, and the topology of the space they live in.
 
+mod bernstein;
 mod blend;
 mod curve;
+mod interpolation;
 mod measure;
 mod metric;
 mod path;
@@ -9,7 +11,8 @@ mod recording;
 mod topology;
 
 pub use blend::{Blend, BlendedPath, HAIR, Stretch};
-pub use curve::{Derivative, Piece};
+pub use curve::{Derivative, Piece, State};
+pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;

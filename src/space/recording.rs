@@ -1,6 +1,6 @@
 //! Motions as samples.
 
-use super::{Configuration, Path, Piece, Topology};
+use super::{Configuration, Interpolation, Path, Piece, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -10,14 +10,15 @@ const LARGEST_VALUE: f64 = 1e6;
 /// Times and velocities beyond this are a mistake; seconds since 1970 are far below.
 const LARGEST_RATE: f64 = 1e12;
 
-/// A motion of both joints, given by samples, and with it what happens between them: where velocities are known, the
-/// cubic that positions and velocities imply (Hermite); otherwise both joints move at constant velocity, straight in
-/// joint space. Radians or metres, and seconds; values are taken as they are, not wrapped.
+/// A motion of both joints, given by samples, and with it what happens between them: see [`Interpolation`]. Radians or
+/// metres, and seconds; values are taken as they are, not wrapped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
     position: Vec<Configuration>,
     time: Option<Vec<f64>>,
     velocity: Option<Vec<Configuration>>,
+    acceleration: Option<Vec<Configuration>>,
+    interpolation: Interpolation,
 }
 
 /// Why samples are no motion. Samples count from 0.
@@ -26,12 +27,12 @@ pub enum RecordingDefect {
     /// There are none.
     #[error("there is no sample")]
     Empty,
-    /// Positions, times and velocities are not equally many.
+    /// Positions, times, velocities and accelerations are not equally many.
     #[error("there are {positions} positions, but {others} {what}")]
     Count {
         /// How many positions.
         positions: usize,
-        /// `times` or `velocities`.
+        /// `times`, `velocities` or `accelerations`.
         what: &'static str,
         /// How many of those.
         others: usize,
@@ -39,12 +40,15 @@ pub enum RecordingDefect {
     /// Velocities are of no use without times.
     #[error("there are velocities, but no times")]
     VelocityWithoutTime,
+    /// Accelerations join samples only together with velocities.
+    #[error("there are accelerations, but no velocities")]
+    AccelerationWithoutVelocity,
     /// A number is NaN, infinite, or too large to be meant.
     #[error("a {what} is {value}")]
     Value {
         /// The sample.
         sample: usize,
-        /// `position`, `time` or `velocity`.
+        /// `position`, `time`, `velocity` or `acceleration`.
         what: &'static str,
         /// The number.
         value: f64,
@@ -73,7 +77,7 @@ impl RecordingDefect {
 }
 
 impl Recording {
-    /// Samples as a motion.
+    /// Samples as a motion: cubic between them where velocities are known, else linear.
     ///
     /// # Errors
     /// [`RecordingDefect`]: the first that there is.
@@ -94,7 +98,6 @@ impl Recording {
                 return Err(RecordingDefect::Count { positions: position.len(), what, others });
             }
         }
-        let outside = |value: f64, limit: f64| value.is_nan() || value.abs() > limit;
         for sample in 0..position.len() {
             let rates = velocity.as_ref().map(|v| v[sample]);
             let numbers = [("position", Some(position[sample]), LARGEST_VALUE), ("velocity", rates, LARGEST_RATE)];
@@ -112,7 +115,33 @@ impl Recording {
                 return Err(RecordingDefect::Time { sample, time, before });
             }
         }
-        Ok(Self { position, time, velocity })
+        let interpolation = if velocity.is_some() { Interpolation::Cubic } else { Interpolation::Linear };
+        Ok(Self { position, time, velocity, acceleration: None, interpolation })
+    }
+
+    /// The same with the accelerations that are stated, and what they make of the motion.
+    ///
+    /// # Errors
+    /// [`RecordingDefect`]: accelerations of another number, too large, or, where they are to join samples, without velocities.
+    pub fn accelerated(
+        self,
+        acceleration: Vec<Configuration>,
+        interpolation: Interpolation,
+    ) -> Result<Self, RecordingDefect> {
+        let uses = |what: &[Interpolation]| what.contains(&interpolation);
+        if self.velocity.is_none() && !uses(&[Interpolation::Linear]) {
+            return Err(RecordingDefect::AccelerationWithoutVelocity);
+        }
+        if acceleration.len() != self.position.len() {
+            let (positions, others) = (self.position.len(), acceleration.len());
+            return Err(RecordingDefect::Count { positions, what: "accelerations", others });
+        }
+        for (sample, row) in acceleration.iter().enumerate() {
+            if let Some(&value) = row.iter().find(|value| outside(**value, LARGEST_RATE)) {
+                return Err(RecordingDefect::Value { sample, what: "acceleration", value });
+            }
+        }
+        Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
     /// Joint values of the samples; at least one.
@@ -131,6 +160,18 @@ impl Recording {
     #[must_use]
     pub fn velocities(&self) -> Option<&[Configuration]> {
         self.velocity.as_deref()
+    }
+
+    /// Joint accelerations that are stated at the samples.
+    #[must_use]
+    pub fn accelerations(&self) -> Option<&[Configuration]> {
+        self.acceleration.as_deref()
+    }
+
+    /// What the motion is between the samples.
+    #[must_use]
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
     }
 
     /// From the first to the last sample, seconds.
@@ -153,6 +194,8 @@ impl Recording {
             position: of(&self.position),
             time: self.time.as_ref().map(|time| time[range.clone()].to_vec()),
             velocity: self.velocity.as_ref().map(of),
+            acceleration: self.acceleration.as_ref().map(of),
+            interpolation: self.interpolation,
         })
     }
 
@@ -165,9 +208,15 @@ impl Recording {
         if q.len() == 1 {
             return vec![Piece::line(at(0), at(0), q[0], q[0])];
         }
-        let piece = |k: usize| match &self.velocity {
-            Some(v) => Piece::hermite(at(k), at(k + 1), [q[k], v[k]], [q[k + 1], v[k + 1]]),
-            None => Piece::line(at(k), at(k + 1), q[k], q[k + 1]),
+        let piece = |k: usize| match (self.interpolation, &self.velocity, &self.acceleration) {
+            (Interpolation::Quintic, Some(v), Some(a)) => {
+                Piece::quintic(at(k), at(k + 1), [q[k], v[k], a[k]], [q[k + 1], v[k + 1], a[k + 1]])
+            }
+            (Interpolation::Quartic, Some(v), Some(a)) => {
+                Piece::quartic(at(k), at(k + 1), [q[k], v[k], a[k]], [q[k + 1], v[k + 1]])
+            }
+            (Interpolation::Linear, ..) | (_, None, _) => Piece::line(at(k), at(k + 1), q[k], q[k + 1]),
+            (_, Some(v), _) => Piece::hermite(at(k), at(k + 1), [q[k], v[k]], [q[k + 1], v[k + 1]]),
         };
         (0..q.len() - 1).map(piece).collect()
     }
@@ -195,12 +244,17 @@ impl Recording {
     /// A polyline for pictures: the samples, and on curved pieces points between them.
     #[must_use]
     pub fn outline(&self) -> Path {
-        let steps: u8 = if self.velocity.is_some() { 4 } else { 1 };
+        let steps: u8 = if self.interpolation == Interpolation::Linear { 1 } else { 4 };
         let between = |p: Piece| (1..=steps).map(move |i| p.at(f64::from(i) / f64::from(steps)));
         let mut waypoints = vec![self.position[0]];
         waypoints.extend(self.pieces().into_iter().flat_map(between));
         Path::new(waypoints)
     }
+}
+
+/// Whether a number is none, or too large to be meant.
+fn outside(value: f64, limit: f64) -> bool {
+    value.is_nan() || value.abs() > limit
 }
 
 #[cfg(test)]

@@ -4,28 +4,9 @@ use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::model::Joint;
+use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// The sentence, with what holds on straight pieces at its end.
-macro_rules! interpolation {
-    ($straight:literal) => {
-        concat!(
-            "from time[k] to time[k+1], with p = position, v = velocity, a = acceleration, \
-            h = time[k+1] - time[k] and t = time - time[k]: p[k] + v[k] t + a[k] t^2 / 2 + c t^3 + d t^4 where \
-            E = p[k+1] - p[k] - v[k] h - a[k] h^2 / 2, F = v[k+1] - v[k] - a[k] h, c = (4 E - F h) / h^3, \
-            d = (F h - 3 E) / h^4; ",
-            $straight
-        )
-    };
-}
-
-/// How to read a trajectory between its samples; see [`Trajectory`].
-pub const INTERPOLATION: &str =
-    interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
-
-/// The same where the jerk has a limit.
-pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");
 
 /// How to read trajectories of these joints.
 pub(crate) fn interpolation(joints: &[Joint; 2]) -> &'static str {

@@ -1,8 +1,8 @@
 //! Joint values as a table: a header of names, then a sample a line.
 
-use super::columns::{Meaning, Quantity, meanings};
+use super::columns::{Meaning, meanings};
 use super::records::{Field, Records};
-use super::{Names, Samples, Series, UNUSED};
+use super::{Names, Samples, Series};
 use crate::input::error::{Defect, InputError, quoted};
 use crate::input::source::Source;
 
@@ -96,27 +96,21 @@ impl Columns {
         if !unknown.is_empty() {
             notes.push(format!("columns that are not used: {}", quoted(unknown)));
         }
-        if used.iter().any(|(_, m)| matches!(m, Meaning::Of(_, Quantity::Acceleration))) {
-            notes.push(UNUSED.into());
-        }
-        used.retain(|(_, m)| !matches!(m, Meaning::Of(_, Quantity::Acceleration)));
         Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, notes })
     }
 
     /// Puts the columns' values where they belong.
     fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
-        let count = self.joints.len();
-        let (mut positions, mut velocities) = (vec![None; count], vec![None; count]);
+        let mut series: Vec<[Option<Vec<f64>>; 3]> = self.joints.iter().map(|_| Default::default()).collect();
         for ((_, meaning), column) in self.used.into_iter().zip(values) {
             match meaning {
                 Meaning::Time => samples.time = Some(column),
-                Meaning::Of(joint, Quantity::Velocity) => velocities[joint] = Some(column),
-                Meaning::Of(joint, _) => positions[joint] = Some(column),
+                Meaning::Of(joint, quantity) => series[joint][quantity as usize] = Some(column),
             }
         }
-        for ((name, position), velocity) in self.joints.into_iter().zip(positions).zip(velocities) {
+        for (name, [position, velocity, acceleration]) in self.joints.into_iter().zip(series) {
             if let Some(position) = position {
-                samples.joints.push(Series { name, position, velocity });
+                samples.joints.push(Series { name, position, velocity, acceleration });
             }
         }
         samples.notes.extend(self.notes);

@@ -1,8 +1,9 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
-use super::{Samples, Series, UNUSED};
+use super::{Samples, Series};
 use crate::input::error::{Defect, InputError, without_place};
 use crate::input::source::Source;
+use crate::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 use serde::Deserialize;
 
 /// The members that are looked at; others may be there.
@@ -12,6 +13,7 @@ struct Document {
     status: Option<String>,
     joints: Option<Vec<String>>,
     path: Option<Vec<Vec<f64>>>,
+    interpolation: Option<String>,
     trajectory: Option<Inner>,
     /// A ROS message, alone or inside another.
     joint_names: Option<Vec<String>>,
@@ -98,7 +100,7 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
 }
 
 fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
-    let Document { status, joints, path, trajectory, joint_names, points, joint_trajectory } = document;
+    let Document { status, joints, path, interpolation, trajectory, joint_names, points, joint_trajectory } = document;
     if let Some(points) = points {
         return message(source, joint_names, points);
     }
@@ -108,16 +110,11 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
         }
         if let (Some(time), Some(position)) = (inner.time, inner.position) {
             let names = named(source, joints, "joints")?;
-            let width = names.len();
             let mut samples = Samples { time: Some(time), what: "trajectory.position", ..Samples::default() };
             samples.joints = series(source, names, &position, "trajectory.position")?;
-            if let Some(velocity) = inner.velocity {
-                let columns = transposed(source, &velocity, width, "trajectory.velocity")?;
-                for (joint, column) in samples.joints.iter_mut().zip(columns) {
-                    joint.velocity = Some(column);
-                }
-            }
-            samples.notes.extend(inner.acceleration.map(|_| UNUSED.into()));
+            samples.add(source, inner.velocity, "trajectory.velocity", |joint| &mut joint.velocity)?;
+            samples.add(source, inner.acceleration, "trajectory.acceleration", |joint| &mut joint.acceleration)?;
+            samples.joined = own_rule(interpolation.as_deref(), &mut samples.notes);
             return Ok(samples);
         }
     }
@@ -136,6 +133,35 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
     })
 }
 
+/// What the member `interpolation` of a result of cplan's makes of accelerations.
+fn own_rule(said: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
+    match said {
+        Some(INTERPOLATION) => Some(Interpolation::Quartic),
+        Some(SMOOTH_INTERPOLATION) => Some(Interpolation::Cubic),
+        Some(_) => {
+            notes.push("the file's `interpolation` is none that this version knows: not used".into());
+            None
+        }
+        None => None,
+    }
+}
+
+impl Samples {
+    /// Adds rows of velocities or accelerations, if there are any, to the joints' positions.
+    fn add(
+        &mut self,
+        source: &Source,
+        rows: Option<Vec<Vec<f64>>>,
+        what: &str,
+        place: fn(&mut Series) -> &mut Option<Vec<f64>>,
+    ) -> Result<(), Defect> {
+        let Some(rows) = rows else { return Ok(()) };
+        let columns = transposed(source, &rows, self.joints.len(), what)?;
+        self.joints.iter_mut().zip(columns).for_each(|(joint, column)| *place(joint) = Some(column));
+        Ok(())
+    }
+}
+
 fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Defect> {
     let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
         source
@@ -151,43 +177,42 @@ fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Ve
 /// A ROS message.
 fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Defect> {
     let names = named(source, names, "joint_names")?;
-    let width = names.len();
     let count = points.len();
-    let moving = points.iter().filter(|p| !p.velocities.is_empty()).count();
-    let timed = points.iter().filter(|p| p.time_from_start.is_some()).count();
-    for (found, what) in [(moving, "velocities"), (timed, "time_from_start")] {
-        if found != 0 && found != count {
-            return Err(source
-                .defect(format!("{found} of {count} points have {what}"))
-                .cure(format!("give all points their {what}, or none")));
-        }
-    }
-    let accelerated = points.iter().any(|p| !p.accelerations.is_empty());
-    let mut time = Vec::new();
-    let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+    let (mut time, mut positions) = (Vec::new(), Vec::new());
+    let (mut velocities, mut accelerations) = (Vec::new(), Vec::new());
     for point in points {
         time.extend(point.time_from_start.map(|stamp| stamp.seconds()));
         positions.push(point.positions);
-        velocities.push(point.velocities);
+        velocities.extend(Some(point.velocities).filter(|row| !row.is_empty()));
+        accelerations.extend(Some(point.accelerations).filter(|row| !row.is_empty()));
     }
-    let mut samples = Samples { what: "points", ..Samples::default() };
-    samples.notes.extend(accelerated.then(|| UNUSED.into()));
-    samples.time = (timed > 0).then_some(time);
+    let found = [
+        (velocities.len(), "velocities"),
+        (accelerations.len(), "accelerations"),
+        (time.len(), "time_from_start"),
+    ];
+    if let Some((found, what)) = found.into_iter().find(|(found, _)| *found != 0 && *found != count) {
+        return Err(source
+            .defect(format!("{found} of {count} points have {what}"))
+            .cure(format!("give all points their {what}, or none")));
+    }
+    let mut samples = Samples { what: "points", joined: Some(Interpolation::Quintic), ..Samples::default() };
+    // The controller goes to the first point from wherever the arm is.
+    if let Some(first) = time.first().filter(|first| **first > 0.0) {
+        samples.notes.push(format!("the way to the first point, until {first} s, depends on where the arm is: not judged"));
+    }
+    samples.time = Some(time).filter(|time| !time.is_empty());
     samples.joints = series(source, names, &positions, "positions of points")?;
-    if moving > 0 {
-        for (joint, column) in
-            samples.joints.iter_mut().zip(transposed(source, &velocities, width, "velocities of points")?)
-        {
-            joint.velocity = Some(column);
-        }
-    }
+    let any = |rows: Vec<Vec<f64>>| Some(rows).filter(|rows| !rows.is_empty());
+    samples.add(source, any(velocities), "velocities of points", |joint| &mut joint.velocity)?;
+    samples.add(source, any(accelerations), "accelerations of points", |joint| &mut joint.acceleration)?;
     Ok(samples)
 }
 
 /// Rows of positions as a series a joint.
 fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Defect> {
     let columns = transposed(source, rows, names.len(), what)?;
-    Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, velocity: None }).collect())
+    Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, ..Series::default() }).collect())
 }
 
 /// Rows as columns.

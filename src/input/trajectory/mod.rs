@@ -13,7 +13,7 @@ use super::LoadedScene;
 use super::error::{Defect, InputError, quoted};
 use super::source::Source;
 use crate::model::RecordedStep;
-use crate::space::{Configuration, Recording, RecordingDefect};
+use crate::space::{Configuration, Interpolation, Recording, RecordingDefect};
 use std::ops::Range;
 use std::path::Path;
 
@@ -21,8 +21,9 @@ use std::path::Path;
 /// a controller's jitter or six printed digits, less than what could matter to a collision.
 const STILL: f64 = 1e-4;
 
-/// What to say of accelerations in a file.
-const UNUSED: &str = "accelerations in the file are not used: positions and velocities imply them";
+/// What to say of accelerations that do not join samples.
+const STATED: &str = "accelerations in the file are held to the limits, but do not change the motion: positions and velocities \
+                      imply it";
 
 /// A recorded motion and how it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +42,7 @@ struct Series {
     name: String,
     position: Vec<f64>,
     velocity: Option<Vec<f64>>,
+    acceleration: Option<Vec<f64>>,
 }
 
 /// What a file holds.
@@ -48,6 +50,8 @@ struct Series {
 struct Samples {
     time: Option<Vec<f64>>,
     joints: Vec<Series>,
+    /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
+    joined: Option<Interpolation>,
     /// How the file calls sample `k`: this, with `k` in brackets.
     what: &'static str,
     /// Where in the text each sample is, if the reader knows.
@@ -123,18 +127,27 @@ impl Names<'_> {
             return Err(source.defect("two joints are needed"));
         };
         let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| Configuration::new(*a, *b)).collect();
-        let velocity = match (&one.velocity, &two.velocity) {
+        let mut rows = |what: &str, a: &Option<Vec<f64>>, b: &Option<Vec<f64>>| match (a, b) {
             (Some(a), Some(b)) => Some(both(a, b)),
             (None, None) => None,
             _ => {
-                notes.push("velocities of only one joint: not used".into());
+                notes.push(format!("{what} of only one joint: not used"));
                 None
             }
         };
+        let velocity = rows("velocities", &one.velocity, &two.velocity);
+        let acceleration = rows("accelerations", &one.acceleration, &two.acceleration);
         let position = both(&one.position, &two.position);
-        let recording =
-            Recording::new(position, samples.time.take(), velocity).map_err(|d| misplaced(source, &samples, &d))?;
+        let recording = Recording::new(position, samples.time.take(), velocity).and_then(|recording| {
+            let rule = samples.joined.unwrap_or(recording.interpolation());
+            match acceleration {
+                Some(acceleration) => recording.accelerated(acceleration, rule),
+                None => Ok(recording),
+            }
+        });
+        let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
         notes.push(rule(&recording).into());
+        notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
         Ok(LoadedRecording { recording, steps: None, notes })
     }
 
@@ -180,6 +193,9 @@ fn misplaced(source: &Source, samples: &Samples, defect: &RecordingDefect) -> De
         RecordingDefect::Empty => placed.cure("record at least one sample"),
         RecordingDefect::Count { .. } => placed.cure("give every sample all of its values"),
         RecordingDefect::VelocityWithoutTime => placed.cure("add the times, in seconds, or leave the velocities out"),
+        RecordingDefect::AccelerationWithoutVelocity => {
+            placed.cure("add the velocities, or leave the accelerations out: no controller joins samples without them")
+        }
         RecordingDefect::Value { what, .. } => {
             placed.cure(format!("a {what} is a finite number: radians or metres, and seconds"))
         }
@@ -189,13 +205,20 @@ fn misplaced(source: &Source, samples: &Samples, defect: &RecordingDefect) -> De
 
 /// How the samples are joined, in words.
 fn rule(recording: &Recording) -> &'static str {
-    match (recording.times(), recording.velocities()) {
-        (_, Some(_)) => "between samples: the cubic that positions and velocities imply",
-        (Some(_), None) => {
+    match (recording.interpolation(), recording.times()) {
+        (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",
+        (Interpolation::Quartic, _) => {
+            "between samples: the polynomial of the fourth degree that the file's `interpolation` says"
+        }
+        (Interpolation::Quintic, _) => {
+            "between samples: the polynomial of the fifth degree that positions, velocities and accelerations imply, as \
+             ROS 2's joint_trajectory_controller joins them"
+        }
+        (Interpolation::Linear, Some(_)) => {
             "between samples: straight in joint space at constant velocity; without velocities in the file, \
              accelerations and rest at the ends cannot be judged"
         }
-        (None, None) => {
+        (Interpolation::Linear, None) => {
             "between waypoints: straight in joint space; without times in the file, velocities and accelerations cannot \
              be judged"
         }

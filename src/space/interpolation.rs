@@ -1,0 +1,45 @@
+//! What a motion is between its samples.
+
+/// How samples are joined: by what consumers of their format make of them.
+///
+/// | format | who reads it how | between samples |
+/// |---|---|---|
+/// | ROS 2 `JointTrajectory` (YAML, JSON, MCAP) | `joint_trajectory_controller`, interpolation method `splines` | with velocities and accelerations quintic, with velocities cubic, else linear |
+/// | ROS 2 `JointState` (MCAP) | what was measured; nobody drives by it | with velocities cubic, else linear |
+/// | cplan's JSON | as its member `interpolation` says: [`INTERPOLATION`], or [`SMOOTH_INTERPOLATION`] | quartic, or cubic; without accelerations cubic, without velocities linear |
+/// | CSV | there is no convention; the usual one for positions with velocities | with velocities cubic, else linear |
+/// | a path without times | straight segments between waypoints | linear |
+///
+/// What a file states besides (the accelerations of a CSV) does not change the motion, but is held to the limits, too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight in joint space, at constant velocity.
+    Linear,
+    /// The cubic with the positions and velocities of both ends (Hermite).
+    Cubic,
+    /// The polynomial of the fourth degree with position, velocity and acceleration at the beginning, and position and
+    /// velocity at the end: the acceleration given is that of the interval that begins there, and may jump.
+    Quartic,
+    /// The polynomial of the fifth degree with the positions, velocities and accelerations of both ends.
+    Quintic,
+}
+
+/// The sentence, with what holds on straight pieces at its end.
+macro_rules! interpolation {
+    ($straight:literal) => {
+        concat!(
+            "from time[k] to time[k+1], with p = position, v = velocity, a = acceleration, \
+            h = time[k+1] - time[k] and t = time - time[k]: p[k] + v[k] t + a[k] t^2 / 2 + c t^3 + d t^4 where \
+            E = p[k+1] - p[k] - v[k] h - a[k] h^2 / 2, F = v[k+1] - v[k] - a[k] h, c = (4 E - F h) / h^3, \
+            d = (F h - 3 E) / h^4; ",
+            $straight
+        )
+    };
+}
+
+/// How to read a trajectory in cplan's JSON between its samples: [`Interpolation::Quartic`].
+pub const INTERPOLATION: &str =
+    interpolation!("c = d = 0 on straight pieces of the path, where the acceleration is constant");
+
+/// The same where the jerk has a limit: [`Interpolation::Cubic`], whose accelerations are those given.
+pub const SMOOTH_INTERPOLATION: &str = interpolation!("d = 0, because the jerk is constant");
