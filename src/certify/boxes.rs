@@ -23,9 +23,12 @@ impl Cell {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)
     }
 
-    /// Half of each side; rounded up, so that the box about the middle covers the cell.
+    /// Half of each side; rounded up, so that the box about the middle, which is rounded, too, covers the cell.
     pub(super) fn half(&self) -> [f64; 2] {
-        [0, 1].map(|k| (self.upper[k] - self.lower[k]) / 2.0 * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * PI)
+        [0, 1].map(|k| {
+            let largest = self.upper[k].abs().max(self.lower[k].abs()).max(PI);
+            (self.upper[k] - self.lower[k]) / 2.0 * (1.0 + 4.0 * f64::EPSILON) + 2.0 * f64::EPSILON * largest
+        })
     }
 
     pub(super) fn contains(&self, q: Configuration) -> bool {

@@ -237,7 +237,8 @@ impl<'a> Judge<'a> {
         let mut before = still;
         for (index, piece) in self.lasting() {
             let duration = piece.to - piece.from;
-            let late = |value: f64| value.abs() * 2.0 * self.precision.time / duration;
+            let of_time = 2.0 * self.precision.time / duration;
+            let late = |value: f64| value.abs() * of_time;
             let [first, last] = [0.0, 1.0].map(|u| {
                 let value = piece.derivative(Derivative::Acceleration, u)[self.k];
                 let explained = self.explained(piece, &Sensitivity::of(piece, Derivative::Acceleration));
@@ -304,7 +305,7 @@ impl Sensitivity {
     fn of(piece: &Piece, derivative: Derivative) -> Self {
         let (order, [position, velocity, acceleration]) = match (derivative, piece.degree()) {
             (Derivative::Position, _) => (0, [1.0, 0.5, 0.1]),
-            (Derivative::Velocity, 4) => (1, [1.78, 1.0, 0.2]),
+            (Derivative::Velocity, 4) => (1, [1.78, 1.0, 0.1]),
             (Derivative::Velocity, 5) => (1, [1.875, 1.0, 0.1]),
             (Derivative::Velocity, _) => (1, [1.5, 1.0, 0.0]),
             (Derivative::Acceleration, 4) => (2, [12.0, 12.0, 1.0]),
@@ -408,7 +409,10 @@ mod tests {
                     (greatest(2..4), claimed.velocity),
                     (greatest(accelerations.clone()), claimed.acceleration),
                 ] {
-                    assert!(seen <= claimed + 1e-12 && claimed <= 1.6 * seen + 0.01, "{degree}, {of:?}: {seen} {claimed}");
+                    assert!(
+                        seen <= claimed + 1e-12 && claimed <= 1.6 * seen + 0.01,
+                        "{degree}, {of:?}: {seen} {claimed}"
+                    );
                 }
             }
         }

@@ -17,6 +17,10 @@ const MAX_EVALUATIONS: usize = 5_000_000;
 /// ... and some for each straight piece: paths through mazes have hundreds of thousands.
 const EVALUATIONS_PER_PIECE: usize = 500;
 
+/// Rounding of a configuration on a segment, relative to the larger of its ends: three operations. It matters where joints on
+/// circles are many turns from zero, where doubles lie far apart.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// A pair that keeps more than so many times the least distance seen is not looked at: the clearance proven is that of a
 /// nearer one. Above the inverse of [`TIGHTNESS`], with room for rounding.
 const BEYOND: f64 = 2.0;
@@ -115,10 +119,16 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
         let middle = Posture::new(scene, from + (to - from) * 0.5);
-        let along = Deviation::Along((to - from) * 0.5);
+        let along = part_of(from, to, 0.5);
         vicinity.near(&middle, along, BEYOND * search.target(), |pair| search.segment(pair, from, to))?;
     }
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
+}
+
+/// The part of a segment that is so many shares of it to either side of a place, and what rounding makes of that place.
+fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
+    let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
+    Deviation::Tube((to - from) * half, rounded)
 }
 
 /// What is known while pieces of a motion are looked at.
@@ -168,7 +178,7 @@ impl<'a> Search<'a> {
     }
 
     fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
-        self.curve(pair, |middle, half| (from + (to - from) * middle, Deviation::Along((to - from) * half)))
+        self.curve(pair, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
     /// A blend and all that is no farther off it than a hair.

@@ -311,8 +311,7 @@ pub(super) fn along(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configur
     let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
     let bend = piece.bend(from, to);
     let off_chord = (first + last) / 2.0 - middle;
-    let half = [0, 1].map(|k| {
-        bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + rounding(piece, k) + beside
-    });
+    let half =
+        [0, 1].map(|k| bend[k] * (to - from) * (to - from) / 8.0 + off_chord[k].abs() + rounding(piece, k) + beside);
     (middle, Deviation::Tube((last - first) / 2.0, half))
 }

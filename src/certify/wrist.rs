@@ -2,7 +2,7 @@
 
 use crate::geometry::{Features, Hits, Point, ROUNDING, Vector, turning_from};
 use crate::model::{Arm, Payload, Workspace};
-use crate::space::Configuration;
+use crate::space::{Axis, Configuration};
 use nalgebra::Translation2;
 use std::f64::consts::TAU;
 
@@ -41,7 +41,8 @@ pub fn wrist_turn(
     q: Configuration,
     [from, to]: [f64; 2],
 ) -> Option<WristTurn> {
-    let ahead = (to - from).rem_euclid(TAU);
+    let way = Axis::Circle.displacement(from, to);
+    let ahead = if way < 0.0 { way + TAU } else { way };
     let mut ways = [from + ahead, from + ahead - TAU];
     if ahead > TAU / 2.0 {
         ways.reverse();
@@ -98,7 +99,20 @@ impl Turning {
         Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }
     }
 
-    fn judge(&self, turn @ [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
+    fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
+        // The same turn from the copy nearest to zero: contacts are known there, and shifted by turns of a double they would
+        // be off by more than the margin.
+        let near = Axis::Circle.wrap(from);
+        match self.judge_near([near, near + (to - from)]) {
+            Ok(free) => Ok(WristTurn { from, to, ..free }),
+            Err(contact) => {
+                let angle = (contact.angle + (from - near)).clamp(from.min(to), from.max(to));
+                Err(TurnContact { angle, ..contact })
+            }
+        }
+    }
+
+    fn judge_near(&self, turn @ [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
         let first =
             |a: TurnContact, b: TurnContact| if (b.angle - from).abs() < (a.angle - from).abs() { b } else { a };
         if let Some(contact) = self.contacts(turn, self.clearance).reduce(first) {

@@ -135,6 +135,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::random::cases(256))]
+
         /// Every change of sign among 2000 samples is a zero, and every zero is one, up to rounding.
         #[test]
         fn zeros_are_where_the_sign_changes(count in 1..=6_usize, c in prop::array::uniform6(-3.0..3.0_f64)) {

@@ -26,6 +26,7 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::mcap;
+pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::{csv, csv_with_steps};
 pub use drive::Drive;
 pub use field::FieldReport;
@@ -33,7 +34,6 @@ pub use format::{Format, FormatError};
 pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
 pub(crate) use result::interpolation;
-pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use result::{Blends, Optimum, Report, SearchUsed, Status};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};

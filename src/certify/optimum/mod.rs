@@ -15,6 +15,10 @@ use strips::Strips;
 /// What rounding and the tie-break of travel times may add to a shortest length, as a share of it.
 const ROUNDING: f64 = 1e-9;
 
+/// What rounding makes of the ends of a way, as a share of their coordinates: far from zero doubles lie far apart, and a short
+/// way there is known to fewer digits.
+const COORDINATES: f64 = 1024.0 * f64::EPSILON;
+
 /// Times that strips are halved at most.
 const ROUNDS: usize = 64;
 
@@ -54,14 +58,18 @@ pub fn least_length(
     gap: f64,
 ) -> f64 {
     let mut strips = Strips::new(scene, clearance);
-    let start = Point::from(start);
+    // Nearest to zero doubles are densest, and all turns are alike.
+    let start = Point::from(strips.topology().wrap(start));
+    let largest =
+        start.coords.amax().max(goals.iter().map(|goal| strips.topology().wrap(*goal).amax()).fold(0.0, f64::max));
+    let rounded = |length: f64| (length - f64::max(length * ROUNDING, largest * COORDINATES)).max(0.0);
     let copies = copies(strips.topology(), metric, start, goals, limit);
     let straight = |goal: &Point| metric.norm(goal - start);
     let measure = Measure::from(metric);
     if strips.count() == 0 {
         // Joint 1 cannot move: what closes the way of joint 2 is not looked at.
         let nearest = copies.iter().map(straight).fold(limit, f64::min);
-        return nearest * (1.0 - ROUNDING);
+        return rounded(nearest);
     }
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
@@ -87,7 +95,7 @@ pub fn least_length(
             break;
         }
     }
-    best.min(limit) * (1.0 - ROUNDING)
+    rounded(best.min(limit))
 }
 
 /// All copies of the goals that are nearer than the limit.

@@ -186,11 +186,8 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
         velocities.extend(Some(point.velocities).filter(|row| !row.is_empty()));
         accelerations.extend(Some(point.accelerations).filter(|row| !row.is_empty()));
     }
-    let found = [
-        (velocities.len(), "velocities"),
-        (accelerations.len(), "accelerations"),
-        (time.len(), "time_from_start"),
-    ];
+    let found =
+        [(velocities.len(), "velocities"), (accelerations.len(), "accelerations"), (time.len(), "time_from_start")];
     if let Some((found, what)) = found.into_iter().find(|(found, _)| *found != 0 && *found != count) {
         return Err(source
             .defect(format!("{found} of {count} points have {what}"))
@@ -199,7 +196,9 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
     let mut samples = Samples { what: "points", joined: Some(Interpolation::Quintic), ..Samples::default() };
     // The controller goes to the first point from wherever the arm is.
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
-        samples.notes.push(format!("the way to the first point, until {first} s, depends on where the arm is: not judged"));
+        samples
+            .notes
+            .push(format!("the way to the first point, until {first} s, depends on where the arm is: not judged"));
     }
     samples.time = Some(time).filter(|time| !time.is_empty());
     samples.joints = series(source, names, &positions, "positions of points")?;

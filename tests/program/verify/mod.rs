@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod command;
+mod controller;
 mod files;
 mod limits;
 mod motion;
