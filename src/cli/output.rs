@@ -41,6 +41,7 @@ pub enum PictureFormat {
     /// Vector graphics.
     Svg,
     /// Pixels.
+    #[cfg(feature = "png")]
     Png,
     /// A page with both, in which the arm can be moved.
     Html,
@@ -72,12 +73,17 @@ pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Fai
 /// The format that a picture's extension stands for.
 ///
 /// # Errors
-/// Any other extension than .svg, .png and .html.
+/// Any other extension than .svg, .png and .html, and .png in a program built without it.
 pub fn picture_format(path: &Path) -> Result<PictureFormat, Failure> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
         Some("svg") => Ok(PictureFormat::Svg),
+        #[cfg(feature = "png")]
         Some("png") => Ok(PictureFormat::Png),
+        #[cfg(not(feature = "png"))]
+        Some("png") => {
+            Err(Failure::Option(format!("{}: this program was built without PNG; use .svg or .html", path.display())))
+        }
         Some("html") => Ok(PictureFormat::Html),
         _ => Err(Failure::Usage(format!("{}: a picture's name must end in .svg, .png or .html", path.display()))),
     }
@@ -122,7 +128,7 @@ pub fn contours(scene: &Scene) -> Vec<CObstacle> {
 /// Writes a picture.
 ///
 /// # Errors
-/// I/O, or a program built without PNG.
+/// I/O, or a picture that cannot be made of pixels.
 pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Result<(), Failure> {
     Ok(write_whole(path, &drawn(format, picture)?)?)
 }
@@ -130,14 +136,12 @@ pub fn save_picture(format: PictureFormat, path: &Path, picture: &Picture) -> Re
 /// A picture as a file holds it.
 ///
 /// # Errors
-/// A program built without PNG.
+/// A picture that cannot be made of pixels.
 pub fn drawn(format: PictureFormat, picture: &Picture) -> Result<Vec<u8>, Failure> {
     Ok(match format {
         PictureFormat::Svg => draw::svg(picture).into_bytes(),
         #[cfg(feature = "png")]
         PictureFormat::Png => draw::png(picture, PNG_SCALE)?,
-        #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png()),
         PictureFormat::Html => draw::page(&View::of_picture(picture, Ending::Shown, Vec::new(), None)).into_bytes(),
     })
 }
@@ -153,7 +157,7 @@ pub fn save_view(path: &Path, view: &View) -> Result<(), Failure> {
 /// Writes a picture of a task; `facts` are for pages.
 ///
 /// # Errors
-/// I/O, or a program built without PNG.
+/// I/O, or a picture that cannot be made of pixels.
 pub fn save_task_picture(
     format: PictureFormat,
     path: &Path,
@@ -166,7 +170,7 @@ pub fn save_task_picture(
 /// A picture of a task as a file holds it.
 ///
 /// # Errors
-/// A program built without PNG.
+/// A picture that cannot be made of pixels.
 pub fn drawn_task(
     format: PictureFormat,
     picture: &TaskPicture,
@@ -176,8 +180,6 @@ pub fn drawn_task(
         PictureFormat::Svg => draw::task_svg(picture).into_bytes(),
         #[cfg(feature = "png")]
         PictureFormat::Png => draw::task_png(picture, PNG_SCALE)?,
-        #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png()),
         PictureFormat::Html => {
             let ending = match picture.answer.verdict {
                 TaskVerdict::Done => Ending::Found,
@@ -192,22 +194,15 @@ pub fn drawn_task(
 /// Writes a picture of an arm in one configuration.
 ///
 /// # Errors
-/// I/O, or a program built without PNG.
+/// I/O, or a picture that cannot be made of pixels.
 pub fn save_posture(format: PictureFormat, path: &Path, posture: &Posture) -> Result<(), Failure> {
     match format {
         PictureFormat::Svg => write_whole(path, draw::posture_svg(posture).as_bytes())?,
         #[cfg(feature = "png")]
         PictureFormat::Png => write_whole(path, &draw::posture_png(posture, PNG_SCALE)?)?,
-        #[cfg(not(feature = "png"))]
-        PictureFormat::Png => return Err(without_png()),
         PictureFormat::Html => save_view(path, &View::of_posture(posture))?,
     }
     Ok(())
-}
-
-#[cfg(not(feature = "png"))]
-fn without_png() -> Failure {
-    Failure::Option("this program was built without PNG; use .svg or .html".into())
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

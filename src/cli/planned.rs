@@ -35,7 +35,7 @@ impl Planned<'_> {
     /// Writes a picture of it.
     ///
     /// # Errors
-    /// I/O, or a program built without PNG.
+    /// I/O, or a picture that cannot be made of pixels.
     pub fn save(&self, format: PictureFormat, path: &Path) -> Result<(), Failure> {
         Ok(write_whole(path, &self.bytes(format)?)?)
     }
@@ -43,11 +43,11 @@ impl Planned<'_> {
     /// A picture of it as a file holds it.
     ///
     /// # Errors
-    /// A program built without PNG.
+    /// A picture that cannot be made of pixels.
     pub fn bytes(&self, format: PictureFormat) -> Result<Vec<u8>, Failure> {
         match format {
             PictureFormat::Html => Ok(page(&self.view()).into_bytes()),
-            PictureFormat::Svg | PictureFormat::Png => self.with_picture(|picture| output::drawn(format, picture)),
+            _ => self.with_picture(|picture| output::drawn(format, picture)),
         }
     }
 

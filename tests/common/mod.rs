@@ -3,6 +3,7 @@
 
 pub mod mazes;
 pub mod random;
+pub mod reference;
 pub mod roadmap;
 
 use cplan::geometry::{Convex, Point, Vector};

@@ -1,13 +1,11 @@
 //! The doctor: what it says of broken robots, of every shipped one, and of robots of the field as they are published.
-//!
-//! The published files are not part of the project: the folder that holds them (in `urdf/`) is named by the environment
-//! variable `CPLAN_REFERENCE`; without it the tests that need them print a note and check nothing.
 
+use crate::common::reference::published;
 use assert_cmd::Command;
 use cplan::input::{Inspection, LimitSource, RateSource, Role, inspect, load_scene};
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const ARM: &str = r#"<robot name="arm">
   <link name="base"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -193,11 +191,9 @@ const PUBLISHED: [Expected; 18] = [
 ];
 
 #[test]
+#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn published_robots_are_diagnosed() {
-    let Some(folder) = std::env::var_os("CPLAN_REFERENCE").map(|f| PathBuf::from(f).join("urdf")) else {
-        println!("skipped: CPLAN_REFERENCE does not name the folder with the published robots");
-        return;
-    };
+    let folder = published("urdf");
     for (file, plannable, chosen, parts) in PUBLISHED {
         let path = folder.join(format!("{file}.urdf"));
         let found = inspect(&path, None);

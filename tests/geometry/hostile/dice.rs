@@ -1,9 +1,16 @@
 //! Random numbers that are the same on every run.
 
+use crate::common::random::seeds;
+
 /// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Dice(pub u64);
+pub struct Dice(u64);
 
 impl Dice {
+    /// The stream of this number; other ones with another `CPLAN_SEED`.
+    pub fn new(stream: u64) -> Self {
+        Self(seeds(1).start.wrapping_add(stream))
+    }
+
     pub fn next(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;

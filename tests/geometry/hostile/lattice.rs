@@ -81,7 +81,7 @@ fn chain(dice: &mut Dice) -> [Pair<i128>; 4] {
 
 #[test]
 fn two_million_triples_along_lines() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let mut collinear = 0;
     for round in 0..1_000_000 {
         let chain = chain(&mut dice);
@@ -99,7 +99,7 @@ fn two_million_triples_along_lines() {
 
 #[test]
 fn a_million_pairs_of_segments_along_lines() {
-    let mut dice = Dice(2);
+    let mut dice = Dice::new(2);
     let mut counts = [0; 3];
     for round in 0..1_000_000 {
         let mut ends = chain(&mut dice);

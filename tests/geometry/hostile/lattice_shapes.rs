@@ -51,7 +51,7 @@ fn touching(dice: &mut Dice, first: &[Corner], reach: i64) -> Vec<Corner> {
 
 #[test]
 fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     let mut met = 0;
     for round in 0..100_000 {
         let (corner, unit) = PLACES[round % PLACES.len()];
@@ -77,7 +77,7 @@ fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
 /// Chains of corners on one line, corners that coincide and polygons without area: the convex hull says the same.
 #[test]
 fn straight_corners_and_duplicates_change_nothing() {
-    let mut dice = Dice(4);
+    let mut dice = Dice::new(4);
     for round in 0..25_000 {
         let unit = PLACES[round % PLACES.len()].1;
         let first = corners(&mut dice, 3, (0, 0));

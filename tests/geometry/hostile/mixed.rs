@@ -76,7 +76,7 @@ fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
 
 /// Compares on as many draws of four points.
 fn attack_segments(seed: u64, draws: usize, most: i32) {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let mut counts = [0; 3];
     for _ in 0..draws {
         let points: [Point; 4] = points(&mut dice, most);
@@ -99,7 +99,7 @@ fn attack_segments(seed: u64, draws: usize, most: i32) {
 
 /// Compares on as many pairs of polygons.
 fn attack_shapes(seed: u64, draws: usize, most: i32) {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let mut met = 0;
     for _ in 0..draws {
         // Two polygons from one cloud, so that corners and sides are shared.

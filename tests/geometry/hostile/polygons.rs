@@ -40,7 +40,7 @@ fn interiors_apart(a: &[Corner], b: &[Corner]) -> bool {
 
 #[test]
 fn a_hundred_thousand_lists_of_corners() {
-    let mut dice = Dice(9);
+    let mut dice = Dice::new(9);
     let mut simple = 0;
     for round in 0..100_000 {
         let (corner, unit) = PLACES[round % PLACES.len()];

@@ -1,19 +1,10 @@
-//! The room-sized gantry in the published line maps. They come from the folder that the environment variable
-//! `CPLAN_REFERENCE` names; without it these tests print a note and check nothing.
+//! The room-sized gantry in the published line maps.
 
 use super::robot;
+use crate::common::reference::published;
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::Problem;
 use cplan::solve::{Effort, Method, Verdict, solve};
-use std::path::PathBuf;
-
-fn data() -> Option<PathBuf> {
-    let folder = std::env::var_os("CPLAN_REFERENCE").map(|f| PathBuf::from(f).join("data"));
-    if folder.is_none() {
-        println!("skipped: CPLAN_REFERENCE does not name the folder with data/map1.map");
-    }
-    folder
-}
 
 /// The problem of a world that names a map and a preference file by their whole paths.
 fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> Problem {
@@ -29,8 +20,9 @@ fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 
 }
 
 #[test]
+#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_maps_have_the_lines_that_are_printed() {
-    let Some(data) = data() else { return };
+    let data = published("data");
     for (map, lines, half) in [(1, 36, 20000.0), (2, 10, 25000.0), (3, 15, 10000.0)] {
         let map = LineMap::read(&data.join(format!("map{map}.map"))).unwrap();
         assert_eq!(map.lines.len(), lines);
@@ -49,8 +41,9 @@ fn the_maps_have_the_lines_that_are_printed() {
 }
 
 #[test]
+#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_gantry_finds_its_way_in_all_three() {
-    let Some(data) = data() else { return };
+    let data = published("data");
     // Map 1 with its goal in the lower left corner; maps 2 and 3 with the goal in the middle, which in map 1 is a wall.
     for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
         let problem = problem(&data, map, preferences, start);
@@ -65,8 +58,9 @@ fn the_gantry_finds_its_way_in_all_three() {
 }
 
 #[test]
+#[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn there_is_no_way_out_of_a_letter() {
-    let Some(data) = data() else { return };
+    let data = published("data");
     let problem = problem(&data, 1, 1, [-9.0, 6.5]);
     for method in Method::ALL {
         let answer = solve(&problem, method, &Effort::default(), &mut |_| {});

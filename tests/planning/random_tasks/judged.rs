@@ -2,6 +2,7 @@
 //! larger than planned for it mostly is not.
 
 use super::{manner, task};
+use crate::common::random::{seeds, times};
 use cplan::certify::{Passage, ReplayedStep};
 use cplan::model::{RecordedStep, RecordedTurn, Task};
 use cplan::space::{Configuration, Recording};
@@ -30,10 +31,10 @@ fn is_free(step: &ReplayedStep) -> bool {
 
 #[test]
 fn what_is_planned_is_judged_free() {
-    let count = std::env::var("CPLAN_TASKS").ok().and_then(|n| n.parse().ok()).unwrap_or(300_u64);
+    let count = times(100);
     let manner = Manner { drive: Drive::default(), ..manner() };
-    let (mut done, mut turns, mut refuted) = (0, 0, 0_u64);
-    for seed in 0..count {
+    let (mut done, mut turns, mut refuted) = (0_u64, 0_u64, 0_u64);
+    for seed in seeds(100) {
         let task = task::task(seed);
         let answer = plan(&task, &manner, &mut |_| {});
         if answer.verdict != TaskVerdict::Done {
@@ -48,7 +49,7 @@ fn what_is_planned_is_judged_free() {
             assert_eq!((&step.faults[..], &step.broken[..]), (&[][..], &[][..]), "seed {seed}, {:?}", step.step);
             assert!(is_free(&step), "seed {seed}: {:?}, {:?} in {:?}", step.passage, step.turn, step.step);
             assert_eq!(step.turn.is_some(), leg.turn.is_some(), "seed {seed}");
-            turns += usize::from(step.turn.is_some());
+            turns += u64::from(step.turn.is_some());
             if let Passage::Free { clearance: bound, .. } = step.passage {
                 clearance = clearance.min(bound);
             }

@@ -1,13 +1,14 @@
 //! Random pick-and-place tasks against a replay by brute force: whatever is planned is done again step by step, with
 //! kinematics, distances and rules of its own, and looked at densely.
 //!
-//! `CPLAN_TASKS=10000 cargo test --test planning random_tasks -- --nocapture` runs so many; without it, a thousand.
+//! `CPLAN_TIMES=30 cargo test --test planning random_tasks -- --nocapture` tries thirty times as many.
 
 mod flood;
 mod judged;
 pub mod replay;
 mod task;
 
+use crate::common::random::seeds;
 use cplan::solve::{Effort, Method};
 use cplan::task::{Manner, TaskVerdict, plan};
 use cplan::trajectory::Drive;
@@ -29,9 +30,8 @@ fn manner() -> Manner {
 
 #[test]
 fn what_is_planned_can_be_done() {
-    let count = std::env::var("CPLAN_TASKS").ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_u64);
     let mut found = Count::default();
-    for seed in 0..count {
+    for seed in seeds(300) {
         let task = task::task(seed);
         let answer = plan(&task, &manner(), &mut |_| {});
         match &answer.verdict {
@@ -46,7 +46,7 @@ fn what_is_planned_can_be_done() {
         }
         assert!(!all || answer.lower_bound <= answer.duration(), "seed {seed}: faster than the bound");
     }
-    println!("{count} tasks: {found:?}");
+    println!("{found:?}");
     assert!(found.done * 2 > found.infeasible + found.unknown, "hardly any task can be done: {found:?}");
 }
 
@@ -54,7 +54,7 @@ fn what_is_planned_can_be_done() {
 #[test]
 fn what_is_planned_for_another_task_is_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);
-    for seed in 0..40 {
+    for seed in seeds(40) {
         let task = task::task(seed);
         let answer = plan(&task, &manner(), &mut |_| {});
         if answer.verdict != TaskVerdict::Done {
@@ -68,6 +68,6 @@ fn what_is_planned_for_another_task_is_refused() {
         changed.objects[0].at.translation.x += 1e-6;
         elsewhere += usize::from(replay::replay(&changed, &answer, true).is_err());
     }
-    assert!(done > 10 && elsewhere == done, "{elsewhere} of {done}");
+    assert!(done > 0 && elsewhere == done, "{elsewhere} of {done}");
     assert!(larger * 2 > done, "{larger} of {done}");
 }

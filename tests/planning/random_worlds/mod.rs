@@ -9,7 +9,7 @@
 //! ```
 //!
 //! for so many worlds of each kind of arm, on all cores. Also from the environment: `CPLAN_KIND` (only this kind),
-//! `CPLAN_FIRST` (the first seed, 0), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
+//! `CPLAN_FIRST` (the first seed, that of `CPLAN_SEED`), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
 //! visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
 //! [`Effort::default`] has it), `CPLAN_THREADS`.
 
@@ -18,6 +18,7 @@ mod oracle;
 pub mod solid;
 pub mod world;
 
+use crate::common::random::seeds;
 use cplan::model::Problem;
 use cplan::solve::{Answer, Effort, Method, Verdict, solve};
 use flood::{Truth, connected};
@@ -253,7 +254,9 @@ fn remembered_worlds_are_decided() {
 fn answers_agree_with_brute_force_and_each_other() {
     let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
     let wanted = number("CPLAN_WORLDS");
-    let first = number("CPLAN_FIRST").unwrap_or(0);
+    let worlds = seeds(8);
+    let first = number("CPLAN_FIRST").unwrap_or(worlds.start);
+    let count = wanted.unwrap_or(worlds.end - worlds.start);
     let run = match wanted {
         Some(_) => Run {
             effort: Effort {
@@ -277,7 +280,7 @@ fn answers_agree_with_brute_force_and_each_other() {
     let mut lies = Vec::new();
     let (mut decided, mut decisive) = (0, 0);
     for kind in world::KINDS.into_iter().filter(|kind| chosen.as_ref().map_or(true, |k| k == kind)) {
-        let tally = look_at_all(kind, first..first + wanted.unwrap_or(8), &run, threads);
+        let tally = look_at_all(kind, first..first + count, &run, threads);
         print(kind, &tally);
         decided += tally.planners.iter().map(|count| count.found + count.infeasible).sum::<usize>();
         decisive += tally.connected + tally.disconnected;

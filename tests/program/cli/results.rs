@@ -152,6 +152,15 @@ fn recordings_hold_every_sample_and_are_the_same_each_time() {
     assert!(none.stderr.contains("none.mcap is not written") && !place.path("none.mcap").exists(), "{}", none.stderr);
 }
 
+#[cfg(not(feature = "png"))]
+#[test]
+fn a_program_without_png_says_so_before_any_work() {
+    let place = Place::new();
+    let done = place.run(&shelf(), "--output a.json --picture a.png");
+    done.refused(1, &["a.png", "built without PNG", ".svg"]);
+    assert!(!place.path("a.json").exists());
+}
+
 #[cfg(not(feature = "mcap"))]
 #[test]
 fn a_program_without_mcap_says_so_before_any_work() {

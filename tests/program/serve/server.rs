@@ -43,6 +43,10 @@ impl Server {
         let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
         let mut arguments: Vec<&str> = files.iter().map(String::as_str).collect();
         arguments.extend(more);
+        // What is to be planned is planned, however busy the machine is.
+        if !more.contains(&"--time-limit") {
+            arguments.extend(["--time-limit", "3600"]);
+        }
         Self::start(&arguments)
     }
 
