@@ -69,6 +69,6 @@ mod tests {
         let stuck = StuckBox { cell: Cell { lower: [0.25, 0.5], upper: [0.5, 1.0] }, pair };
         let Item::Outline(steps, style) = proof(&[stuck], &frame) else { panic!("not an outline") };
         assert_eq!(steps, rectangle(Rect { x: 25.0, y: 0.0, width: 25.0, height: 50.0 }));
-        assert!(style.fill.is_some());
+        assert_eq!(style.fill, Some(BARRED));
     }
 }

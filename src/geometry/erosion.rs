@@ -60,7 +60,12 @@ mod tests {
     fn what_is_too_thin_leaves_nothing() {
         let bar =
             Convex::new(vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)], 0.0);
-        assert!(bar.eroded(0.049).is_some());
+        let left = bar.eroded(0.049).unwrap();
+        for corner in [(0.049, 0.049), (0.951, 0.049), (0.951, 0.051), (0.049, 0.051)] {
+            let is_there = |p: &Point| (p.x - corner.0).abs() < 1e-12 && (p.y - corner.1).abs() < 1e-12;
+            assert!(left.core().iter().any(is_there), "{corner:?} of {left:?}");
+        }
+        assert_eq!((left.core().len(), left.radius()), (4, 0.0));
         assert!(bar.eroded(0.051).is_none());
         assert!(Convex::segment(Point::new(0., 0.), Point::new(1., 0.)).eroded(1e-9).is_none());
         assert_eq!(Convex::disc(Point::origin(), 0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
