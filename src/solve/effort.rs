@@ -6,7 +6,8 @@ use crate::space::Metric;
 /// How much to try before the answer is unknown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Attempts, each finer than the one before: a quarter of the margin, twice the cells along each axis.
+    /// Attempts, each finer than the one before: a quarter of the margin; cells that are wholly free, then as many that are free at
+    /// their centres, then twice as many along each axis.
     pub levels: usize,
     /// First margin by which polygonal obstacles are grown, as a share of the arm's reach.
     pub margin: f64,
@@ -28,7 +29,7 @@ pub struct Effort {
 }
 
 impl Default for Effort {
-    /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 2048 x 2048.
+    /// Margins from a thousandth of the reach down to a millionth; grids from 256 x 256 to 1024 x 1024.
     fn default() -> Self {
         Self {
             levels: 6,

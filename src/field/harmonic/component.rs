@@ -84,8 +84,9 @@ impl Component {
     /// Row and column of a position.
     #[must_use]
     pub fn place(&self, position: usize) -> [usize; 2] {
-        let cell = self.cells[position] as usize;
-        [cell / self.shape[1], cell % self.shape[1]]
+        // Divisions of 32 bits take a fraction of the time.
+        let (cell, columns) = (self.cells[position], self.shape[1] as u32);
+        [(cell / columns) as usize, (cell % columns) as usize]
     }
 
     /// How much room there is at each position, in two ways. Linear.

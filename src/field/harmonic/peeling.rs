@@ -7,10 +7,11 @@
 //! adds to each value, and the values to which it adds nothing that a double could show are accepted. Errors do not grow
 //! on the way, they add up: values are sums of known ones with positive weights.
 //!
-//! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values.
+//! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values. Where the way to the goal
+//! is nowhere a long one, the first window is all there is, and mostly the last.
 
 use super::laplace::decay;
-use super::network::Network;
+use super::network::{Network, SIDES};
 use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
@@ -74,8 +75,11 @@ pub(super) struct Peeling<'a> {
     loss: f64,
     /// Guessed fall of the potential a cell, nepers, by the room around it.
     decay: Vec<f64>,
+    /// Of each position; nothing until windows are gathered.
     room: Vec<u32>,
     pub potential: Potential,
+    /// How many positions are not known.
+    unknown: usize,
     front: BinaryHeap<Front>,
     /// Number in the window of each position, or [`NONE`].
     number: Vec<u32>,
@@ -91,6 +95,8 @@ struct Window {
     sources: Vec<u32>,
     /// Of the numbers in it.
     exponent: i32,
+    /// Whether unknown cells were left out.
+    cut: bool,
     /// Greatest accepted value that borders on unknown cells beyond the window.
     beside: f64,
     /// Greatest accepted value around.
@@ -102,8 +108,6 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
-        let room = component.room().widest;
-        let widest = room.iter().copied().max().unwrap_or(0);
         let mut potential = Potential::zero(component.len());
         let mut front = BinaryHeap::new();
         for goal in 0..component.goals {
@@ -113,9 +117,10 @@ impl<'a> Peeling<'a> {
         Self {
             component,
             loss,
-            decay: (0..=widest).map(decay).collect(),
-            room,
+            decay: Vec::new(),
+            room: Vec::new(),
             potential,
+            unknown: component.len() - component.goals,
             front,
             number: vec![NONE; component.len()],
             depth: DEPTH,
@@ -124,6 +129,19 @@ impl<'a> Peeling<'a> {
     }
 
     pub fn run(mut self) -> Self {
+        if let Some(window) = self.whole() {
+            self.windows += 1;
+            if let Some(solution) = self.wide(&window).solve(FLOOR) {
+                self.accept(&window, &solution, PRECISE);
+            } else {
+                self.accept(&window, &vec![[0.0; SIDES]; window.cells.len()], PRECISE);
+            }
+        }
+        if self.unknown > 0 {
+            self.room = self.component.room().widest;
+            let widest = self.room.iter().copied().max().unwrap_or(0);
+            self.decay = (0..=widest).map(decay).collect();
+        }
         while let Some(window) = self.gather() {
             checkpoint();
             self.windows += 1;
@@ -140,6 +158,19 @@ impl<'a> Peeling<'a> {
             }
         }
         self
+    }
+
+    /// All unknown cells, if they are many and the wave found no long way among them; a maze or a spiral is better taken apart.
+    fn whole(&mut self) -> Option<Window> {
+        let component = self.component;
+        if self.unknown <= SMALL || component.levels > component.shape[0] + component.shape[1] {
+            return None;
+        }
+        self.front.clear();
+        let cells: Vec<u32> = (component.goals as u32..component.len() as u32).collect();
+        self.number[component.goals..].iter_mut().zip(0..).for_each(|(number, at)| *number = at);
+        let sources = (0..component.goals as u32).collect();
+        Some(Window { cells, sources, exponent: 0, cut: false, beside: 0.0, greatest: 1.0 })
     }
 
     fn is_known(&self, position: usize) -> bool {
@@ -166,7 +197,7 @@ impl<'a> Peeling<'a> {
         let greatest = self.potential.at(position as usize).mantissa;
         let mut sources = Vec::new();
         let mut cells: Vec<u32> = Vec::new();
-        let mut beside = 0.0_f64;
+        let (mut beside, mut cut) = (0.0_f64, false);
         // Cells to go on from, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
         while let Some(front) = self.front.peek() {
@@ -174,7 +205,7 @@ impl<'a> Peeling<'a> {
             let position = front.position;
             let is_front = self.is_front(position as usize);
             if is_front && depth > self.depth {
-                beside = self.potential.at(position as usize).mantissa_at(exponent);
+                (beside, cut) = (self.potential.at(position as usize).mantissa_at(exponent), true);
                 break;
             }
             self.front.pop();
@@ -192,26 +223,27 @@ impl<'a> Peeling<'a> {
                 }
                 let (depth, from) = waiting[level][at];
                 at += 1;
-                let mut cut = false;
+                let mut cut_here = false;
                 for next in self.around(from as usize) {
                     if self.is_known(next) || self.number[next] != NONE {
                         continue;
                     }
                     let depth = depth + self.decay[self.room[next] as usize];
                     if depth > self.depth {
-                        cut = true;
+                        cut_here = true;
                         continue;
                     }
                     self.number[next] = cells.len() as u32;
                     cells.push(next as u32);
                     waiting[depth as usize].push((depth, next as u32));
                 }
-                if cut && self.is_known(from as usize) {
+                cut |= cut_here;
+                if cut_here && self.is_known(from as usize) {
                     beside = beside.max(self.potential.at(from as usize).mantissa_at(exponent));
                 }
             }
         }
-        Some(Window { cells, sources, exponent, beside, greatest })
+        Some(Window { cells, sources, exponent, cut, beside, greatest })
     }
 
     /// The window's equations: the first side for the known values around, the second for 1 at the unknown cells beyond.
@@ -255,39 +287,30 @@ impl<'a> Peeling<'a> {
             }
         }
         let cells = [high[0] - low[0], high[1] - low[1]];
-        let mut wide = Wide::new(cells, ends);
+        let mut wide = Wide::new(cells, ends, self.loss);
         for &position in &window.cells {
-            let (mut ground, mut source) = (self.loss, [0.0; 2]);
-            let around = self.component.neighbors[position as usize].map(|n| {
-                if n as usize == self.component.wall() {
-                    ground += 1.0;
-                } else if self.is_known(n as usize) {
-                    ground += 1.0;
-                    source[0] += self.potential.at(n as usize).mantissa_at(window.exponent);
-                } else if self.number[n as usize] == NONE {
-                    ground += 1.0;
+            let mut source = [0.0; SIDES];
+            for n in self.around(position as usize) {
+                if self.is_known(n) {
+                    source[0] += self.potential.at(n).mantissa_at(window.exponent);
+                } else if self.number[n] == NONE {
                     source[1] += 1.0;
-                } else if n != position {
-                    return self.number[n as usize];
                 }
-                NONE
-            });
-            wide.neighbors.push(around);
-            wide.ground.push(ground);
-            wide.source.push(source);
+            }
             let [i, j] = self.component.place(position as usize);
-            wide.place.push(((i - low[0]) * cells[1] + j - low[1]) as u32);
+            wide.push((i - low[0]) * cells[1] + j - low[1], source);
         }
         wide
     }
 
     /// Takes over the values that what is beyond the window has no part in; how many.
-    fn accept(&mut self, window: &Window, solution: &[[f64; 2]], least: f64) -> usize {
+    fn accept(&mut self, window: &Window, solution: &[[f64; SIDES]], least: f64) -> usize {
         // Values beyond are at most the greatest of those next to them: of known cells, or of the window's own, which
         // are at most their value here and their share of what is beyond.
         let mut beyond = window.beside;
         let (mut value, mut share) = (0.0_f64, 0.0_f64);
-        for (&position, &[u, e]) in window.cells.iter().zip(solution) {
+        let at_risk = if window.cut { &window.cells[..] } else { &[] };
+        for (&position, &[u, e]) in at_risk.iter().zip(solution) {
             if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NONE) {
                 value = value.max(u);
                 share = share.max(e);
@@ -305,6 +328,11 @@ impl<'a> Peeling<'a> {
                 front.push(position);
                 taken += 1;
             }
+        }
+        self.unknown -= taken;
+        if self.unknown == 0 {
+            self.front.clear();
+            return taken;
         }
         for position in front {
             if self.is_front(position as usize) {

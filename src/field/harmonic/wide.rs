@@ -8,9 +8,6 @@
 use super::network::SIDES;
 use crate::field::multigrid::{Ends, Multigrid, Workspace};
 
-/// No unknown.
-pub(super) const NONE: u32 = u32::MAX;
-
 /// Relative residual of a value at which it is precise: half of what walks lose a step
 /// ([`LOSS`](super::laplace::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.
 const PRECISE: f64 = 64.0 * f64::EPSILON;
@@ -20,21 +17,20 @@ const PRECISE: f64 = 64.0 * f64::EPSILON;
 /// below above it, and in windows of 10^5 cells there would be no end to it.
 const SETTLED: f64 = PRECISE / 4.0;
 
-/// Unknowns of a window: `(ground + number of neighbours) u = source + sum of the neighbours' u`.
+/// Unknowns in a box of cells: `(4 + loss) u = source + sum of the neighbours' u`, where cells of the box that are no unknowns count
+/// as 0.
 #[derive(Debug, Clone)]
 pub(super) struct Wide {
-    /// Rows and columns of the box that holds the window.
-    pub cells: [usize; 2],
+    /// Rows and columns of the box.
+    cells: [usize; 2],
     /// What is beyond the box: nothing, or its other end on a circle.
-    pub ends: [Ends; 2],
+    ends: [Ends; 2],
+    /// What is added to the four neighbours.
+    loss: f64,
     /// Where in the box each unknown is.
-    pub place: Vec<u32>,
-    /// Numbers of the neighbouring unknowns, or [`NONE`].
-    pub neighbors: Vec<[u32; 4]>,
-    /// Neighbours that are known, and loss.
-    pub ground: Vec<f64>,
-    /// Sums of known values: the potential, and 1 at what is cut off.
-    pub source: Vec<[f64; SIDES]>,
+    place: Vec<u32>,
+    /// For each place in the box the sums of known values around it: the potential, and 1 at what is cut off.
+    source: [Vec<f64>; SIDES],
 }
 
 /// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
@@ -48,67 +44,88 @@ const SHARE_ERROR: f64 = 1e-7;
 
 impl Wide {
     /// No unknowns yet.
-    pub fn new(cells: [usize; 2], ends: [Ends; 2]) -> Self {
-        Self { cells, ends, place: Vec::new(), neighbors: Vec::new(), ground: Vec::new(), source: Vec::new() }
+    pub fn new(cells: [usize; 2], ends: [Ends; 2], loss: f64) -> Self {
+        let area = cells[0] * cells[1];
+        Self { cells, ends, loss, place: Vec::new(), source: [vec![0.0; area], vec![0.0; area]] }
     }
 
-    fn area(&self) -> usize {
-        self.cells[0] * self.cells[1]
+    /// One more unknown.
+    pub fn push(&mut self, place: usize, source: [f64; SIDES]) {
+        self.place.push(place as u32);
+        for (of, source) in self.source.iter_mut().zip(source) {
+            of[place] = source;
+        }
     }
 
-    fn free(&self) -> Vec<bool> {
-        let mut free = vec![false; self.area()];
-        self.place.iter().for_each(|&place| free[place as usize] = true);
-        free
-    }
-
-    /// Both sides: the first precise down to `floor`, the second from above, within [`SHARE_ERROR`] of 1. Nothing if the
-    /// refinement does not get there.
+    /// Both sides for each unknown: the first precise down to `floor`, the second from above, within [`SHARE_ERROR`] of 1.
+    /// Nothing if the refinement does not get there.
     pub fn solve(&self, floor: f64) -> Option<Vec<[f64; SIDES]>> {
-        let inner = Multigrid::new(self.cells, self.ends, &self.free(), 0.0);
+        let mut free = vec![false; self.source[0].len()];
+        self.place.iter().for_each(|&place| free[place as usize] = true);
+        let inner = Multigrid::new(self.cells, self.ends, &free, 0.0);
         let mut workspace = inner.workspace();
-        let u = self.side(&inner, &mut workspace, 0, floor, ROUNDS)?;
-        let e = self.side(&inner, &mut workspace, 1, 1.0, 1)?;
-        Some(u.into_iter().zip(e).map(|(u, e)| [u, e + SHARE_ERROR]).collect())
+        let u = self.side(0, &free, floor, ROUNDS, (&inner, &mut workspace))?;
+        let e = self.side(1, &free, 1.0, 1, (&inner, &mut workspace))?;
+        Some(self.place.iter().map(|&at| [u[at as usize], e[at as usize] + SHARE_ERROR]).collect())
     }
 
+    /// Values of one side for all places in the box.
     fn side(
         &self,
-        inner: &Multigrid,
-        workspace: &mut Workspace,
         side: usize,
+        free: &[bool],
         floor: f64,
         rounds: usize,
+        (inner, workspace): (&Multigrid, &mut Workspace),
     ) -> Option<Vec<f64>> {
-        let source: Vec<f64> = self.source.iter().map(|source| source[side]).collect();
-        let mut x = vec![0.0; source.len()];
-        if source.iter().all(|&s| s == 0.0) {
+        let mut right = self.source[side].clone();
+        let mut x = vec![0.0; right.len()];
+        if right.iter().all(|&source| source == 0.0) {
             return Some(x);
         }
-        let mut residual = source.clone();
-        let (mut right, mut correction) = (vec![0.0; self.area()], vec![0.0; self.area()]);
+        let mut correction = vec![0.0; right.len()];
         for round in 1..=rounds {
-            right.fill(0.0);
             correction.fill(0.0);
-            self.place.iter().zip(&residual).for_each(|(&place, r)| right[place as usize] = *r);
             inner.solve(&right, &mut correction, DIGITS, workspace);
-            x.iter_mut().zip(&self.place).for_each(|(x, &place)| *x += correction[place as usize]);
-            let mut precise = true;
-            for i in 0..x.len() {
-                let at = x[i];
-                let around = self.neighbors[i].iter().filter(|&&n| n != NONE);
-                residual[i] = around.map(|&n| x[n as usize] - at).sum::<f64>() + (source[i] - self.ground[i] * at);
-                let scale = 4.0 * (at + floor);
-                precise &= residual[i].abs() <= PRECISE * scale;
-                if residual[i].abs() <= SETTLED * scale {
-                    residual[i] = 0.0;
-                }
-            }
+            x.iter_mut().zip(&correction).for_each(|(x, correction)| *x += correction);
+            let precise = self.residual(side, &x, free, floor, &mut right);
             if precise || (side == 1 && round == rounds) {
                 return Some(x);
             }
         }
         None
+    }
+
+    /// The residual at `x`, 0 where a value is settled; whether all are precise.
+    fn residual(&self, side: usize, x: &[f64], free: &[bool], floor: f64, residual: &mut [f64]) -> bool {
+        let [rows, columns] = self.cells;
+        let joined = self.ends.map(|ends| ends == Ends::Joined);
+        let nothing = vec![0.0; columns];
+        let row = |i: Option<usize>| i.map_or(&nothing[..], |i| &x[i * columns..(i + 1) * columns]);
+        // The row with the cell before and the one after it.
+        let mut here = vec![0.0; columns + 2];
+        let mut precise = true;
+        for i in 0..rows {
+            let above = row(i.checked_sub(1).or(joined[0].then_some(rows - 1)));
+            let below = row((i + 1 < rows).then_some(i + 1).or(joined[0].then_some(0)));
+            here[1..=columns].copy_from_slice(row(Some(i)));
+            if joined[1] {
+                (here[0], here[columns + 1]) = (here[columns], here[1]);
+            }
+            let range = i * columns..(i + 1) * columns;
+            let (free, source) = (&free[range.clone()], &self.source[side][range.clone()]);
+            let beside = here.windows(3).zip(above).zip(below);
+            let known = free.iter().zip(source);
+            for ((((three, above), below), (&free, source)), to) in beside.zip(known).zip(&mut residual[range]) {
+                let at = three[1];
+                let around = (above - at) + (below - at) + (three[0] - at) + (three[2] - at);
+                let left = if free { around + (source - self.loss * at) } else { 0.0 };
+                let scale = 4.0 * (at + floor);
+                precise &= left.abs() <= PRECISE * scale;
+                *to = if left.abs() <= SETTLED * scale { 0.0 } else { left };
+            }
+        }
+        precise
     }
 }
 
@@ -121,18 +138,8 @@ mod tests {
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);
-        let mut wide = Wide::new([w, n], [Ends::High; 2]);
-        for at in 0..w * n {
-            let (i, j) = (at / n, at % n);
-            let number = |there: bool, to: usize| if there { to as u32 } else { NONE };
-            let around =
-                [(i > 0, at.wrapping_sub(n)), (i + 1 < w, at + n), (j > 0, at.wrapping_sub(1)), (j + 1 < n, at + 1)];
-            let around = around.map(|(there, to)| number(there, to));
-            wide.place.push(at as u32);
-            wide.ground.push(around.iter().filter(|&&to| to == NONE).count() as f64);
-            wide.source.push([f64::from(u8::from(j == 0)), 0.0]);
-            wide.neighbors.push(around);
-        }
+        let mut wide = Wide::new([w, n], [Ends::High; 2], 0.0);
+        (0..w * n).for_each(|at| wide.push(at, [f64::from(u8::from(at % n == 0)), 0.0]));
         let solution = wide.solve(1e-60).expect("precise within the rounds that there are");
         let beta = std::f64::consts::PI / (w + 1) as f64;
         let theta = (2.0 - beta.cos()).acosh();

@@ -7,6 +7,7 @@ mod first;
 mod help;
 mod inputs;
 mod mazes;
+mod narrow;
 mod results;
 mod tasks;
 
