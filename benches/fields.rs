@@ -34,7 +34,7 @@ fn ends(grid: &Grid) -> (usize, usize) {
 fn fields(c: &mut Criterion) {
     let grid = boxes(1024);
     let (start, goal) = ends(&grid);
-    let query = Query { start: grid.center(start), goals: vec![grid.center(goal)] };
+    let query = Query { start: grid.center(start), goals: grid.center(goal).into() };
     let lattice = Lattice::new(&grid);
     let free = FreeCells::new(&grid);
     c.bench_function("wavefront/build 1024^2", |b| b.iter(|| FreeCells::new(black_box(&grid))));

@@ -26,7 +26,7 @@ fn queries(regions: &Regions) -> Vec<Query> {
     let mut place = || configuration_within(&mut random, regions);
     let mut queries = Vec::new();
     while queries.len() < 32 {
-        let query = Query { start: place(), goals: vec![place()] };
+        let query = Query { start: place(), goals: place().into() };
         if matches!(planner.query(regions, &map, &query).outcome, Outcome::Found(_)) {
             queries.push(query);
         }

@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         status: String::new(),
         scene,
         start,
-        goals: &loaded.problem.goals,
+        goals: loaded.problem.goals.pieces(),
         paths: Vec::new(),
         trace: None,
         proof: &[],

@@ -96,7 +96,7 @@ fn answer(robot: &str, world: &str, method: Method) -> Result<String, Box<dyn Er
         status: status.into(),
         scene,
         start: problem.start,
-        goals: &problem.goals,
+        goals: problem.goals.pieces(),
         paths: path.map(|path| (method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),

@@ -4,7 +4,7 @@ use super::chain::{Mosaic, Openness};
 use super::deviation::{Deviation, Posture};
 use crate::interrupt::checkpoint;
 use crate::model::{Pair, Scene};
-use crate::space::{Configuration, Topology};
+use crate::space::{Configuration, Measure, Metric, Segment, Topology};
 use std::f64::consts::PI;
 
 /// A closed rectangle of configurations in the fundamental domain.
@@ -31,8 +31,16 @@ impl Cell {
         })
     }
 
-    pub(super) fn contains(&self, q: Configuration) -> bool {
-        (0..2).all(|k| self.lower[k] <= q[k] && q[k] <= self.upper[k])
+    /// The part of a segment that meets the cell; its ends are in the cell, which moves them by rounding.
+    pub(super) fn part(&self, piece: &Segment) -> Segment {
+        if piece.is_point() {
+            return *piece;
+        }
+        let at_center = || Segment::point(piece.nearest(Measure::from(Metric::Euclidean), self.center()));
+        let part = piece.within(self.lower, self.upper).unwrap_or_else(at_center);
+        let clamped = |q: Configuration| Configuration::from_fn(|k, _| q[k].clamp(self.lower[k], self.upper[k]));
+        let [from, to] = part.ends().map(clamped);
+        Segment::new(from, to)
     }
 
     /// The two halves along `axis`.
@@ -277,15 +285,14 @@ impl<'a> Subdivision<'a> {
         (!open.is_empty()).then(|| usize::from(along(1) > along(0)))
     }
 
-    /// All boxes that hold `q`, but for those that were replaced.
-    pub fn holding(&self, q: Configuration) -> Vec<u32> {
-        let q = self.topology.wrap(q);
+    /// All boxes that hold any of a segment in the domain, but for those that were replaced.
+    pub fn holding(&self, piece: &Segment) -> Vec<u32> {
         let mut found = Vec::new();
         let mut waiting: Vec<u32> = (0..index(self.roots)).rev().collect();
         while let Some(index) = waiting.pop() {
             let node = &self.nodes[index as usize];
             match node.state {
-                _ if !node.cell.contains(q) => {}
+                _ if !piece.meets(node.cell.lower, node.cell.upper) => {}
                 State::Split(first) => waiting.extend([first + 1, first]),
                 _ => found.push(index),
             }
@@ -317,7 +324,14 @@ impl Mosaic for Subdivision<'_> {
     }
 
     fn locate(&self, q: Configuration) -> Option<u32> {
-        self.holding(q).into_iter().find(|&i| self.nodes[i as usize].is_open())
+        self.meeting(&Segment::point(self.topology.wrap(q))).first().copied()
+    }
+
+    fn meeting(&self, piece: &Segment) -> Vec<u32> {
+        let mut open = self.holding(piece);
+        open.retain(|&index| self.nodes[index as usize].is_open());
+        open.truncate(if piece.is_point() { 1 } else { usize::MAX });
+        open
     }
 
     fn topology(&self) -> &Topology {

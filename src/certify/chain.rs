@@ -3,7 +3,7 @@
 use super::boxes::{Cell, Door};
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
-use crate::space::{Configuration, Topology};
+use crate::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 
@@ -32,21 +32,43 @@ pub(super) trait Mosaic {
     fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
     /// A box that holds `q` and is not stuck.
     fn locate(&self, q: Configuration) -> Option<u32>;
+    /// Boxes that are not stuck and hold any of a segment in the domain: all of them, but for a point one will do.
+    fn meeting(&self, piece: &Segment) -> Vec<u32>;
     /// Of the configuration space.
     fn topology(&self) -> &Topology;
 }
 
+/// Goals in a box.
+pub(super) type End = (u32, Segment);
+
+/// The boxes that are not stuck and hold goals, and which, by number.
+pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
+    let mut ends: Vec<End> = Vec::new();
+    for piece in goals.wrapped(boxes.topology()) {
+        ends.extend(boxes.meeting(&piece).into_iter().map(|index| (index, boxes.cell(index).part(&piece))));
+    }
+    ends.sort_by_key(|end| end.0);
+    ends
+}
+
+/// The goals in a box, of those given by number.
+pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment> {
+    let first = ends.partition_point(|end| end.0 < index);
+    ends[first..].iter().take_while(move |end| end.0 == index).map(|end| &end.1)
+}
+
 /// The chain of adjacent open boxes from `from` to one of `ends` with the fewest undecided ones, those of the finest
 /// size only if `finest`: breadth-first search in which free boxes cost nothing. `O(boxes + adjacencies)`.
-pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[u32], finest: bool) -> Option<Vec<u32>> {
+pub(super) fn fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| back(&parent, last))
 }
 
 /// All undecided boxes, ascending, that lie on any of the chains with the fewest of them: two such searches.
-pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[u32], finest: bool) -> Vec<u32> {
+pub(super) fn all_of_fewest_mixed(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
-    let (there, ..) = search(boxes, ends, &[], finest);
+    let starts: Vec<u32> = ends.iter().map(|end| end.0).collect();
+    let (there, ..) = search(boxes, &starts, &[], finest);
     let cost = |index: usize| Some(here[index].checked_add(there[index])? - cost_of(boxes, index as u32, finest)?);
     let fewest = (0..here.len()).filter_map(cost).min();
     let mixed = |index: &usize| cost_of(boxes, *index as u32, finest) == Some(1);
@@ -64,7 +86,7 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
 }
 
 /// Costs of reaching each box from `starts`, their own included, and the box before it, until one of `ends` is reached.
-fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
+fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
     let mut parent = vec![NONE; boxes.count()];
     let mut queue = VecDeque::new();
@@ -78,7 +100,7 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (V
         if so_far > cost[index as usize] {
             continue;
         }
-        if ends.contains(&index) {
+        if ends_in(ends, index).next().is_some() {
             return (cost, parent, Some(index));
         }
         boxes.for_each_neighbor(index, |next| {
@@ -95,25 +117,19 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[u32], finest: bool) -> (V
 
 /// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the doors is the
 /// shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
-pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, goals: &[Configuration]) -> Vec<u32> {
+pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let middles = |_: Configuration, door: &Door| door.middle();
-    short(boxes, start, from, goals, middles, |openness| (openness == Openness::Free).then_some(1.0))
-        .unwrap_or_default()
+    short(boxes, start, from, ends, middles, |openness| (openness == Openness::Free).then_some(1.0)).unwrap_or_default()
 }
 
 /// The chain through which a way seems shortest that passes every door at the nearest place; undecided boxes count as
 /// free, but as `1 + MIXED_DETOUR` times as long. None if there is no chain.
-pub(super) fn promising(
-    boxes: &impl Mosaic,
-    start: Configuration,
-    from: u32,
-    goals: &[Configuration],
-) -> Option<Vec<u32>> {
+pub(super) fn promising(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Option<Vec<u32>> {
     let nearest = |at: Configuration, door: &Door| {
         let (a, b) = (door.left, door.right);
         Configuration::from_fn(|k, _| at[k].clamp(a[k].min(b[k]), a[k].max(b[k])))
     };
-    short(boxes, start, from, goals, nearest, |openness| match openness {
+    short(boxes, start, from, ends, nearest, |openness| match openness {
         Openness::Free => Some(1.0),
         Openness::Mixed => Some(1.0 + MIXED_DETOUR),
         Openness::Finest => None,
@@ -130,15 +146,11 @@ fn short(
     boxes: &impl Mosaic,
     start: Configuration,
     from: u32,
-    goals: &[Configuration],
+    ends: &[End],
     pass: impl Fn(Configuration, &Door) -> Configuration,
     factor: impl Fn(Openness) -> Option<f64>,
 ) -> Option<Vec<u32>> {
     let topology = boxes.topology();
-    let mut ends: Vec<(u32, Configuration)> = Vec::new();
-    for &goal in goals {
-        ends.extend(boxes.locate(goal).map(|index| (index, topology.wrap(goal))));
-    }
     let factor = |index: u32| boxes.openness(index).and_then(&factor);
     let mut length = vec![f64::INFINITY; boxes.count()];
     // Where each box is entered, in the fundamental domain.
@@ -156,8 +168,8 @@ fn short(
             continue;
         }
         let at = entry[index as usize];
-        for (_, goal) in ends.iter().filter(|(end, _)| *end == index) {
-            let total = so_far + (goal - at).norm();
+        for goals in ends_in(ends, index) {
+            let total = so_far + goals.distance(Measure::from(Metric::Euclidean), at);
             if total < best.0 {
                 best = (total, index);
             }

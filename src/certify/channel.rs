@@ -1,21 +1,21 @@
 //! A chain of free boxes, as a way to go.
 
 use super::boxes::Door;
-use super::chain::Mosaic;
-use crate::space::{Configuration, Path};
+use super::chain::{End, Mosaic, ends_in};
+use crate::space::{Configuration, Measure, Metric, Path, Segment};
 
 /// A chain of adjacent free boxes. Each is convex, so any way that goes straight from door to door is free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     start: Configuration,
-    goal: Configuration,
+    goals: Segment,
     /// Left and right end of each door.
     doors: Vec<[Configuration; 2]>,
 }
 
 impl Channel {
-    /// The doors of a chain of boxes, the last of which holds one of the goals.
-    pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, goals: &[Configuration]) -> Self {
+    /// The doors of a chain of boxes, the last of which holds goals.
+    pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, ends: &[End]) -> Self {
         let topology = boxes.topology();
         // What to add to values in the fundamental domain to continue the way from `start`.
         let mut lift = start - topology.wrap(start);
@@ -26,9 +26,11 @@ impl Channel {
             doors.push([left + lift, right + lift]);
             lift += shift;
         }
-        let last = chain.last().map(|&i| boxes.cell(i));
-        let goal = goals.iter().map(|&g| topology.wrap(g)).find(|&g| last.is_some_and(|cell| cell.contains(g)));
-        Self { start, goal: goal.map_or(start, |g| g + lift), doors }
+        let last = doors.last().map_or(start, |[left, right]| (left + right) / 2.0);
+        let goals = chain.last().into_iter().flat_map(|&index| ends_in(ends, index)).map(|part| part.shifted(lift));
+        let euclid = |goals: &Segment| goals.distance(Measure::from(Metric::Euclidean), last);
+        let nearest = goals.min_by(|a, b| euclid(a).total_cmp(&euclid(b)));
+        Self { start, goals: nearest.unwrap_or(Segment::point(start)), doors }
     }
 
     /// Where it begins.
@@ -37,10 +39,10 @@ impl Channel {
         self.start
     }
 
-    /// Where it ends: a goal, or on circles a copy of one.
+    /// Where it may end: goals in its last box, or on circles copies of them.
     #[must_use]
-    pub fn goal(&self) -> Configuration {
-        self.goal
+    pub fn goals(&self) -> &Segment {
+        &self.goals
     }
 
     /// The pieces of side between its boxes, in order, in unwrapped values: the ends to the left and to the right hand
@@ -54,6 +56,8 @@ impl Channel {
     #[must_use]
     pub fn path(&self) -> Path {
         let middles = self.doors.iter().map(|[left, right]| (left + right) / 2.0);
-        Path::new(std::iter::once(self.start).chain(middles).chain([self.goal]).collect())
+        let mut places: Vec<Configuration> = std::iter::once(self.start).chain(middles).collect();
+        places.push(self.goals.nearest(Measure::from(Metric::Euclidean), places[places.len() - 1]));
+        Path::new(places)
     }
 }

@@ -1,11 +1,11 @@
 //! Is there a path at all? Proof that there is none, or a path, by subdivision.
 
 use super::boxes::{Cell, State, Subdivision};
-use super::chain::{Mosaic, all_of_fewest_mixed, fewest_mixed, shortest};
+use super::chain::{Mosaic, all_of_fewest_mixed, ends, fewest_mixed, shortest};
 use super::channel::Channel;
 use super::disconnection::Disconnection;
 use crate::model::Scene;
-use crate::space::Configuration;
+use crate::space::{Configuration, GoalSet};
 
 /// The answer of [`connectivity`].
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ pub struct Exploration {
 pub fn connectivity(
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
     max_boxes: usize,
 ) -> Connectivity {
@@ -63,13 +63,7 @@ pub fn connectivity(
 
 /// As [`connectivity`], with the boxes.
 #[must_use]
-pub fn explore(
-    scene: &Scene,
-    start: Configuration,
-    goals: &[Configuration],
-    clearance: f64,
-    max_boxes: usize,
-) -> Exploration {
+pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64, max_boxes: usize) -> Exploration {
     let mut boxes = Subdivision::new(scene, clearance);
     let answer = decide(&mut boxes, start, goals, max_boxes);
     let known = |state: &State| match state {
@@ -94,9 +88,9 @@ pub fn explore(
 /// curve which boxes cannot prove would take a search for every few boxes along it: quadratic time.
 const ONE_BY_ONE: usize = 5000;
 
-fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration], max_boxes: usize) -> Connectivity {
+fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {
     loop {
-        let ends: Vec<u32> = goals.iter().filter_map(|&g| boxes.locate(g)).collect();
+        let ends = ends(boxes, goals);
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
         // Boxes at the finest size are hopeless: only where nothing else connects do they stand in the way of a proof.
         let chain = fewest_mixed(boxes, from, &ends, false).map(|chain| (chain, false));
@@ -106,8 +100,8 @@ fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration]
         };
         let state = |b: u32| &boxes.nodes[b as usize].state;
         if chain.iter().all(|&b| *state(b) == State::Free) {
-            let chain = shortest(boxes, start, from, goals);
-            return Connectivity::Connected(Channel::new(boxes, &chain, start, goals));
+            let chain = shortest(boxes, start, from, &ends);
+            return Connectivity::Connected(Channel::new(boxes, &chain, start, &ends));
         }
         let chain =
             if boxes.nodes.len() < ONE_BY_ONE { chain } else { all_of_fewest_mixed(boxes, from, &ends, finest) };
@@ -121,6 +115,6 @@ fn decide(boxes: &mut Subdivision, start: Configuration, goals: &[Configuration]
     }
 }
 
-fn disconnected(boxes: &Subdivision, start: Configuration, goals: &[Configuration]) -> Connectivity {
+fn disconnected(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Connectivity {
     Connectivity::Disconnected(Disconnection::between(boxes, start, goals))
 }

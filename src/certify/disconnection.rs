@@ -3,7 +3,7 @@
 use super::boxes::{Cell, State, Subdivision};
 use super::chain::Mosaic;
 use crate::model::Pair;
-use crate::space::Configuration;
+use crate::space::{Configuration, GoalSet};
 
 /// A box of configurations in which one and the same pair is too near everywhere.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,8 +38,8 @@ impl Disconnection {
     ///
     /// What open boxes connect with the start is bounded by pieces of side that it shares with stuck boxes (or by the
     /// limits), so these boxes alone separate it from all else.
-    pub(super) fn between(boxes: &Subdivision, start: Configuration, goals: &[Configuration]) -> Self {
-        let (here, there) = (around(boxes, &[start]), around(boxes, goals));
+    pub(super) fn between(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Self {
+        let (here, there) = (around(boxes, &start.into()), around(boxes, goals));
         let fewer = if there.len() < here.len() { there } else { here };
         let stuck = fewer.into_iter().filter_map(|index| {
             let node = &boxes.nodes[index as usize];
@@ -49,17 +49,18 @@ impl Disconnection {
     }
 }
 
-/// The stuck boxes, ascending, that share a side with what open boxes connect with one of `places`; for a place in no
-/// open box those that hold it.
-fn around(boxes: &Subdivision, places: &[Configuration]) -> Vec<u32> {
+/// The stuck boxes, ascending, that share a side with what open boxes connect with any of the places, and those that hold
+/// places themselves; of a single place only if no open box holds it.
+fn around(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();
     let mut walls = Vec::new();
-    for &place in places {
-        match boxes.locate(place) {
-            Some(index) => waiting.push(index),
-            None => walls.extend(boxes.holding(place)),
+    for piece in places.wrapped(boxes.topology()) {
+        let open = boxes.meeting(&piece);
+        if open.is_empty() || !piece.is_point() {
+            walls.extend(boxes.holding(&piece).into_iter().filter(|&index| !boxes.nodes[index as usize].is_open()));
         }
+        waiting.extend(open);
     }
     waiting.iter().chain(&walls).for_each(|&index| reached[index as usize] = true);
     while let Some(index) = waiting.pop() {

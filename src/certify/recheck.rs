@@ -7,7 +7,7 @@ use super::disconnection::{Disconnection, StuckBox};
 use crate::geometry::penetration_depth;
 use crate::interrupt::checkpoint;
 use crate::model::{Motion, Scene};
-use crate::space::{Configuration, Topology};
+use crate::space::{Configuration, GoalSet, Segment, Topology};
 use petgraph::unionfind::UnionFind;
 use thiserror::Error;
 
@@ -35,7 +35,7 @@ pub enum ProofDefect {
         /// How far points of the link can move from there, metres.
         motion: f64,
     },
-    /// The start and this goal lie in one connected part of what the boxes leave.
+    /// The start and some of this piece of the goals lie in one connected part of what the boxes leave.
     #[error("the stuck boxes do not separate the start from goal {0}")]
     NotSeparated(usize),
 }
@@ -49,7 +49,7 @@ impl Disconnection {
         &self,
         scene: &Scene,
         start: Configuration,
-        goals: &[Configuration],
+        goals: &GoalSet,
         clearance: f64,
     ) -> Result<(), ProofDefect> {
         recheck(self.stuck(), scene, start, goals, clearance)
@@ -66,7 +66,7 @@ pub fn recheck(
     stuck: &[StuckBox],
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
 ) -> Result<(), ProofDefect> {
     let topology = scene.arm.topology();
@@ -78,8 +78,8 @@ pub fn recheck(
     // A start or goal inside a stuck box is not free: nothing leads there.
     let Some(from) = slabs.locate(topology.wrap(start)) else { return Ok(()) };
     let groups = slabs.groups(&topology);
-    let joined = |&goal: &Configuration| slabs.locate(topology.wrap(goal)).is_some_and(|to| groups.equiv(to, from));
-    goals.iter().position(joined).map_or(Ok(()), |goal| Err(ProofDefect::NotSeparated(goal)))
+    let joined = |goals: Segment| slabs.holding(&goals).into_iter().any(|to| groups.equiv(to, from));
+    goals.wrapped(&topology).position(joined).map_or(Ok(()), |goal| Err(ProofDefect::NotSeparated(goal)))
 }
 
 fn check_box(
@@ -188,6 +188,22 @@ impl Slabs {
         let strips: Vec<usize> = (0..self.first.len() - 1).filter(beside).collect();
         let within = |strip: usize| self.strip(strip).find(|&g| self.gaps[g][0] <= q[1] && q[1] <= self.gaps[g][1]);
         strips.into_iter().find_map(within)
+    }
+
+    /// The gaps that hold any of a segment, sides included; one of them for a point.
+    fn holding(&self, piece: &Segment) -> Vec<usize> {
+        let [from, to] = piece.ends();
+        if piece.is_point() {
+            return self.locate(from).into_iter().collect();
+        }
+        let (left, right) = (from[0].min(to[0]), from[0].max(to[0]));
+        let strips = (0..self.first.len() - 1).filter(|&i| self.ends[i] <= right && left <= self.ends[i + 1]);
+        let gaps = strips.flat_map(|i| self.strip(i).map(move |gap| (i, gap)));
+        let meets = |&(i, gap): &(usize, usize)| {
+            let [lower, upper] = self.gaps[gap];
+            piece.meets([self.ends[i], lower], [self.ends[i + 1], upper])
+        };
+        gaps.filter(meets).map(|(_, gap)| gap).collect()
     }
 
     /// Gaps that belong together: of neighbouring strips (round the circle too) where they overlap, and of one strip

@@ -9,14 +9,14 @@ mod proof;
 
 use super::bands::{Kind, bands};
 use super::boxes::Cell;
-use super::chain::{Mosaic, Openness, all_of_fewest_mixed, fewest_mixed, promising};
+use super::chain::{End, Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed, promising};
 use super::channel::Channel;
 use super::connectivity::Connectivity;
 use super::disconnection::StuckBox;
 use super::slab::{SecondLink, Verdicts};
 use crate::geometry::merge_in_place;
 use crate::model::Scene;
-use crate::space::{Configuration, Topology};
+use crate::space::{Configuration, GoalSet, Segment, Topology};
 
 /// First slabs are this share of the domain wide (those beside a band of link 1 narrower): halves of halves of it follow.
 /// At least three, so that across a seam no slab is its own neighbour.
@@ -78,7 +78,7 @@ struct Slabs<'a> {
 pub fn slab_connectivity(
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
     max_slabs: usize,
 ) -> Connectivity {
@@ -93,12 +93,12 @@ pub fn slab_connectivity(
 pub fn short_slab_channel(
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
     max_slabs: usize,
 ) -> Connectivity {
     search(scene, start, goals, clearance, max_slabs, |slabs, from, ends| {
-        promising(slabs, start, from, goals).or_else(|| fewest_mixed(slabs, from, ends, true))
+        promising(slabs, start, from, ends).or_else(|| fewest_mixed(slabs, from, ends, true))
     })
 }
 
@@ -106,10 +106,10 @@ pub fn short_slab_channel(
 fn search(
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
     max_slabs: usize,
-    next: impl Fn(&Slabs, u32, &[u32]) -> Option<Vec<u32>>,
+    next: impl Fn(&Slabs, u32, &[End]) -> Option<Vec<u32>>,
 ) -> Connectivity {
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
@@ -117,14 +117,14 @@ fn search(
         return Connectivity::Undecided { boxes: 0 };
     }
     loop {
-        let ends: Vec<u32> = goals.iter().filter_map(|&g| slabs.locate(g)).collect();
+        let ends = ends(&slabs, goals);
         let undecided = Connectivity::Undecided { boxes: slabs.slabs.len() };
         let Some(from) = slabs.locate(start) else { return undecided };
         let Some(chain) = next(&slabs, from, &ends) else {
             return slabs.disconnection(start, goals).map_or(undecided, Connectivity::Disconnected);
         };
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
-            return Connectivity::Connected(Channel::new(&slabs, &chain, start, goals));
+            return Connectivity::Connected(Channel::new(&slabs, &chain, start, &ends));
         }
         let chain = if slabs.slabs.len() < ONE_BY_ONE {
             chain
@@ -371,6 +371,21 @@ impl Mosaic for Slabs<'_> {
         let mut held: Vec<u32> = slabs.flat_map(|s| self.spans_of(s)).filter(holds).collect();
         held.sort_by_key(|&s| self.spans[s as usize].openness != Openness::Free);
         held.first().copied()
+    }
+
+    fn meeting(&self, piece: &Segment) -> Vec<u32> {
+        let [from, to] = piece.ends();
+        if piece.is_point() {
+            return self.locate(from).into_iter().collect();
+        }
+        let (least, greatest) = (from[0].min(to[0]), from[0].max(to[0]));
+        let first = self.slabs.partition_point(|slab| slab.to < least);
+        let slabs = (first..self.slabs.len()).take_while(|&slab| self.slabs[slab].from <= greatest).map(index);
+        let meets = |&span: &u32| {
+            let cell = self.cell(span);
+            piece.meets(cell.lower, cell.upper)
+        };
+        slabs.flat_map(|slab| self.spans_of(slab)).filter(meets).collect()
     }
 
     fn topology(&self) -> &Topology {

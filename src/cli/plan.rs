@@ -134,6 +134,7 @@ pub(super) fn report(
         }
         Verdict::Unknown(reason) => Report::unknown(planner, joints, reason.clone()),
     };
+    report.free_joints = free_joints(problem);
     report.name = Some(problem.scene.workspace.name.clone()).filter(|name| !name.is_empty());
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
@@ -142,6 +143,13 @@ pub(super) fn report(
         Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };
     Ok((report, followed))
+}
+
+/// The names of the joints that the goal leaves free.
+fn free_joints(problem: &Problem) -> Vec<String> {
+    let goals = problem.goals.pieces();
+    let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
+    (0..2).filter(is_free).map(|k| problem.scene.arm.joints[k].name.clone()).collect()
 }
 
 impl From<Bound> for Optimum {

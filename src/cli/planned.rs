@@ -80,7 +80,7 @@ impl Planned<'_> {
             status: status(&answer.verdict).into(),
             scene,
             start: problem.start,
-            goals: &problem.goals,
+            goals: problem.goals.pieces(),
             paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
             trace: Some(&answer.drawn()),
             proof: answer.verdict.proof(),

@@ -6,7 +6,7 @@ use crate::certify::CertifiedCurve;
 use crate::input::Loaded;
 use crate::model::{Arm, Joint, Scene};
 use crate::solve::{Bound, Stages, Verdict, percent};
-use crate::space::{Axis, Configuration, Metric};
+use crate::space::{Axis, Configuration, Metric, Segment};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -60,6 +60,19 @@ pub fn configuration(arm: &Arm, q: Configuration) -> String {
     format!("{} {}, {} {}", a.name, value(a, q[0]), b.name, value(b, q[1]))
 }
 
+/// Both joints' values along a segment by name: of a joint that moves all along it, from where to where.
+pub fn segment(arm: &Arm, segment: &Segment) -> String {
+    let [from, to] = segment.ends();
+    let shown = |k: usize| {
+        let joint = &arm.joints[k];
+        match from[k] == to[k] {
+            true => format!("{} {}", joint.name, value(joint, from[k])),
+            false => format!("{} any from {} to {}", joint.name, value(joint, from[k]), value(joint, to[k])),
+        }
+    };
+    format!("{}, {}", shown(0), shown(1))
+}
+
 /// A joint's range.
 pub fn range(joint: &Joint) -> String {
     match joint.axis {
@@ -77,9 +90,7 @@ pub fn text(loaded: &Loaded, planned: &Planned, sinks: &[Sink], clock: &Clock) -
     let obstacles = counted(scene.workspace.obstacles.len(), "obstacle");
     lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace.name))));
     lines.push(("start", configuration(arm, planned.problem.start)));
-    for &goal in &planned.problem.goals {
-        lines.push(("goal", configuration(arm, goal)));
-    }
+    lines.extend(planned.problem.goals.pieces().iter().map(|goals| ("goal", segment(arm, goals))));
     lines.extend(outcome(planned));
     for sink in sinks.iter().filter(|sink| sink.is_filled_by(planned.report)) {
         lines.push(("file", sink.path().display().to_string()));
@@ -112,6 +123,9 @@ fn outcome(planned: &Planned) -> Vec<Line> {
             let segments = path.segments().count();
             let found = format!("found and certified: {segments} straight pieces, length {:.4}", path.length());
             lines.push(("result", found));
+            if problem.goals.pieces().iter().any(|goals| !goals.is_point()) {
+                lines.push(("reached", configuration(&problem.scene.arm, path.goal())));
+            }
             if let Some(bound) = &answer.bound {
                 lines.push(("optimum", optimum(bound)));
             }

@@ -11,6 +11,7 @@ mod regions;
 mod rows;
 mod sampled;
 mod slabs;
+mod stretches;
 mod translation;
 mod union;
 mod zones;
@@ -22,6 +23,7 @@ pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions};
 pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_rows, outer_grid};
+pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 
 /// What a representation of free space proves about the real one.

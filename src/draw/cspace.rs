@@ -2,8 +2,12 @@
 
 use super::chart::{self, Chart};
 use super::color::{self, INK, Rgb, WHITE};
-use super::figure::{Item, Rect, Spot, Step, Style};
+use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::{Picture, boxes, page, preferences, trace};
+use crate::space::Path;
+
+/// The pen for goals along a segment.
+const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
 /// The panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
@@ -22,13 +26,16 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     if !picture.proof.is_empty() {
         inside.push(boxes::proof(picture.proof, &frame));
     }
+    let segments = picture.goals.iter().filter(|goal| !goal.is_point());
+    inside.extend(page::lines(segments.map(|goals| (chart.outline(&Path::new(goals.ends().to_vec())), GOALS))));
     inside.extend(page::path_items(picture.paths.iter().map(|(_, path)| chart.outline(path)).collect()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border(units, chart::titles(&picture.scene.arm), chart.seams()));
     items.extend(picture.trace.into_iter().flat_map(|t| trace::color_bar(t, &frame)));
     // Where paths were found, the goals that none of them reached are hollow.
     let reached: Vec<Spot> = picture.paths.iter().map(|(_, path)| chart.place(path.goal())).collect();
-    items.extend(picture.goals.iter().flat_map(|&q| goal_marker(chart.place(q), picture.paths.is_empty())));
+    items
+        .extend(picture.single_goals().into_iter().flat_map(|q| goal_marker(chart.place(q), picture.paths.is_empty())));
     items.extend(reached.into_iter().flat_map(|spot| goal_marker(spot, true)));
     items.extend(start_marker(chart.place(picture.start)));
     items

@@ -43,7 +43,7 @@ use crate::cspace::CObstacle;
 use crate::geometry::Point;
 use crate::model::Scene;
 use crate::plan::Trace;
-use crate::space::{Configuration, Path};
+use crate::space::{Configuration, Measure, Metric, Path, Segment};
 use nalgebra::Vector3;
 
 /// What a picture shows. With one path, the path of a plan with the arm's poses along it; with several, a comparison
@@ -58,8 +58,9 @@ pub struct Picture<'a> {
     pub scene: &'a Scene,
     /// Where the arm begins.
     pub start: Configuration,
-    /// Where it may end. Without a path the arm is shown at the first.
-    pub goals: &'a [Configuration],
+    /// Where it may end: single configurations and segments. Without a path the arm is shown at the first, on a segment where
+    /// it is nearest to the start.
+    pub goals: &'a [Segment],
     /// Names and paths, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
     /// What the planner saw.
@@ -68,6 +69,24 @@ pub struct Picture<'a> {
     pub proof: &'a [StuckBox],
     /// Contours in joint space.
     pub c_obstacles: &'a [CObstacle],
+}
+
+impl Picture<'_> {
+    /// The single goals, and where no path shows how a segment of them is reached its place nearest to the start.
+    fn single_goals(&self) -> Vec<Configuration> {
+        let shown = self.goals.iter().filter(|goal| goal.is_point() || self.paths.is_empty());
+        shown.map(|goal| goal.nearest(Measure::from(Metric::Euclidean), self.start)).collect()
+    }
+
+    /// The configurations that the workspace has to have room for: start and goals.
+    fn shown(&self) -> Vec<Configuration> {
+        let mut shown = vec![self.start];
+        shown.extend(self.single_goals());
+        if self.goals.iter().any(|goal| !goal.is_point()) {
+            shown.extend(self.paths.iter().map(|(_, path)| path.goal()));
+        }
+        shown
+    }
 }
 
 /// A frame, drawn by its axes.

@@ -30,7 +30,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
         }
     }
     inside.extend(posture::items(&frame, scene, picture.start, &START));
-    let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.goals.first().copied());
+    let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.single_goals().first().copied());
     inside.extend(goal.into_iter().flat_map(|q| posture::items(&frame, scene, q, &GOAL)));
     let traces = picture.paths.iter().map(|(_, path)| tip_trace(&frame, &scene.arm, path)).collect();
     inside.extend(page::path_items(traces));
@@ -41,8 +41,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
 /// The frame of the panel in this part of the page.
 #[must_use]
 pub fn frame(picture: &Picture, area: Rect) -> Frame {
-    let shown: Vec<_> = [picture.start].into_iter().chain(picture.goals.iter().copied()).collect();
-    extent::frame(picture.scene, &shown, area)
+    extent::frame(picture.scene, &picture.shown(), area)
 }
 
 /// What lies below everything: grid and reach.

@@ -1,30 +1,44 @@
 //! Postures in words: why one is outside the limits or not free, why none reaches a point.
 
 use crate::geometry::Point;
-use crate::model::{Inverse, Scene, within};
-use crate::space::{Axis, Configuration};
+use crate::model::{Freedom, Inverse, Scene, within};
+use crate::space::{Axis, Configuration, Segment};
 
 /// Which postures of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
 /// they rule out, why.
-pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Configuration>, Vec<String>) {
+pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm.joints;
-    let (mut allowed, mut outside) = (Vec::new(), Vec::new());
-    for branch in &solved.branches {
+    let outside = |branch: &Configuration| {
+        let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
         let copies = [0, 1].map(|i| within(joints[i].axis, joints[i].motion.is_revolute(), branch[i]));
-        if copies.iter().any(Vec::is_empty) {
-            let nearest = Configuration::from_fn(|i, _| copies[i].first().copied().unwrap_or(branch[i]));
-            outside.push(format!("({}): {}", describe(scene, nearest), beyond_limits(scene, nearest).join("; ")));
-        }
-        let pairs =
-            copies[0].iter().flat_map(|first| copies[1].iter().map(|second| Configuration::new(*first, *second)));
-        allowed.extend(pairs);
-    }
-    (allowed, outside)
+        let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
+        // What is free is within the limits somewhere.
+        let shown = Configuration::from_fn(|i, _| match joints[i].axis {
+            Axis::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
+            _ => copies[i].first().copied().unwrap_or(branch[i]),
+        });
+        beyond.then(|| format!("({}): {}", describe(scene, shown), beyond_limits(scene, shown).join("; ")))
+    };
+    (solved.solutions(&scene.arm), solved.branches.iter().filter_map(outside).collect())
 }
 
 /// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
 pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
     let value = |i: usize| format!("{} {} {}", scene.arm.joints[i].name, rounded(q[i]), scene.arm.joints[i].unit());
+    format!("{}, {}", value(0), value(1))
+}
+
+/// A joint's values along a segment in words: `shoulder 1 rad, elbow from -2.5 to 2.5 rad`.
+pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
+    let [from, to] = segment.ends();
+    let value = |i: usize| {
+        let (name, unit) = (&scene.arm.joints[i].name, scene.arm.joints[i].unit());
+        if from[i] == to[i] {
+            format!("{name} {} {unit}", rounded(from[i]))
+        } else {
+            format!("{name} from {} to {} {unit}", rounded(from[i]), rounded(to[i]))
+        }
+    };
     format!("{}, {}", value(0), value(1))
 }
 

@@ -2,13 +2,13 @@
 
 use super::error::{Defect, InputError};
 use super::posture::{
-    CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, obstructions, out_of_reach,
-    within_limits,
+    CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, describe_segment, obstructions,
+    out_of_reach, within_limits,
 };
 use super::{Loaded, LoadedScene, Overrides, clearance as checked_clearance};
 use crate::geometry::Point;
-use crate::model::{Goal, Problem, inverse};
-use crate::space::Configuration;
+use crate::model::{BlockedStretch, Freedom, Goal, Problem, Scene, inverse};
+use crate::space::{Configuration, GoalSet, Segment};
 use std::ops::Range;
 
 /// Where a value was given: on the command line, or in the world file.
@@ -47,7 +47,7 @@ impl LoadedScene {
         let goals = match goal {
             Goal::Joints(q) => {
                 self.require("the goal", q, &place)?;
-                vec![q]
+                GoalSet::from(q)
             }
             Goal::Tip(tip) => self.postures(tip, start, &place, &mut notes)?,
         };
@@ -122,36 +122,27 @@ impl LoadedScene {
         Ok(())
     }
 
-    /// Every posture that puts the tip at `tip`, within the limits and free.
+    /// Every posture that puts the tip at `tip`, within the limits, but for those that are proven not to be free.
     fn postures(
         &self,
         tip: Point,
         start: Configuration,
         place: &Place,
         notes: &mut Vec<String>,
-    ) -> Result<Vec<Configuration>, Defect> {
+    ) -> Result<GoalSet, Defect> {
         let scene = &self.scene;
-        let arm = &scene.arm;
-        let solved = inverse(arm, tip, start);
+        let solved = inverse(&scene.arm, tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
             return Err(place.defect(out_of_reach(scene, "the goal", tip)).cure(CURE_FOR_REACH));
         }
-        if let Some(joint) = solved.free {
-            let name = &arm.joints[joint].name;
-            notes.push(format!(
-                "the tip reaches {at} whatever the value of joint \"{name}\"; the goal takes it as at the start, {}",
-                start[joint]
-            ));
-        }
+        notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
         let (allowed, mut blocked) = within_limits(scene, &solved);
         let mut goals = Vec::new();
-        for q in allowed {
-            let hits = obstructions(scene, q);
-            if hits.is_empty() {
-                goals.push(q);
-            } else {
-                blocked.push(format!("({}): {}", describe(scene, q), hits.join("; ")));
+        for piece in allowed {
+            match blocked_all_along(scene, &piece) {
+                Some(reasons) => blocked.extend(reasons),
+                None => goals.push(piece),
             }
         }
         if goals.is_empty() {
@@ -159,6 +150,36 @@ impl LoadedScene {
             return Err(place.defect(message).cure(cure_for_contact(scene)));
         }
         notes.extend(blocked.into_iter().map(|b| format!("a posture with the tip at {at} is ruled out: {b}")));
-        Ok(goals)
+        Ok(goals.into_iter().collect())
     }
+}
+
+/// What is free when the tip is at a place, in words.
+fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
+    let name = |joint: usize| &scene.arm.joints[joint].name;
+    match free {
+        Freedom::Joint(joint) => {
+            format!("the tip is at {at} whatever the value of joint \"{}\": any that is free will do", name(joint))
+        }
+        Freedom::Share => format!(
+            "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} however they share the angle, and any free \
+             way to share it will do",
+            name(0),
+            name(1)
+        ),
+        Freedom::Both => format!("the tip is always at {at}: the goal is the start"),
+    }
+}
+
+/// Why none of a segment is free, in words, stretch by stretch; none unless that is proven.
+fn blocked_all_along(scene: &Scene, piece: &Segment) -> Option<Vec<String>> {
+    if piece.is_point() {
+        let [q, _] = piece.ends();
+        let hits = obstructions(scene, q);
+        return (!hits.is_empty()).then(|| vec![format!("({}): {}", describe(scene, q), hits.join("; "))]);
+    }
+    let reason = |blocked: &BlockedStretch| {
+        format!("({}): {}", describe_segment(scene, &blocked.stretch), scene.explain(&blocked.obstruction))
+    };
+    Some(scene.blocked_along(piece)?.iter().map(reason).collect())
 }

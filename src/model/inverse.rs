@@ -2,7 +2,7 @@
 
 use super::{Arm, Motion};
 use crate::geometry::{Point, Vector, cross};
-use crate::space::{Axis, Configuration};
+use crate::space::{Axis, Configuration, Segment};
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
@@ -18,9 +18,20 @@ const LIMIT_ROUNDING: f64 = 1e-9;
 pub struct Inverse {
     /// At most two; none when the tip is out of reach.
     pub branches: Vec<Configuration>,
-    /// A joint whose value does not matter for the tip there (0 or 1), so that `branches` are only two of infinitely
-    /// many: those with the preferred value of that joint.
-    pub free: Option<usize>,
+    /// What does not matter for the tip there, so that `branches` are only one or two of infinitely many: those with the
+    /// preferred value of what is free.
+    pub free: Option<Freedom>,
+}
+
+/// What of the joints does not matter for the tip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Freedom {
+    /// The value of this joint, 0 or 1: the tip is on its axis, or of joint 1 so is the target.
+    Joint(usize),
+    /// How an angle is shared among the two, which turn about one axis.
+    Share,
+    /// Everything: the tip is always at the target.
+    Both,
 }
 
 /// All configurations that put the arm's tip at `target`, limits not regarded, angles up to whole turns.
@@ -74,8 +85,13 @@ fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferre
     if upper.min(lower) <= REACHED {
         // The elbow does not change the reach: joint 2 (tip on its axis), or the split between the two, is free.
         let elbow = o + Rotation2::new(s2 * preferred[1]) * t;
-        let (q1, _) = turning(s1, elbow, d, preferred[0]);
-        return Inverse { branches: vec![Configuration::new(q1, preferred[1])], free: Some(1) };
+        let (q1, any) = turning(s1, elbow, d, preferred[0]);
+        let free = match (any, lower <= REACHED) {
+            (true, _) => Freedom::Both,
+            (false, true) => Freedom::Joint(1),
+            (false, false) => Freedom::Share,
+        };
+        return Inverse { branches: vec![Configuration::new(q1, preferred[1])], free: Some(free) };
     }
     let cosine = ((reach * reach - upper * upper - lower * lower) / (2.0 * upper * lower)).clamp(-1.0, 1.0);
     let bend = cosine.acos();
@@ -85,7 +101,7 @@ fn turn_turn(d: Vector, (s1, o): (f64, Vector), (s2, t): (f64, Vector), preferre
         let phi = angle(o) - angle(t) + bend;
         let (q1, any) = turning(s1, o + Rotation2::new(phi) * t, d, preferred[0]);
         if any {
-            free = Some(0);
+            free = Some(Freedom::Joint(0));
         }
         let q = Configuration::new(q1, s2 * phi);
         // Stretched or folded, both branches are one.
@@ -111,7 +127,7 @@ fn turn_slide(d: Vector, sign: f64, m: Vector, direction: Vector, preferred: Con
         let (q1, free) = turning(sign, m + direction * q2, d, preferred[0]);
         inverse.branches.push(Configuration::new(q1, q2));
         if free {
-            inverse.free = Some(0);
+            return Inverse { branches: vec![Configuration::new(q1, middle)], free: Some(Freedom::Joint(0)) };
         }
     }
     inverse
@@ -123,11 +139,12 @@ fn slide_turn(d: Vector, direction: Vector, (sign, t): (f64, Vector), preferred:
         return Inverse { branches: Vec::new(), free: None };
     };
     let mut inverse = Inverse { branches: Vec::new(), free: None };
-    for q1 in both(d.dot(&direction), root) {
+    let middle = d.dot(&direction);
+    for q1 in both(middle, root) {
         let (q2, free) = turning(sign, t, d - direction * q1, preferred[1]);
         inverse.branches.push(Configuration::new(q1, q2));
         if free {
-            inverse.free = Some(1);
+            return Inverse { branches: vec![Configuration::new(middle, q2)], free: Some(Freedom::Joint(1)) };
         }
     }
     inverse
@@ -143,6 +160,52 @@ fn half_chord(radius: f64, distance: f64) -> Option<f64> {
 
 fn both(middle: f64, root: f64) -> Vec<f64> {
     if root > 0.0 { vec![middle + root, middle - root] } else { vec![middle] }
+}
+
+impl Inverse {
+    /// All solutions within the limits: of each branch with all its turns, or of all values of what is free. On circles each is
+    /// there once. Where everything is free all configurations are solutions, for which the preferred one stands.
+    #[must_use]
+    pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
+        let joints = &arm.joints;
+        let copies = |k: usize, value: f64| within(joints[k].axis, joints[k].motion.is_revolute(), value);
+        let of_branch = |q: &Configuration| -> Vec<Segment> {
+            let [first, second] = match self.free {
+                Some(Freedom::Share) => return shares(arm, *q),
+                Some(Freedom::Joint(free)) => [0, 1].map(|k| match joints[k].axis.domain() {
+                    domain if k == free => vec![domain],
+                    _ => copies(k, q[k]).into_iter().map(|value| (value, value)).collect(),
+                }),
+                None | Some(Freedom::Both) => {
+                    [0, 1].map(|k| copies(k, q[k]).into_iter().map(|value| (value, value)).collect())
+                }
+            };
+            let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
+            pairs.map(|(a, b)| Segment::new(Configuration::new(a.0, b.0), Configuration::new(a.1, b.1))).collect()
+        };
+        self.branches.iter().flat_map(of_branch).collect()
+    }
+}
+
+/// All that two turning joints on one axis share the angle of `q` in other ways, within the limits.
+fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
+    let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.motion {
+        Motion::Revolute { sign } => sign,
+        Motion::Prismatic { .. } => 0.0,
+    });
+    let [first, second] = arm.joints.each_ref().map(|joint| joint.axis.domain());
+    let sum = s1 * q[0] + s2 * q[1];
+    let sums = [first.0, first.1].map(|q1| [second.0, second.1].map(|q2| s1 * q1 + s2 * q2)).concat();
+    let (least, greatest) = sums.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), &x| (l.min(x), g.max(x)));
+    let turns = ((least - sum) / TAU).ceil() as i64..=((greatest - sum) / TAU).floor() as i64;
+    let clamped = |q: Configuration| Configuration::new(q[0].clamp(first.0, first.1), q[1].clamp(second.0, second.1));
+    let line = |turn: i64| {
+        let at = |q1: f64| Configuration::new(q1, s2 * (sum + turn as f64 * TAU - s1 * q1));
+        let whole = Segment::new(at(first.0), at(first.1));
+        let [from, to] = whole.within([first.0, second.0], [first.1, second.1])?.ends().map(clamped);
+        Some(Segment::new(from, to))
+    };
+    turns.filter_map(line).collect()
 }
 
 /// The values that stand for `value` on an axis: every copy by whole turns of a revolute joint that is within the

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use crate::geometry::Point;
-use crate::space::Configuration;
+use crate::space::{Configuration, GoalSet};
 
 /// Where to go.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,7 @@ pub struct Problem {
     pub start: Configuration,
     /// As asked.
     pub goal: Goal,
-    /// The configurations that fulfil the goal, are within the limits and free; at least one. Reaching any will do.
-    pub goals: Vec<Configuration>,
+    /// The configurations that fulfil the goal and are within the limits, reaching any of which will do; at least one. Single
+    /// ones are free; of a segment only a part may be.
+    pub goals: GoalSet,
 }

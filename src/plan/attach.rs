@@ -3,17 +3,17 @@
 use super::Query;
 use super::grid_path::place;
 use crate::cspace::Grid;
-use crate::space::Configuration;
+use crate::space::{Configuration, Segment};
 
 /// How many rings of cells around a blocked one are searched for a free one. An outer grid blocks some cells whose
 /// configurations are free; farther than this a straight piece to the grid is a guess not worth a try.
 const RINGS: i64 = 3;
 
-/// Where a configuration is joined to the grid.
+/// Where a configuration, or a segment of goals, is joined to the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Attachment {
     /// The cell that contains the configuration if it is free, else the free cells of the nearest ring that has any,
-    /// nearest first. At least one.
+    /// nearest first; of a segment all free cells that hold any of it. At least one.
     pub cells: Vec<usize>,
     /// Whether it is the first case.
     pub contained: bool,
@@ -31,7 +31,7 @@ impl Joined {
     /// Joins start and goals; the reason if the start or every goal cannot be.
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
-        let goals: Vec<_> = query.goals.iter().map(|&goal| attach(grid, goal, "goal")).collect();
+        let goals: Vec<_> = query.goals.pieces().iter().map(|goal| attach_goals(grid, goal)).collect();
         if goals.iter().all(Result::is_err) {
             let reasons: Vec<_> = goals.into_iter().filter_map(Result::err).collect();
             return Err(if reasons.is_empty() { "there is no goal".into() } else { reasons.join("; ") });
@@ -43,6 +43,49 @@ impl Joined {
     pub fn sources(&self) -> Vec<usize> {
         self.goals.iter().flatten().flat_map(|attachment| attachment.cells.iter().copied()).collect()
     }
+}
+
+/// Joins goals to the grid; the reason if they cannot be.
+fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
+    let [from, to] = goals.ends();
+    if goals.is_point() {
+        return attach(grid, from, "goal");
+    }
+    if !grid.topology.contains(from) || !grid.topology.contains(to) {
+        return Err(format!("the goals from {} to {} leave the configuration space", shown(from), shown(to)));
+    }
+    let cells: Vec<usize> = cells_along(grid, goals).into_iter().filter(|&cell| !grid.blocked[cell]).collect();
+    if cells.is_empty() {
+        return Err(format!("the goals from {} to {} are in no free cell", shown(from), shown(to)));
+    }
+    Ok(Attachment { cells, contained: true })
+}
+
+fn shown(q: Configuration) -> String {
+    format!("({:.4}, {:.4})", q[0], q[1])
+}
+
+/// The cells that hold any of a segment in the domain, ascending.
+fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
+    let step = grid.step();
+    let range = |k: usize, part: &Segment| {
+        let lower = grid.topology.axes[k].domain().0;
+        let [from, to] = part.ends().map(|q| ((q[k] - lower) / step[k]).max(0.0) as usize);
+        let last = grid.cells[k] - 1;
+        from.min(to).min(last)..=from.max(to).min(last)
+    };
+    let in_row = |i: usize| {
+        let lower = grid.topology.axes[0].domain().0 + step[0] * i as f64;
+        let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
+        let [from, to] = goals.ends();
+        if from[0] == to[0] {
+            // In this row whatever rounding makes of its sides.
+            (sides[0][0], sides[1][0]) = (f64::NEG_INFINITY, f64::INFINITY);
+        }
+        let part = goals.within(sides[0], sides[1]);
+        part.into_iter().flat_map(move |part| range(1, &part).map(move |j| i * grid.cells[1] + j))
+    };
+    range(0, goals).flat_map(in_row).collect()
 }
 
 /// Joins `q` to the grid; the reason if it cannot be.

@@ -5,6 +5,7 @@ use super::decomposition::{Decomposition, Door};
 use super::terminals::Terminals;
 use crate::geometry::{Ordered, Point};
 use crate::interrupt::checkpoint;
+use crate::space::{Measure, Metric, Segment};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -12,7 +13,8 @@ use std::collections::BinaryHeap;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Channel {
     pub start: Point,
-    pub goal: Point,
+    /// Any of these will do, all in the last cell.
+    pub goals: Segment,
     pub cells: Vec<usize>,
     pub doors: Vec<usize>,
 }
@@ -51,26 +53,20 @@ impl Adjacency {
         Self { first, doors, centers, middles }
     }
 
-    /// The cheapest channel from the start to any goal, given the cells that contain them: passing from a cell to the
-    /// next costs the way from the one's centre over the door's middle to the other's, with start and goal for the
-    /// centres of the end cells. `O(n log n)` for `n` cells.
-    pub fn channel(
-        &self,
-        doors: &[Door],
-        terminals: &Terminals,
-        start_cells: &[usize],
-        goal_cells: &[(usize, Point)],
-    ) -> Option<Channel> {
+    /// The cheapest channel from the start, given the cells that contain it, to any goal: passing from a cell to the
+    /// next costs the way from the one's centre over the door's middle to the other's, with the start and the nearest goal for
+    /// the centres of the end cells. `O(n log n)` for `n` cells.
+    pub fn channel(&self, doors: &[Door], terminals: &Terminals, start_cells: &[usize]) -> Option<Channel> {
+        let goal_cells = &terminals.parts;
         let mut search = Search {
             adjacency: self,
             doors,
             terminals,
-            goal_cells,
             nodes: vec![Node { cost: f64::INFINITY, ..Node::START }; self.centers.len() + goal_cells.len()],
             is_goal: vec![false; self.centers.len()],
             open: BinaryHeap::new(),
         };
-        goal_cells.iter().for_each(|&(cell, _)| search.is_goal[cell] = true);
+        goal_cells.iter().for_each(|&(cell, _)| search.is_goal[cell as usize] = true);
         for &cell in start_cells {
             search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
         }
@@ -113,7 +109,6 @@ struct Search<'a> {
     adjacency: &'a Adjacency,
     doors: &'a [Door],
     terminals: &'a Terminals,
-    goal_cells: &'a [(usize, Point)],
     nodes: Vec<Node>,
     is_goal: Vec<bool>,
     open: BinaryHeap<Open>,
@@ -124,7 +119,7 @@ impl Search<'_> {
     fn leave(&mut self, cell: usize, at: Point, from: Node) {
         let Adjacency { first, doors, centers, middles } = self.adjacency;
         if from.before == NONE {
-            self.reach_goals(cell, from, |goal| (goal - at).norm());
+            self.reach_goals(cell, from, at, |goal| (goal - at).norm());
         }
         for &door in &doors[first[cell] as usize..first[cell + 1] as usize] {
             let [left, right] = self.doors[door as usize].cells;
@@ -133,13 +128,18 @@ impl Search<'_> {
             let way = |to: Point| (middle - at).norm() + (to - middle).norm();
             let through = Node { door, ..from };
             self.reach(other, centers[other], Node { cost: from.cost + way(centers[other]), ..through });
-            self.reach_goals(other, through, way);
+            self.reach_goals(other, through, middle, way);
         }
     }
 
-    fn reach_goals(&mut self, cell: usize, from: Node, way: impl Fn(Point) -> f64) {
+    /// Reaches the goals in a cell, of each the nearest to `last`.
+    fn reach_goals(&mut self, cell: usize, from: Node, last: Point, way: impl Fn(Point) -> f64) {
         if self.is_goal[cell] {
-            for (k, &(_, goal)) in self.goal_cells.iter().enumerate().filter(|(_, of)| of.0 == cell) {
+            let parts = &self.terminals.parts;
+            let first = parts.partition_point(|part| (part.0 as usize) < cell);
+            let here = parts.iter().enumerate().skip(first).take_while(|(_, part)| part.0 as usize == cell);
+            for (k, (_, goals)) in here {
+                let goal = Point::from(goals.nearest(Measure::from(Metric::Euclidean), last.coords));
                 self.reach(self.adjacency.centers.len() + k, goal, Node { cost: from.cost + way(goal), ..from });
             }
         }
@@ -154,7 +154,7 @@ impl Search<'_> {
     }
 
     /// The way to a goal, backwards.
-    fn channel(&self, last: u32, goal: Point) -> Channel {
+    fn channel(&self, last: u32, goals: Segment) -> Channel {
         let last = self.nodes[last as usize];
         let goal_cell = if last.door == NONE { last.cell } else { self.beyond(last.door, last.cell) };
         let (mut cells, mut doors) = (vec![goal_cell as usize], Vec::new());
@@ -169,7 +169,7 @@ impl Search<'_> {
         }
         cells.reverse();
         doors.reverse();
-        Channel { start: self.terminals.start, goal, cells, doors }
+        Channel { start: self.terminals.start, goals, cells, doors }
     }
 
     /// The other cell of a door.

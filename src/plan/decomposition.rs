@@ -5,6 +5,7 @@ use super::boundary::Boundary;
 use super::status::Status;
 use crate::geometry::{Orientation, Point, orientation};
 use crate::interrupt::checkpoint;
+use crate::space::Segment;
 
 /// A trapezoid or triangle of free space between two sides and two verticals.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +26,14 @@ impl Cell {
             orientation(from, to, p) != Orientation::Clockwise
         };
         self.left <= p.x && p.x <= self.right && is_free(self.floor) && is_free(self.ceiling)
+    }
+
+    /// The part of a segment in the closed cell.
+    fn part(&self, boundary: &Boundary, segment: &Segment) -> Option<Segment> {
+        let infinite = f64::INFINITY;
+        let between = segment.within([self.left, -infinite], [self.right, infinite])?;
+        let (floor, ceiling) = (boundary.ends(self.floor), boundary.ends(self.ceiling));
+        between.left_of(floor.0, floor.1)?.left_of(ceiling.0, ceiling.1)
     }
 
     /// Ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
@@ -103,6 +112,16 @@ impl Decomposition {
     /// The cells that contain `p`, borders included. Exact; linear.
     pub fn cells_at<'a>(&'a self, boundary: &'a Boundary, p: Point) -> impl Iterator<Item = usize> + 'a {
         (0..self.cells.len()).filter(move |&cell| self.cells[cell].contains(boundary, p))
+    }
+
+    /// The cells that hold any of a segment, and what. Linear.
+    pub fn parts_of(&self, boundary: &Boundary, segment: &Segment) -> Vec<(u32, Segment)> {
+        if segment.is_point() {
+            let [at, _] = segment.corners();
+            return self.cells_at(boundary, at).map(|cell| (cell as u32, *segment)).collect();
+        }
+        let part = |(cell, number): (&Cell, u32)| Some((number, cell.part(boundary, segment)?));
+        self.cells.iter().zip(0..).filter_map(part).collect()
     }
 }
 

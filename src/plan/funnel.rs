@@ -1,6 +1,7 @@
 //! Shortest way through a sequence of doors.
 
 use crate::geometry::{Orientation, Point, orientation};
+use crate::space::{Measure, Metric, Segment};
 
 /// A door as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +25,42 @@ pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point
     string.dedup();
     string
 }
+
+/// The place on a segment to which the taut string through the passages is shortest.
+///
+/// That length is a convex function of the place, whose least value a search by golden section closes in on; as the string is
+/// straight after its last turn, the place nearest to that turn is the very least if it is as good. Some dozens of strings.
+#[must_use]
+pub fn nearest_end(start: Point, goals: &Segment, passages: &[Passage]) -> Point {
+    let euclid = Measure::from(Metric::Euclidean);
+    let length = |share: f64| {
+        let string = taut_string(start, Point::from(goals.at(share)), passages);
+        let last = string[string.len().saturating_sub(2)];
+        (string.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>(), last)
+    };
+    if goals.is_point() {
+        return goals.corners()[0];
+    }
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    let (mut lower, mut upper) = (0.0, 1.0);
+    for _ in 0..SECTIONS {
+        let [a, b] = [upper - golden * (upper - lower), lower + golden * (upper - lower)];
+        if length(a).0 <= length(b).0 { upper = b } else { lower = a }
+    }
+    let tried = [0.0, f64::midpoint(lower, upper), 1.0].map(|share| (length(share), goals.at(share)));
+    let [first, rest @ ..] = tried;
+    let ((shortest, last), best) = rest.into_iter().fold(first, |a, b| if b.0.0 < a.0.0 { b } else { a });
+    let foot = Point::from(goals.nearest(euclid, last.coords));
+    let string = taut_string(start, foot, passages);
+    let to_foot: f64 = string.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    if to_foot <= shortest * (1.0 + SETTLED) { foot } else { Point::from(best) }
+}
+
+/// Golden sections: they leave less than a millionth of the segment.
+const SECTIONS: usize = 30;
+
+/// Share by which a length may be greater for rounding.
+const SETTLED: f64 = 1e-12;
 
 /// Where the taut string turns, in order, start and goal left out.
 pub(super) fn turns(start: Point, goal: Point, passages: &[Passage]) -> Vec<Turn> {

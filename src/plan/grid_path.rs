@@ -4,7 +4,7 @@ use super::attach::{Attachment, Joined};
 use super::{Query, shortcut};
 use crate::cspace::Grid;
 use crate::field::{Component, Interpolated, Place, Potential};
-use crate::space::{Configuration, Path};
+use crate::space::{Configuration, Measure, Metric, Path};
 
 /// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
 pub(super) fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
@@ -58,8 +58,8 @@ pub(super) fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line 
     line
 }
 
-/// The goal that a path ending at `cell` goes to: of those joined there the nearest to `near` (the unwrapped centre of
-/// the cell), as its nearest copy.
+/// The goal that a path ending at `cell` goes to: of those joined there, and in the cell if they are along a segment, the
+/// nearest to `near` (the unwrapped centre of the cell), as its nearest copy.
 fn goal_at<'a>(
     grid: &Grid,
     query: &Query,
@@ -67,8 +67,12 @@ fn goal_at<'a>(
     cell: usize,
     near: Configuration,
 ) -> Option<(Configuration, &'a Attachment)> {
-    let here = query.goals.iter().zip(&joined.goals).filter_map(|(&goal, attachment)| {
+    let (center, step) = (grid.center(cell), grid.step());
+    let [lower, upper] = [-0.5, 0.5].map(|half| [0, 1].map(|k| center[k] + half * step[k]));
+    let here = query.goals.pieces().iter().zip(&joined.goals).filter_map(|(piece, attachment)| {
         let attachment = attachment.as_ref().filter(|attachment| attachment.cells.contains(&cell))?;
+        let within = if piece.is_point() { None } else { piece.within(lower, upper) };
+        let goal = within.unwrap_or(*piece).nearest(Measure::from(Metric::Euclidean), center);
         Some((grid.topology.lift(goal, near), attachment))
     });
     here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))

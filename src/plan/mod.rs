@@ -20,13 +20,13 @@ mod visibility;
 mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
-pub use funnel::{Passage, taut_string};
+pub use funnel::{Passage, nearest_end, taut_string};
 pub use harmonic::Harmonic;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
-use crate::space::{Configuration, Path};
+use crate::space::{Configuration, GoalSet, Path};
 use std::sync::Arc;
 
 /// No index, in tables of indices.
@@ -38,7 +38,7 @@ pub struct Query {
     /// Where the path begins.
     pub start: Configuration,
     /// Any of these will do; on a circle axis their copies too.
-    pub goals: Vec<Configuration>,
+    pub goals: GoalSet,
 }
 
 /// How a run ended.

@@ -2,9 +2,10 @@
 
 use super::NONE;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
+use super::terminals::Terminals;
 use crate::geometry::{Ordered, Orientation, Point, cross, orientation};
 use crate::interrupt::checkpoint;
-use crate::space::Measure;
+use crate::space::{Measure, Segment};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -22,9 +23,7 @@ const PARALLEL: f64 = 1e-6;
 pub(super) struct TautSearch<'a> {
     mesh: &'a Mesh,
     measure: Measure,
-    goals: &'a [Point],
-    /// Goals by triangle, in order.
-    goals_in: Vec<(u32, u32)>,
+    terminals: &'a Terminals,
     /// Whether a triangle holds a goal.
     has_goal: Vec<bool>,
     nodes: Vec<Node>,
@@ -63,19 +62,13 @@ enum Step {
 type Open = (Reverse<Ordered>, bool, u32, Step);
 
 impl<'a> TautSearch<'a> {
-    pub fn new(mesh: &'a Mesh, measure: Measure, goals: &'a [Point]) -> Self {
+    pub fn new(mesh: &'a Mesh, measure: Measure, terminals: &'a Terminals) -> Self {
         let mut has_goal = vec![false; mesh.triangles()];
-        let mut goals_in = Vec::new();
-        for (goal, number) in goals.iter().zip(0..) {
-            goals_in.extend(mesh.triangles_at(*goal).map(|triangle| (triangle, number)));
-        }
-        goals_in.sort_unstable();
-        goals_in.iter().for_each(|(triangle, _)| has_goal[*triangle as usize] = true);
+        terminals.parts.iter().for_each(|(triangle, _)| has_goal[*triangle as usize] = true);
         Self {
             mesh,
             measure,
-            goals,
-            goals_in,
+            terminals,
             has_goal,
             nodes: Vec::new(),
             reached: vec![f64::INFINITY; mesh.corners().len()],
@@ -92,13 +85,14 @@ impl<'a> TautSearch<'a> {
         corners + self.nodes.iter().filter(|node| node.corner == NONE).count()
     }
 
-    /// The shortest path from `start` to any goal; none if there is none. Waypoints are not collinear.
-    pub fn path(&mut self, start: Point) -> Option<Vec<Point>> {
+    /// The shortest path from start to any goal; none if there is none. Waypoints are not collinear.
+    pub fn path(&mut self) -> Option<Vec<Point>> {
+        let start = self.terminals.start;
         self.nodes.push(Node { at: start, cost: 0.0, parent: NONE, corner: NONE });
         let mesh = self.mesh;
         let mut seen = Vec::new();
         for triangle in mesh.triangles_at(start) {
-            self.find_goals(0, triangle, |_| true);
+            self.find_goals(0, triangle, |part| Some(*part));
             for outlook in mesh.outlooks_within(triangle, start) {
                 seen.extend(outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge)));
                 self.push_cone(0, outlook.cone, self.estimate(0, &outlook.cone));
@@ -137,7 +131,7 @@ impl<'a> TautSearch<'a> {
         let corner = &mesh.corners()[node.corner as usize];
         let Some(gaze) = corner.beyond(self.nodes[node.parent as usize].at) else { return };
         for outlook in mesh.outlooks(corner, gaze) {
-            self.find_goals(number, outlook.cone.edge / 3, |_| true);
+            self.find_goals(number, outlook.cone.edge / 3, |part| Some(*part));
             let seen = outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
             seen.for_each(|corner| self.see(number, corner));
             self.push_cone(number, outlook.cone, self.estimate(number, &outlook.cone));
@@ -151,7 +145,7 @@ impl<'a> TautSearch<'a> {
             return;
         }
         while let Some(Crossing { entry, seen, beyond }) = self.mesh.cross(node.at, &cone) {
-            self.find_goals(root, entry / 3, |p| cone.holds(p));
+            self.find_goals(root, entry / 3, |part| cone.part(part));
             if let Some(corner) = seen.and_then(|half_edge| self.mesh.corner_at(half_edge)) {
                 self.see(root, corner);
             }
@@ -193,20 +187,17 @@ impl<'a> TautSearch<'a> {
         }
     }
 
-    /// Ends at the goals in a triangle that a node sees.
-    fn find_goals(&mut self, root: u32, triangle: u32, sees: impl Fn(Point) -> bool) {
+    /// Ends at the goals in a triangle, at the nearest place of what a node sees of each.
+    fn find_goals(&mut self, root: u32, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         if !self.has_goal[triangle as usize] {
             return;
         }
-        let begin = self.goals_in.partition_point(|entry| entry.0 < triangle);
+        let parts = &self.terminals.parts;
+        let begin = parts.partition_point(|part| part.0 < triangle);
         let Node { at: from, cost, .. } = self.nodes[root as usize];
-        for k in begin..self.goals_in.len() {
-            let (of, goal) = self.goals_in[k];
-            if of != triangle {
-                break;
-            }
-            let at = self.goals[goal as usize];
-            if sees(at) {
+        for (_, part) in parts[begin..].iter().take_while(|part| part.0 == triangle) {
+            if let Some(seen) = sees(part) {
+                let at = Point::from(seen.nearest(self.measure, from.coords));
                 self.arcs.push([from, at]);
                 let cost = cost + self.measure.norm(at - from);
                 let node = self.push_node(Node { at, cost, parent: root, corner: NONE });
@@ -228,8 +219,8 @@ impl<'a> TautSearch<'a> {
         let Node { at, cost, .. } = self.nodes[root as usize];
         let line = self.mesh.ends(cone.edge);
         let ends = [meeting(cone.right, line, line[0]), meeting(cone.left, line, line[1])];
-        let through = |goal: &Point| self.measure.through(at, ends, line, *goal);
-        cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min)
+        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
+        cost + self.terminals.goals.iter().map(through).fold(f64::INFINITY, f64::min)
     }
 
     /// Puts a cone on the open list, unless it ends at a wall.
@@ -247,7 +238,7 @@ impl<'a> TautSearch<'a> {
 
     /// A lower bound on the way from `p` to the nearest goal.
     fn remaining(&self, p: Point) -> f64 {
-        self.goals.iter().map(|goal| self.measure.norm(goal - p)).fold(f64::INFINITY, f64::min)
+        self.terminals.goals.iter().map(|goal| goal.distance(self.measure, p.coords)).fold(f64::INFINITY, f64::min)
     }
 
     fn waypoints(&self, last: u32) -> Vec<Point> {

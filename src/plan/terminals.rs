@@ -3,38 +3,55 @@
 use super::Query;
 use crate::cspace::Regions;
 use crate::geometry::Point;
+use crate::space::{Measure, Metric, Segment};
+use std::f64::consts::TAU;
 
 /// Ends of the paths that answer a query.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Terminals {
     pub start: Point,
-    /// All copies of all goals that lie in the window and in closed free space; at least one.
-    pub goals: Vec<Point>,
+    /// All copies of all goals that lie in the window and, in part, in closed free space; at least one.
+    pub goals: Vec<Segment>,
+    /// What of them is in which convex cell of free space: its number and the part; by number.
+    pub parts: Vec<(u32, Segment)>,
 }
 
 impl Terminals {
-    /// The ends for a query, or in words why there are none. `is_free` says whether closed free space contains a point.
-    pub fn new(regions: &Regions, query: &Query, is_free: impl Fn(Point) -> bool) -> Result<Self, String> {
+    /// The ends for a query, or in words why there are none. `parts` says which cells of closed free space hold any of a
+    /// segment.
+    pub fn new(
+        regions: &Regions,
+        query: &Query,
+        parts_of: impl Fn(&Segment) -> Vec<(u32, Segment)>,
+    ) -> Result<Self, String> {
         let start = Point::from(query.start);
-        if !is_free(start) {
+        if parts_of(&Segment::point(query.start)).is_empty() {
             return Err(format!("the start {} is not in the free space of the representation", shown(start)));
         }
-        let (Some(first), goals) = (query.goals.first(), &query.goals) else {
+        let (Some(first), pieces) = (query.goals.pieces().first(), query.goals.pieces()) else {
             return Err("the query has no goal".to_owned());
         };
-        let mut copies: Vec<Point> = goals.iter().flat_map(|goal| window_copies(regions, Point::from(*goal))).collect();
-        copies.retain(|copy| is_free(*copy));
-        if copies.is_empty() {
-            let goal = shown(Point::from(*first));
-            let others = if goals.len() > 1 { format!(" (nor {} others)", goals.len() - 1) } else { String::new() };
+        let (mut goals, mut parts) = (Vec::new(), Vec::new());
+        for copy in pieces.iter().flat_map(|piece| window_copies(regions, piece)) {
+            let found = parts_of(&copy);
+            if !found.is_empty() {
+                goals.push(copy);
+                parts.extend(found);
+            }
+        }
+        if goals.is_empty() {
+            let goal = shown(first.corners()[0]);
+            let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
             return Err(format!("the goal {goal}{others} is not in the free space of the representation"));
         }
-        Ok(Self { start, goals: copies })
+        parts.sort_by_key(|part| part.0);
+        Ok(Self { start, goals, parts })
     }
 
     /// Distance from `p` to the nearest goal: a lower bound on the length of any way there.
     pub fn straight_distance(&self, p: Point) -> f64 {
-        self.goals.iter().map(|goal| (goal - p).norm()).fold(f64::INFINITY, f64::min)
+        let measure = Measure::from(Metric::Euclidean);
+        self.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -42,8 +59,16 @@ fn shown(p: Point) -> String {
     format!("({:.6}, {:.6})", p.x, p.y)
 }
 
-/// The copies of `p`, shifted by whole turns along circle axes, within the window; on intervals `p` as it is.
-fn window_copies(regions: &Regions, p: Point) -> Vec<Point> {
-    let values = |k: usize| regions.topology.axes[k].copies_within(p[k], regions.window[k]);
-    values(0).flat_map(|x| values(1).map(move |y| Point::new(x, y))).collect()
+/// The copies of a piece, shifted by whole turns along circle axes, that are at least in part in the window; on intervals the
+/// piece as it is.
+fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
+    let [from, to] = piece.ends();
+    let turns = |k: usize| {
+        let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
+        let (lower, upper) = regions.window[k];
+        // From where the copy's greater end is in the window to where its lesser end is.
+        let copies = regions.topology.axes[k].copies_within(least, (lower - (greatest - least), upper));
+        copies.map(move |copy| ((copy - least) / TAU).round())
+    };
+    turns(0).flat_map(|first| turns(1).map(move |second| piece.turned([first, second]))).collect()
 }

@@ -3,12 +3,12 @@
 use super::boundary::Boundary;
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
-use super::funnel::{Passage, Turn, turns};
+use super::funnel::{Passage, Turn, nearest_end, turns};
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::{Orientation, Point, orientation};
-use crate::space::{Configuration, Path};
+use crate::space::{Configuration, Measure, Metric, Path, Segment};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -57,15 +57,13 @@ impl Planner for Trapezoid {
     }
 
     fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
-        let cells_at = |p| map.decomposition.cells_at(&map.boundary, p);
-        let (outcome, channel) = match Terminals::new(space, query, |p| cells_at(p).next().is_some()) {
+        let parts_of = |segment: &Segment| map.decomposition.parts_of(&map.boundary, segment);
+        let (outcome, channel) = match Terminals::new(space, query, parts_of) {
             Err(reason) => (Outcome::GaveUp(reason), Vec::new()),
             Ok(terminals) => {
-                let start_cells: Vec<usize> = cells_at(terminals.start).collect();
-                let goal_cells: Vec<(usize, Point)> =
-                    terminals.goals.iter().flat_map(|&goal| cells_at(goal).map(move |cell| (cell, goal))).collect();
+                let start_cells: Vec<usize> = map.decomposition.cells_at(&map.boundary, terminals.start).collect();
                 let doors = &map.decomposition.doors;
-                match map.adjacency.channel(doors, &terminals, &start_cells, &goal_cells) {
+                match map.adjacency.channel(doors, &terminals, &start_cells) {
                     None => (Outcome::NoPath, Vec::new()),
                     Some(channel) => {
                         let waypoints = if self.taut { map.taut_path(&channel) } else { map.middle_path(&channel) };
@@ -95,7 +93,8 @@ impl TrapezoidMap {
             }
             waypoints.push(middle);
         }
-        waypoints.push(channel.goal);
+        let last = waypoints[waypoints.len() - 1];
+        waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));
         waypoints
     }
 
@@ -111,7 +110,8 @@ impl TrapezoidMap {
             }
         };
         let passages: Vec<Passage> = (0..channel.doors.len()).map(passage).collect();
-        let string = turns(channel.start, channel.goal, &passages);
+        let goal = nearest_end(channel.start, &channel.goals, &passages);
+        let string = turns(channel.start, goal, &passages);
         // Where a door ends in the middle of a side, its end is rounded into free space, and a string along the side
         // turns there by a rounding error. A taut string turns at vertices only: leave such turns out.
         let is_vertex = |turn: &Turn| {
@@ -125,7 +125,7 @@ impl TrapezoidMap {
             let after = run[run.len() - 1].passage + 1;
             if !is_vertex(&run[0]) {
                 let rest = string.iter().find(|turn| turn.passage >= after);
-                let (end, to) = rest.map_or((passages.len(), channel.goal), |turn| (turn.passage, turn.at));
+                let (end, to) = rest.map_or((passages.len(), goal), |turn| (turn.passage, turn.at));
                 if self.is_straight(channel, first..end, waypoints[waypoints.len() - 1], to) {
                     continue;
                 }
@@ -133,7 +133,7 @@ impl TrapezoidMap {
             waypoints.extend(run.iter().map(|turn| turn.at));
             first = after;
         }
-        waypoints.push(channel.goal);
+        waypoints.push(goal);
         waypoints
     }
 

@@ -42,8 +42,7 @@ impl Planner for Visibility {
 
     /// The trace and the size are those of the part of the graph that the search looked at.
     fn query(&self, space: &Regions, map: &VisibilityMap, query: &Query) -> Run {
-        let is_free = |p| map.mesh.triangles_at(p).next().is_some();
-        let terminals = match Terminals::new(space, query, is_free) {
+        let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
             Err(reason) => {
                 return Run {
@@ -54,8 +53,8 @@ impl Planner for Visibility {
                 };
             }
         };
-        let mut search = TautSearch::new(&map.mesh, Measure::from(self.metric), &terminals.goals);
-        let outcome = match search.path(terminals.start) {
+        let mut search = TautSearch::new(&map.mesh, Measure::from(self.metric), &terminals);
+        let outcome = match search.path() {
             Some(waypoints) => Outcome::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
             None => Outcome::NoPath,
         };

@@ -5,10 +5,10 @@
 //! completed by that motion, and judged as a whole like any other.
 
 use crate::certify::certify;
-use crate::cspace::{Grid, Regions, ZonedGrid};
+use crate::cspace::{Grid, Regions, ZonedGrid, free_stretches};
 use crate::model::{Problem, Scene};
 use crate::plan::Query;
-use crate::space::{Configuration, Path, Topology};
+use crate::space::{Configuration, Path, Segment, Topology};
 use std::f64::consts::TAU;
 
 /// A representation that may block ends which are free.
@@ -67,12 +67,18 @@ fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuratio
     q
 }
 
+/// Places on a free stretch of goals at which a space is asked whether it knows any of it.
+const LOOKS: usize = 17;
+
+/// Stretches for which something stands in at most, the longest ones.
+const MOST_STRETCHES: usize = 8;
+
 /// A problem's ends and what stands in for them.
 pub(super) struct Ends {
     topology: Topology,
     start: Configuration,
-    /// Copies near the start.
-    goals: Vec<Configuration>,
+    /// What stands in for a goal, and the goal; as copies near the start.
+    stand_ins: Vec<[Configuration; 2]>,
     /// What the planner is asked.
     pub query: Query,
 }
@@ -81,18 +87,31 @@ pub(super) struct Ends {
 const SAME: f64 = 1e-9;
 
 impl Ends {
+    /// Single goals that the space does not know are replaced; of segments the space knows some part, as a rule, and for each
+    /// free stretch of which it knows nothing something stands in for its middle.
     pub fn new(problem: &Problem, space: &impl Admit) -> Self {
-        let topology = problem.scene.arm.topology();
-        let start = problem.start;
-        let goals: Vec<Configuration> = problem.goals.iter().map(|&goal| topology.lift(goal, start)).collect();
-        let admitted = |q| stand_in(&problem.scene, space, q);
-        let query = Query { start: admitted(start), goals: goals.iter().map(|&goal| admitted(goal)).collect() };
-        Self { topology, start, goals, query }
+        let (scene, start) = (&problem.scene, problem.start);
+        let topology = scene.arm.topology();
+        let mut goals: Vec<Segment> = Vec::new();
+        let mut stand_ins = Vec::new();
+        for piece in problem.goals.pieces() {
+            if !piece.is_point() {
+                goals.push(*piece);
+            }
+            for goal in singles(scene, space, piece) {
+                let goal = topology.lift(goal, start);
+                let there = stand_in(scene, space, goal);
+                goals.push(Segment::point(there));
+                stand_ins.push([there, goal]);
+            }
+        }
+        let query = Query { start: stand_in(scene, space, start), goals: goals.into_iter().collect() };
+        Self { topology, start, stand_ins, query }
     }
 
     /// Whether something stands in for a goal.
     pub fn has_goal_stand_ins(&self) -> bool {
-        self.query.goals != self.goals
+        self.stand_ins.iter().any(|[stand_in, goal]| stand_in != goal)
     }
 
     /// The planner's path from the true start to the true goal by way of the stand-ins.
@@ -111,13 +130,26 @@ impl Ends {
     /// The true goal, as the copy that the path leads to.
     fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
-        let of = |(stand_in, goal): (&Configuration, &Configuration)| {
+        let of = |[stand_in, goal]: &[Configuration; 2]| {
             (self.topology.distance(*stand_in, end) < SAME).then(|| end + (goal - stand_in))
         };
-        self.query.goals.iter().zip(&self.goals).find_map(of).unwrap_or(end)
+        self.stand_ins.iter().find_map(of).unwrap_or(end)
     }
 
     fn join(&self, middle: &[Configuration], goal: Configuration) -> Path {
         Path::new([self.start].into_iter().chain(middle.iter().copied()).chain([goal]).collect())
     }
+}
+
+/// The goals of a piece that are to be asked for one by one: the middles of free stretches of which the space knows nothing.
+fn singles(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
+    if piece.is_point() {
+        return vec![piece.ends()[0]];
+    }
+    let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
+    let mut unknown = free_stretches(scene, piece, scene.workspace.clearance);
+    unknown.retain(|stretch| !knows(stretch));
+    unknown.sort_by(|a, b| b.length().total_cmp(&a.length()));
+    unknown.truncate(MOST_STRETCHES);
+    unknown.iter().map(|stretch| stretch.at(0.5)).collect()
 }

@@ -5,11 +5,11 @@ use super::bound::{Bound, bound, percent};
 use super::rungs::{Builder, Described, cells, polygons, zoned_cells};
 use super::swift::{SLABS, checked};
 use super::taut::pulled_taut;
-use super::{Answer, Effort, Method, Space, Stages, Verdict, subdivision};
+use super::{Answer, Effort, Method, Space, Stages, Verdict, last_leg, subdivision};
 use crate::certify::{CertifiedPath, Connectivity, Rejection, certify, connectivity, slab_connectivity};
 use crate::model::{Problem, Scene};
 use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility};
-use crate::space::{Metric, Path};
+use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
@@ -181,6 +181,7 @@ impl Climb<'_> {
         for kept in KEPT.into_iter().map(|share| share * gap) {
             let (scene, way) = (&self.problem.scene, path.path().waypoints());
             let Some(taut) = pulled_taut(scene, way, gap / 4.0, kept, TAUT_ROWS) else { break };
+            let taut = last_leg::shortened(self.problem, &taut, self.effort.metric, kept).unwrap_or(taut);
             let upper = self.effort.metric.length(taut.path());
             if upper >= bound.upper || taut.path().waypoints().len() > most_pieces {
                 break;
@@ -197,14 +198,15 @@ impl Climb<'_> {
 /// The run whose path is the shortest when it is completed. A planner measures to the stand-in of a goal, not to the goal:
 /// where that makes a difference each goal is asked for by itself.
 fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
-    if ends.query.goals.len() < 2 || !ends.has_goal_stand_ins() {
+    if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
         return query(&ends.query);
     }
     let length = |run: &Run| match &run.outcome {
         Outcome::Found(path) => metric.length(&ends.past_stand_ins(path).unwrap_or_else(|| ends.complete(path))),
         Outcome::NoPath | Outcome::GaveUp(_) => f64::INFINITY,
     };
-    let each = ends.query.goals.iter().map(|&goal| query(&Query { start: ends.query.start, goals: vec![goal] }));
+    let one = |piece: &Segment| query(&Query { start: ends.query.start, goals: (*piece).into() });
+    let each = ends.query.goals.pieces().iter().map(one);
     let shortest = each.min_by(|a, b| length(a).total_cmp(&length(b)));
     shortest.unwrap_or_else(|| query(&ends.query))
 }

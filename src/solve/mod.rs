@@ -8,6 +8,7 @@ mod admission;
 mod bound;
 mod effort;
 mod ladder;
+mod last_leg;
 mod method;
 mod rungs;
 mod shorten;

@@ -1,6 +1,7 @@
 //! A quick path that is about the shortest.
 
 use super::Verdict;
+use super::subdivision::taut;
 use super::swift::{checked, decide};
 use super::taut::pulled_taut;
 use crate::certify::{Channel, Connectivity, short_slab_channel};
@@ -37,6 +38,6 @@ fn places(channel: &Channel) -> Vec<Configuration> {
     let doors = channel.doors().iter().filter(|[left, right]| left[0] == right[0]);
     let mut places = vec![channel.start()];
     places.extend(doors.map(|[left, right]| (left + right) / 2.0));
-    places.push(channel.goal());
+    places.push(taut(channel).goal());
     places
 }

@@ -6,7 +6,7 @@ use crate::certify::CertifiedPath;
 use crate::certify::{Channel, Connectivity, Exploration, Occupancy, Rejection, certify, explore};
 use crate::geometry::Point;
 use crate::model::Problem;
-use crate::plan::{Outcome, Passage, Run, Size, Trace, taut_string};
+use crate::plan::{Outcome, Passage, Run, Size, Trace, nearest_end, taut_string};
 use crate::space::{Configuration, Path};
 use std::time::Instant;
 
@@ -64,10 +64,11 @@ pub(super) fn certified(problem: &Problem, channel: &Channel) -> Result<Certifie
 }
 
 /// The channel's shortest path.
-fn taut(channel: &Channel) -> Path {
+pub(super) fn taut(channel: &Channel) -> Path {
     let passage = |[left, right]: &[Configuration; 2]| Passage { left: Point::from(*left), right: Point::from(*right) };
     let passages: Vec<Passage> = channel.doors().iter().map(passage).collect();
-    let string = taut_string(Point::from(channel.start()), Point::from(channel.goal()), &passages);
+    let start = Point::from(channel.start());
+    let string = taut_string(start, nearest_end(start, channel.goals(), &passages), &passages);
     Path::new(string.into_iter().map(|p| p.coords).collect())
 }
 

@@ -3,20 +3,24 @@
 mod bernstein;
 mod blend;
 mod curve;
+mod goal_set;
 mod interpolation;
 mod measure;
 mod metric;
 mod path;
 mod recording;
+mod segment;
 mod topology;
 
 pub use blend::{Blend, BlendedPath, HAIR, Stretch};
 pub use curve::{Derivative, Piece, State};
+pub use goal_set::GoalSet;
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
 pub use recording::{Recording, RecordingDefect};
+pub use segment::Segment;
 pub use topology::{Axis, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.

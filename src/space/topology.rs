@@ -118,6 +118,12 @@ impl Axis {
         }
     }
 
+    /// `value` and so many whole turns, a whole number of them, correct to two roundings of the result.
+    #[must_use]
+    pub fn turned(self, value: f64, turns: f64) -> f64 {
+        turned(value, turns)
+    }
+
     /// The copies of `value` from `lower` to `upper`, ascending: on an interval only the value itself, wherever it lies.
     /// The bounds must be finite.
     pub fn copies_within(self, value: f64, (lower, upper): (f64, f64)) -> impl Iterator<Item = f64> {

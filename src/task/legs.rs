@@ -150,7 +150,7 @@ fn planned(
     let path = match found {
         Some(path) => path,
         None => {
-            let problem = Problem { scene: scene.clone(), start: from, goal: Goal::Joints(to), goals: vec![to] };
+            let problem = Problem { scene: scene.clone(), start: from, goal: Goal::Joints(to), goals: to.into() };
             match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
                 Verdict::Found(path) => path,
                 Verdict::Infeasible(proof) => {

@@ -97,6 +97,9 @@ pub struct Report {
     pub proof: Option<Vec<ProofBox>>,
     /// Waypoints, straight segments between them: what the motion follows, but for its blends.
     pub path: Option<Vec<[f64; 2]>>,
+    /// Joints of which the goal, the tip at a place, takes any value: the path's last waypoint says which was chosen.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub free_joints: Vec<String>,
     /// Euclidean length of the path in joint space.
     pub length: Option<f64>,
     /// How far the path is from the optimum at the most, if the planner tells.
@@ -174,6 +177,7 @@ impl Report {
             reason: None,
             proof: None,
             path: None,
+            free_joints: Vec::new(),
             length: None,
             optimum: None,
             search: None,

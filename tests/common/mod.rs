@@ -166,7 +166,7 @@ pub fn w20() -> Scene {
 /// A benchmark problem as the solver takes it.
 pub fn problem(which: Benchmark) -> Problem {
     let (scene, start, goal) = benchmark(which);
-    Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }
+    Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() }
 }
 
 /// The configuration at these shares of the joints' ranges.

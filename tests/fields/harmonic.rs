@@ -233,7 +233,7 @@ proptest! {
         let part = [offset.0, offset.1].map(|x| f64::from(x) / 256.0 - 0.498);
         let from = grid.center(start) + cplan::space::Configuration::new(part[0] * step[0], part[1] * step[1]);
         let planner = Harmonic { shortcut: false };
-        let run = planner.query(&grid, &planner.build(&grid), &Query { start: from, goals: vec![grid.center(goal)] });
+        let run = planner.query(&grid, &planner.build(&grid), &Query { start: from, goals: grid.center(goal).into() });
         let Trace::Field { potential: ln, .. } = &run.trace else { panic!("no field") };
         let path = match &run.outcome {
             Outcome::Found(path) => path,

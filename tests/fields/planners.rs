@@ -3,7 +3,7 @@
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
 use cplan::plan::{Harmonic, Outcome, Planner, Query, Run, Size, Trace, Wavefront};
-use cplan::space::{Axis, Configuration, Path, Topology};
+use cplan::space::{Axis, Configuration, GoalSet, Path, Topology};
 use proptest::prelude::*;
 
 /// A grid with steps of 1 along intervals; circles are as long as they are.
@@ -104,7 +104,7 @@ fn direct(grid: &Grid, goal: usize) -> Vec<f64> {
 }
 
 fn query(grid: &Grid, start: usize, goal: usize) -> Query {
-    Query { start: grid.center(start), goals: vec![grid.center(goal)] }
+    Query { start: grid.center(start), goals: grid.center(goal).into() }
 }
 
 fn found(run: &Run) -> Path {
@@ -218,7 +218,7 @@ proptest! {
             let part = [a, b].map(|x| f64::from(x) / 256.0 - 0.498);
             grid.center(cell) + Configuration::new(part[0] * grid.step()[0], part[1] * grid.step()[1])
         });
-        let query = Query { start: from, goals: vec![to] };
+        let query = Query { start: from, goals: to.into() };
         for planner in BOTH {
             let plain = run(planner, &grid, &query, false);
             let short = run(planner, &grid, &query, true);
@@ -301,7 +301,7 @@ fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
 #[test]
 fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
     let open = grid([40, 40], [true, true], vec![false; 1600]);
-    let query = Query { start: Configuration::new(3.0, -2.9), goals: vec![Configuration::new(-3.0, 2.9)] };
+    let query = Query { start: Configuration::new(3.0, -2.9), goals: Configuration::new(-3.0, 2.9).into() };
     let tau = std::f64::consts::TAU;
     let end = Configuration::new(-3.0 + tau, 2.9 - tau);
     for planner in BOTH {
@@ -321,7 +321,7 @@ fn a_blocked_start_is_joined_to_a_free_cell_nearby() {
     let grid = drawn("....... .###... .###... .###... .......");
     for planner in BOTH {
         let start = Configuration::new(2.5, 1.2);
-        let path = found(&run(planner, &grid, &Query { start, goals: vec![grid.center(6)] }, true));
+        let path = found(&run(planner, &grid, &Query { start, goals: grid.center(6).into() }, true));
         assert_eq!((path.start(), path.goal()), (start, grid.center(6)));
     }
 }
@@ -336,8 +336,8 @@ fn hopeless_queries_are_given_up_with_the_reason() {
     for planner in BOTH {
         assert!(reason(planner, &query(&full, 0, 80)).contains("start"));
         assert!(reason(planner, &query(&full, 80, 0)).contains("goal"));
-        assert!(reason(planner, &Query { start: full.center(80), goals: vec![] }).contains("no goal"));
-        let outside = Query { start: Configuration::new(-1.0, 3.0), goals: vec![full.center(80)] };
+        assert!(reason(planner, &Query { start: full.center(80), goals: GoalSet::default() }).contains("no goal"));
+        let outside = Query { start: Configuration::new(-1.0, 3.0), goals: full.center(80).into() };
         assert!(reason(planner, &outside).contains("outside"));
     }
 }
@@ -345,7 +345,8 @@ fn hopeless_queries_are_given_up_with_the_reason() {
 #[test]
 fn the_nearest_of_several_goals_is_taken() {
     let grid = drawn(".......... .......... ..........");
-    let query = Query { start: grid.center(2), goals: vec![grid.center(29), grid.center(12), grid.center(20)] };
+    let query =
+        Query { start: grid.center(2), goals: [29, 12, 20].map(|cell| grid.center(cell)).into_iter().collect() };
     for planner in BOTH {
         assert_eq!(found(&run(planner, &grid, &query, true)).goal(), grid.center(12));
     }

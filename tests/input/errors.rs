@@ -295,9 +295,9 @@ fn overrides_replace_the_world() {
     let problem = load_files("arm.urdf", ARM, WORLD, &overrides).unwrap().problem;
     assert!((problem.start[0] - 10f64.to_radians()).abs() < 1e-15);
     assert_eq!(problem.scene.workspace.clearance, 0.01);
-    assert_eq!(problem.goals.len(), 2);
-    for q in &problem.goals {
-        assert!((problem.scene.arm.tip_at(*q) - cplan::geometry::Point::new(1.2, 1.0)).norm() < 1e-9);
+    assert_eq!(problem.goals.points().count(), 2);
+    for q in problem.goals.points() {
+        assert!((problem.scene.arm.tip_at(q) - cplan::geometry::Point::new(1.2, 1.0)).norm() < 1e-9);
     }
 }
 

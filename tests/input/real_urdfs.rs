@@ -131,7 +131,7 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
                 assert_eq!([arm.links[0].source, arm.links[1].source], sources, "{file}");
                 assert_eq!(arm.tip_name, tip, "{file}");
                 let loaded = loaded.problem(&Overrides::default()).unwrap_or_else(|e| panic!("{file}: {e}"));
-                assert_eq!(loaded.problem.goals.len(), 1, "{file}");
+                assert_eq!(loaded.problem.goals.pieces().len(), 1, "{file}");
             }
             (Err(error), Refused(parts)) => {
                 println!("{file} [{robot}]: refused\n{error}");

@@ -63,7 +63,12 @@ fn published_optima_lie_within_the_bounds() {
 fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> Problem {
     let obstacles = pieces.into_iter().map(|piece| obstacle("block", piece)).collect::<Vec<_>>();
     let pieces = obstacles.into_iter().flat_map(|o| o.pieces).collect();
-    Problem { scene: scene(rr(axes), pieces), start, goal: Goal::Joints(goals[0]), goals: goals.to_vec() }
+    Problem {
+        scene: scene(rr(axes), pieces),
+        start,
+        goal: Goal::Joints(goals[0]),
+        goals: goals.iter().copied().collect(),
+    }
 }
 
 #[test]
@@ -101,7 +106,7 @@ fn around_a_block_the_bound_is_the_taut_string() {
         scene: scene(arm, vec![block]),
         start: q(-1.5, 0.0),
         goal: Goal::Joints(q(1.5, 0.0)),
-        goals: vec![q(1.5, 0.0)],
+        goals: q(1.5, 0.0).into(),
     };
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
     let found = bounded(&answer(&problem, Metric::Euclidean, Some(1e-5)));

@@ -83,7 +83,7 @@ proptest! {
     #[test]
     fn stuck_boxes_hold_no_free_configuration(u in 0.0..1.0_f64, v in 0.0..1.0_f64) {
         let (scene, start, goal) = benchmark(Benchmark::Inf);
-        let Connectivity::Disconnected(proof) = connectivity(&scene, start, &[goal], 0.0, 100_000) else {
+        let Connectivity::Disconnected(proof) = connectivity(&scene, start, &goal.into(), 0.0, 100_000) else {
             return Err(TestCaseError::fail("no proof"));
         };
         for stuck in proof.stuck() {
@@ -141,7 +141,7 @@ fn a_path_outside_the_limits_is_refused() {
 fn benchmark_problems_are_decided() {
     for which in [Benchmark::A, Benchmark::B] {
         let (scene, start, goal) = benchmark(which);
-        let Connectivity::Connected(channel) = connectivity(&scene, start, &[goal], 0.0, 200_000) else {
+        let Connectivity::Connected(channel) = connectivity(&scene, start, &goal.into(), 0.0, 200_000) else {
             panic!("{which:?} has a path");
         };
         let path = channel.path();
@@ -151,7 +151,7 @@ fn benchmark_problems_are_decided() {
     }
     for which in [Benchmark::Inf, Benchmark::T] {
         let (scene, start, goal) = benchmark(which);
-        let verdict = connectivity(&scene, start, &[goal], 0.0, 200_000);
+        let verdict = connectivity(&scene, start, &goal.into(), 0.0, 200_000);
         assert!(matches!(verdict, Connectivity::Disconnected(_)), "{which:?}");
     }
 }
@@ -161,7 +161,7 @@ fn limits_and_clearance_can_close_the_way() {
     // Nothing but a pole: free to go round it on the torus, not within limits that end before it.
     let pole = || vec![Convex::disc(Point::new(0.0, 1.4), 0.05)];
     let decide =
-        |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &[q(2.6, 0.0)], clearance, 100_000);
+        |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &q(2.6, 0.0).into(), clearance, 100_000);
     assert!(matches!(decide([Axis::Circle, Axis::Circle], 0.0), Connectivity::Connected(_)));
     let narrow = Axis::Interval { lower: -0.1, upper: 0.1 };
     let half = Axis::Interval { lower: 0.0, upper: 3.0 };
@@ -174,7 +174,7 @@ fn limits_and_clearance_can_close_the_way() {
 
 /// The stuck boxes of a problem without a path.
 fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) -> Vec<StuckBox> {
-    match connectivity(scene, start, &[goal], clearance, 200_000) {
+    match connectivity(scene, start, &goal.into(), clearance, 200_000) {
         Connectivity::Disconnected(proof) => proof.stuck().to_vec(),
         other => panic!("not proven: {other:?}"),
     }
@@ -184,16 +184,16 @@ fn proof(scene: &Scene, start: Configuration, goal: Configuration, clearance: f6
 fn proofs_are_accepted_by_the_independent_check() {
     for which in [Benchmark::Inf, Benchmark::T] {
         let (scene, start, goal) = benchmark(which);
-        assert_eq!(recheck(&proof(&scene, start, goal, 0.0), &scene, start, &[goal], 0.0), Ok(()), "{which:?}");
+        assert_eq!(recheck(&proof(&scene, start, goal, 0.0), &scene, start, &goal.into(), 0.0), Ok(()), "{which:?}");
     }
     let half = Axis::Interval { lower: 0.0, upper: 3.0 };
     let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
     let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
     let boxes = proof(&pole, start, goal, 0.4);
-    assert_eq!(recheck(&boxes, &pole, start, &[goal], 0.4), Ok(()));
+    assert_eq!(recheck(&boxes, &pole, start, &goal.into(), 0.4), Ok(()));
     // The same boxes prove nothing about a smaller clearance.
-    let refused = recheck(&boxes, &pole, start, &[goal], 0.0);
+    let refused = recheck(&boxes, &pole, start, &goal.into(), 0.0);
     assert!(matches!(refused, Err(ProofDefect::NotStuck { .. })), "{refused:?}");
 }
 
@@ -201,9 +201,9 @@ fn proofs_are_accepted_by_the_independent_check() {
 fn false_proofs_are_refused() {
     let (scene, start, goal) = benchmark(Benchmark::Inf);
     let boxes = proof(&scene, start, goal, 0.0);
-    let judge = |boxes: &[StuckBox]| recheck(boxes, &scene, start, &[goal], 0.0);
+    let judge = |boxes: &[StuckBox]| recheck(boxes, &scene, start, &goal.into(), 0.0);
     assert_eq!(judge(&[]), Err(ProofDefect::NotSeparated(0)));
-    assert_eq!(recheck(&boxes, &scene, start, &[start], 0.0), Err(ProofDefect::NotSeparated(0)));
+    assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofDefect::NotSeparated(0)));
 
     // Taking boxes away one after another must open a way, and once open it stays open.
     let fewer: Vec<bool> = (0..=20).map(|k| judge(&boxes[boxes.len() * k / 20..]).is_ok()).collect();
@@ -265,7 +265,7 @@ fn what_separates_is_decided_as_by_flood_fill() {
             let left = [&boxes[..gone], &boxes[gone + 1..]].concat();
             let way = flooded(&left, start, goal);
             let expected = if way { Err(ProofDefect::NotSeparated(0)) } else { Ok(()) };
-            assert_eq!(recheck(&left, &scene, start, &[goal], 0.0), expected, "{which:?} without box {gone}");
+            assert_eq!(recheck(&left, &scene, start, &goal.into(), 0.0), expected, "{which:?} without box {gone}");
             opened += usize::from(way);
         }
         assert!(opened > 0, "{which:?}: no box matters");
@@ -288,15 +288,15 @@ fn thin_links_are_stopped_by_thin_walls() {
     let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
     // Slanted walls across the upper arm's way; one leaves the other way round.
     let one_wall = scene(skeleton(circles), vec![front.clone()]);
-    assert!(matches!(connectivity(&one_wall, start, &[goal], 0.0, 100_000), Connectivity::Connected(_)));
+    assert!(matches!(connectivity(&one_wall, start, &goal.into(), 0.0, 100_000), Connectivity::Connected(_)));
     let closed = scene(skeleton(circles), vec![front, back]);
-    assert_eq!(recheck(&proof(&closed, start, goal, 0.0), &closed, start, &[goal], 0.0), Ok(()));
+    assert_eq!(recheck(&proof(&closed, start, goal, 0.0), &closed, start, &goal.into(), 0.0), Ok(()));
 
     // A wall beyond the elbow's circle, for which the limits keep the forearm stretched enough.
     let narrow = [Axis::Interval { lower: -1.5, upper: 1.5 }, Axis::Interval { lower: -0.4, upper: 0.4 }];
     let beyond = scene(skeleton(narrow), vec![Convex::segment(Point::new(1.05, 0.1), Point::new(1.7, -0.2))]);
     let (start, goal) = (q(-1.2, 0.1), q(1.3, -0.1));
-    assert_eq!(recheck(&proof(&beyond, start, goal, 0.0), &beyond, start, &[goal], 0.0), Ok(()));
+    assert_eq!(recheck(&proof(&beyond, start, goal, 0.0), &beyond, start, &goal.into(), 0.0), Ok(()));
 }
 
 #[test]
@@ -304,7 +304,7 @@ fn proofs_leave_out_boxes_that_do_not_matter() {
     for which in [Benchmark::Inf, Benchmark::T] {
         let (scene, start, goal) = benchmark(which);
         let boxes = proof(&scene, start, goal, 0.0);
-        let mut known = explore(&scene, start, &[goal], 0.0, 200_000).boxes;
+        let mut known = explore(&scene, start, &goal.into(), 0.0, 200_000).boxes;
         known.retain(|(_, occupancy)| *occupancy == Occupancy::Stuck);
         assert!(boxes.iter().all(|b| known.iter().any(|(cell, _)| *cell == b.cell)));
         assert!(boxes.len() < known.len(), "{} of {}", boxes.len(), known.len());
@@ -321,7 +321,7 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
             (scene.clearance(at) > 0.01).then_some(at)
         };
         let [start, goal] = [0, 500].map(|from| (from..).find_map(free).unwrap());
-        let boxes = explore(&scene, start, &[goal], 0.0, 5_000).boxes;
+        let boxes = explore(&scene, start, &goal.into(), 0.0, 5_000).boxes;
         let area: f64 = boxes.iter().map(|(c, _)| (c.upper[0] - c.lower[0]) * (c.upper[1] - c.lower[1])).sum();
         let whole = topology.axes[0].extent() * topology.axes[1].extent();
         assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
@@ -351,7 +351,7 @@ fn link_1_sliding_along_a_wall_leaves_few_boxes() {
     let joints = [joint("x", slide(1.0, 0.0), range), joint("y", slide(0.0, 1.0), range)];
     let arm = arm(joints, [bridge, head], Vector::zeros(), Point::origin());
     let scene = scene(arm, vec![rectangle(0.0, 4.0, -0.5, 0.0)]);
-    let exploration = explore(&scene, q(0.5, 0.5), &[q(1.5, 0.5)], 0.0, 1000);
+    let exploration = explore(&scene, q(0.5, 0.5), &q(1.5, 0.5).into(), 0.0, 1000);
     assert!(matches!(exploration.answer, Connectivity::Undecided { .. }));
     assert!(exploration.boxes.len() < 100_000, "{}", exploration.boxes.len());
 }

@@ -4,7 +4,7 @@ use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::plan::{Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
-use cplan::space::{Axis, Configuration, Metric, Path, Topology};
+use cplan::space::{Axis, Configuration, GoalSet, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ const MIDDLES: Trapezoid = Trapezoid { taut: false };
 const TAUT: Trapezoid = Trapezoid { taut: true };
 
 fn query(start: (f64, f64), goal: (f64, f64)) -> Query {
-    Query { start: configuration(start.0, start.1), goals: vec![configuration(goal.0, goal.1)] }
+    Query { start: configuration(start.0, start.1), goals: configuration(goal.0, goal.1).into() }
 }
 
 fn run<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Query) -> Run {
@@ -29,7 +29,7 @@ fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, que
         Outcome::Found(path) => {
             assert_eq!(path.start(), query.start);
             let to_goal = |g: &_| regions.topology.distance(path.goal(), *g);
-            assert!(query.goals.iter().any(|g| path.goal() == *g || to_goal(g) < 1e-12));
+            assert!(query.goals.points().any(|g| path.goal() == g || to_goal(&g) < 1e-12));
             assert_free(regions, &path);
             Some(path)
         }
@@ -117,7 +117,7 @@ proptest! {
         let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
         for metric in metrics(ratio) {
             let planner = Visibility { metric };
-            let query = Query { start: s.coords, goals: goals.map(|g| g.coords).to_vec() };
+            let query = Query { start: s.coords, goals: goals.map(|g| g.coords).into_iter().collect() };
             let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
             let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
             prop_assert!((found - expected[0].min(expected[1])).abs() < 1e-8, "{metric:?} {found} {expected:?}");
@@ -297,7 +297,7 @@ mod contract {
                 let Outcome::GaveUp(reason) = plan(&square(), &query((0.5, 0.5), outside)) else { panic!() };
                 assert!(reason.contains("goal"), "{reason}");
             }
-            let nowhere = Query { goals: vec![], ..query((0.5, 0.5), (0.5, 0.5)) };
+            let nowhere = Query { goals: GoalSet::default(), ..query((0.5, 0.5), (0.5, 0.5)) };
             assert!(matches!(plan(&square(), &nowhere), Outcome::GaveUp(_)));
             assert!(matches!(
                 plan(&regions([(0.0, 1.0); 2], vec![]), &query((0.5, 0.5), (0.5, 0.6))),
@@ -321,7 +321,8 @@ mod contract {
     #[test]
     fn the_nearest_of_several_goals_is_taken() {
         both(|plan| {
-            let goals = vec![configuration(3.5, 3.5), configuration(2.0, 2.0), configuration(0.5, 1.5)];
+            let goals = [configuration(3.5, 3.5), configuration(2.0, 2.0), configuration(0.5, 1.5)];
+            let goals = goals.into_iter().collect();
             let Outcome::Found(path) = plan(&square(), &Query { start: configuration(0.5, 0.5), goals }) else {
                 panic!()
             };

@@ -8,7 +8,7 @@ use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{Motion, Scene};
 use cplan::solve::{Verdict, decide, shorten};
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Axis, Configuration, GoalSet};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -16,13 +16,13 @@ const SLABS: usize = 20_000;
 
 /// Checks an answer by what shares no code with the slabs: paths by the judge of motions, proofs by the check of boxes,
 /// both against postures sampled on them. Says which answer it was.
-fn check(scene: &Scene, start: Configuration, goals: &[Configuration], clearance: f64) -> Option<bool> {
+fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
     match slab_connectivity(scene, start, goals, clearance, SLABS) {
         Connectivity::Connected(channel) => {
             let path = channel.path();
             let topology = scene.arm.topology();
             assert_eq!(path.start(), start);
-            assert!(goals.iter().any(|&g| topology.distance(path.goal(), g) < 1e-12), "{path:?}");
+            assert!(goals.contains(&topology, path.goal(), 1e-12), "{path:?}");
             for (a, b) in path.segments() {
                 for i in 0..=200 {
                     let at = a + (b - a) * (f64::from(i) / 200.0);
@@ -56,7 +56,7 @@ fn benchmark_problems_are_decided() {
         [(Benchmark::A, true), (Benchmark::B, true), (Benchmark::Inf, false), (Benchmark::T, false)]
     {
         let (scene, start, goal) = benchmark(which);
-        assert_eq!(check(&scene, start, &[goal], 0.0), Some(connected), "{which:?}");
+        assert_eq!(check(&scene, start, &goal.into(), 0.0), Some(connected), "{which:?}");
     }
 }
 
@@ -95,8 +95,8 @@ proptest! {
 
 /// Where both decide, slabs and boxes say the same.
 fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuration, clearance: f64) {
-    if let Some(connected) = check(scene, start, &[goal], clearance) {
-        match connectivity(scene, start, &[goal], clearance, 20_000) {
+    if let Some(connected) = check(scene, start, &goal.into(), clearance) {
+        match connectivity(scene, start, &goal.into(), clearance, 20_000) {
             Connectivity::Connected(_) => assert!(connected),
             Connectivity::Disconnected(_) => assert!(!connected),
             Connectivity::Undecided { .. } => {}
@@ -131,24 +131,24 @@ fn thin_links_among_thin_walls() {
     let front = Convex::segment(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
     let back = Convex::segment(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let one_wall = scene(arm.clone(), vec![front.clone()]);
-    assert_eq!(check(&one_wall, q(-1.2, 0.4), &[q(1.3, -0.4)], 0.0), Some(true));
+    assert_eq!(check(&one_wall, q(-1.2, 0.4), &q(1.3, -0.4).into(), 0.0), Some(true));
     let closed = scene(arm, vec![front, back]);
-    assert_eq!(check(&closed, q(-1.2, 0.4), &[q(1.3, -0.4)], 0.0), Some(false));
+    assert_eq!(check(&closed, q(-1.2, 0.4), &q(1.3, -0.4).into(), 0.0), Some(false));
 }
 
 #[test]
 fn nothing_to_meet_is_free() {
     let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![]);
-    assert_eq!(check(&scene, q(0.1, 0.2), &[q(3.0, -3.0)], 0.0), Some(true));
-    assert_eq!(check(&scene, q(0.1, 0.2), &[q(0.1, 0.2)], 0.0), Some(true));
+    assert_eq!(check(&scene, q(0.1, 0.2), &q(3.0, -3.0).into(), 0.0), Some(true));
+    assert_eq!(check(&scene, q(0.1, 0.2), &q(0.1, 0.2).into(), 0.0), Some(true));
     // Copies of a goal on a circle are the goal.
-    assert_eq!(check(&scene, q(0.1, 0.2), &[q(9.0, -9.0)], 0.0), Some(true));
+    assert_eq!(check(&scene, q(0.1, 0.2), &q(9.0, -9.0).into(), 0.0), Some(true));
 }
 
 #[test]
 fn a_base_inside_an_obstacle_is_never_connected() {
     let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(-0.1, 0.1, -0.1, 0.1)]);
-    assert_ne!(check(&scene, q(0.0, 0.0), &[q(1.0, 0.0)], 0.0), Some(true));
+    assert_ne!(check(&scene, q(0.0, 0.0), &q(1.0, 0.0).into(), 0.0), Some(true));
 }
 
 /// Links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
@@ -178,7 +178,7 @@ fn odd_links_and_elbows_on_obstacles() {
                 .filter(|&at| scene.clearance(at) > 1e-3)
                 .collect();
             assert!(free.len() > 1);
-            answers.extend(free.windows(2).map(|w| check(&scene, w[0], &[w[1]], 0.0)));
+            answers.extend(free.windows(2).map(|w| check(&scene, w[0], &w[1].into(), 0.0)));
         }
     }
     let decided = answers.iter().filter(|a| a.is_some()).count();
@@ -193,12 +193,12 @@ fn limits_longer_than_a_turn() {
     let pole = Convex::disc(Point::new(0.0, 0.7), 0.1);
     let closed = scene(rr([long, narrow]), vec![pole.clone()]);
     let turn = std::f64::consts::TAU;
-    assert_eq!(check(&closed, q(-4.0, 0.1), &[q(turn - 4.0, 0.1)], 0.0), Some(false));
+    assert_eq!(check(&closed, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(false));
     let open = scene(rr([long, narrow]), vec![]);
-    assert_eq!(check(&open, q(-4.0, 0.1), &[q(turn - 4.0, 0.1)], 0.0), Some(true));
+    assert_eq!(check(&open, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(true));
     // Within reach of the forearm from wherever the elbow can be.
     let second = scene(rr([narrow, long]), vec![Convex::disc(Point::new(1.2, 0.3), 0.15)]);
-    assert_eq!(check(&second, q(0.0, -4.0), &[q(0.0, turn - 4.0)], 0.0), Some(false));
+    assert_eq!(check(&second, q(0.0, -4.0), &q(0.0, turn - 4.0).into(), 0.0), Some(false));
 }
 
 #[test]
@@ -207,15 +207,15 @@ fn clearance_closes_ways() {
     let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
     let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
-    assert_eq!(check(&pole, start, &[goal], 0.0), Some(true));
-    assert_eq!(check(&pole, start, &[goal], 0.4), Some(false));
+    assert_eq!(check(&pole, start, &goal.into(), 0.0), Some(true));
+    assert_eq!(check(&pole, start, &goal.into(), 0.4), Some(false));
 }
 
 #[test]
 fn joints_that_cannot_move_are_left_to_others() {
     let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
     let scene = scene(rr([fixed, Axis::Circle]), clutter());
-    assert_eq!(check(&scene, q(0.5, 0.0), &[q(0.5, 0.1)], 0.0), None);
+    assert_eq!(check(&scene, q(0.5, 0.0), &q(0.5, 0.1).into(), 0.0), None);
 }
 
 /// All shipped workspaces, the six closed twins and the six open ones among them.

@@ -73,7 +73,7 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
     let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
     let effort = Effort { levels: 1, ..Effort::default() };
     for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {
-        let problem = Problem { scene: scene.clone(), start, goal: Goal::Joints(goal), goals: vec![goal] };
+        let problem = Problem { scene: scene.clone(), start, goal: Goal::Joints(goal), goals: goal.into() };
         for method in Method::ALL {
             let answer = solve(&problem, method, &effort, &mut |_| {});
             let Verdict::Found(certified) = &answer.verdict else {
@@ -93,7 +93,7 @@ fn a_start_without_room_to_spare_is_answered() {
     let (arm, mut workspace) = (scene.arm, scene.workspace);
     workspace.clearance = Scene::new(arm.clone(), workspace.clone()).clearance(start);
     let scene = Scene::new(arm, workspace);
-    let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] };
+    let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() };
     let effort = Effort { levels: 1, boxes: 1000, ..Effort::default() };
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, method, &effort, &mut |_| {});

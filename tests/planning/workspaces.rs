@@ -70,8 +70,7 @@ fn check(method: Method) {
                 let path = certified.path();
                 assert_eq!(path.start(), problem.start, "{name}");
                 let topology = problem.scene.arm.topology();
-                let ends = |g: &_| topology.distance(path.goal(), *g) < 1e-9;
-                assert!(problem.goals.iter().any(ends), "{name}: {:?}", path.goal());
+                assert!(problem.goals.contains(&topology, path.goal(), 1e-9), "{name}: {:?}", path.goal());
                 let sampled = sampled_clearance(problem, path, 2e-3);
                 assert!(certified.clearance() > 0.0, "{name}");
                 assert!(certified.clearance() >= problem.scene.workspace.clearance, "{name}");

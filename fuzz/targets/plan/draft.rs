@@ -127,6 +127,6 @@ impl Draft {
         let start = Some(place(self.start)).filter(free)?;
         let goals: Vec<Configuration> = self.goals.iter().map(|&g| place(g)).filter(free).collect();
         let goal = Goal::Joints(*goals.first()?);
-        Some(Problem { scene, start, goal, goals })
+        Some(Problem { scene, start, goal, goals: goals.into_iter().collect() })
     }
 }

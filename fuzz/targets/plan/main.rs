@@ -88,7 +88,7 @@ fn check_path(problem: &Problem, found: &CertifiedPath) {
     let topology = scene.arm.topology();
     assert!(found.clearance() > 0.0 && found.clearance() >= scene.workspace.clearance);
     assert_eq!(path.start(), problem.start);
-    assert!(problem.goals.iter().any(|&g| topology.distance(g, path.goal()) < 1e-9));
+    assert!(problem.goals.contains(&topology, path.goal(), 1e-9));
     assert!(path.waypoints().iter().all(|&q| topology.contains(q)));
     for (a, b) in path.segments().chain([(path.goal(), path.goal())]) {
         for i in 0..=SAMPLES {
@@ -111,7 +111,7 @@ fuzz_target!(|draft: Draft| {
                 let clearance = problem.scene.workspace.clearance;
                 proof.recheck(&problem.scene, problem.start, &problem.goals, clearance).expect("the proof holds");
                 let topology = problem.scene.arm.topology();
-                for &goal in &problem.goals {
+                for goal in problem.goals.points() {
                     let straight = Path::new(vec![problem.start, topology.lift(goal, problem.start)]);
                     assert!(certify(&problem.scene, straight, clearance).is_err(), "the straight way is free");
                 }

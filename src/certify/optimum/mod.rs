@@ -7,9 +7,10 @@ mod strips;
 
 use crate::geometry::Point;
 use crate::model::Scene;
-use crate::space::{Configuration, Measure, Metric, Topology};
+use crate::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
 use refine::passed;
 use search::{Search, Way};
+use std::f64::consts::TAU;
 use strips::Strips;
 
 /// What rounding and the tie-break of travel times may add to a shortest length, as a share of it.
@@ -51,7 +52,7 @@ const LEAST_SHARE: f64 = 1.0 / 64.0;
 pub fn least_length(
     scene: &Scene,
     start: Configuration,
-    goals: &[Configuration],
+    goals: &GoalSet,
     clearance: f64,
     metric: Metric,
     limit: f64,
@@ -60,12 +61,14 @@ pub fn least_length(
     let mut strips = Strips::new(scene, clearance);
     // Nearest to zero doubles are densest, and all turns are alike.
     let start = Point::from(strips.topology().wrap(start));
-    let largest =
-        start.coords.amax().max(goals.iter().map(|goal| strips.topology().wrap(*goal).amax()).fold(0.0, f64::max));
+    let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
+    let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.coords.amax(), f64::max);
     let rounded = |length: f64| (length - f64::max(length * ROUNDING, largest * COORDINATES)).max(0.0);
-    let copies = copies(strips.topology(), metric, start, goals, limit);
-    let straight = |goal: &Point| metric.norm(goal - start);
     let measure = Measure::from(metric);
+    let goals: Vec<Segment> = goals.iter().flat_map(|piece| strips.open_goals(piece)).collect();
+    let straight = |goals: &Segment| goals.distance(measure, start.coords);
+    let mut copies = copies(strips.topology(), metric, start, &goals, limit);
+    copies.retain(|copy| straight(copy) < limit);
     if strips.count() == 0 {
         // Joint 1 cannot move: what closes the way of joint 2 is not looked at.
         let nearest = copies.iter().map(straight).fold(limit, f64::min);
@@ -78,7 +81,7 @@ pub fn least_length(
     for _ in 0..ROUNDS {
         // Goals and doors on far turns cost time, so ways are looked for nearby first.
         let (length, corners) = loop {
-            let goals: Vec<Point> = copies.iter().copied().filter(|goal| straight(goal) < near).collect();
+            let goals: Vec<Segment> = copies.iter().copied().filter(|goal| straight(goal) < near).collect();
             match Search::new(&mut strips, measure, &goals, near).run(start) {
                 Way::Shortest(length, corners) => break (length, corners),
                 Way::NoneBelow(length) if length < near || near >= limit => break (length, Vec::new()),
@@ -98,19 +101,22 @@ pub fn least_length(
     rounded(best.min(limit))
 }
 
-/// All copies of the goals that are nearer than the limit.
-fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Configuration], limit: f64) -> Vec<Point> {
-    let axis = |k: usize, goal: f64| {
+/// All copies of the goals that may be nearer than the limit.
+fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
+    let turns = |k: usize, goals: &Segment| {
         let mut unit = Configuration::zeros();
         unit[k] = 1.0;
         let far = limit / metric.norm(unit);
-        topology.axes[k].copies_within(goal, (start[k] - far, start[k] + far)).collect::<Vec<_>>()
+        let [from, to] = goals.ends().map(|goal| goal[k]);
+        let (least, greatest) = (from.min(to), from.max(to));
+        let window = (start[k] - far - (greatest - least), start[k] + far);
+        let copies = topology.axes[k].copies_within(least, window);
+        copies.map(|copy| ((copy - least) / TAU).round()).collect::<Vec<_>>()
     };
     let mut copies = Vec::new();
-    for goal in goals {
-        let (first, second) = (axis(0, goal[0]), axis(1, goal[1]));
-        copies.extend(first.iter().flat_map(|&q1| second.iter().map(move |&q2| Point::new(q1, q2))));
+    for goals in goals {
+        let (first, second) = (turns(0, goals), turns(1, goals));
+        copies.extend(first.iter().flat_map(|&first| second.iter().map(move |&second| goals.turned([first, second]))));
     }
-    copies.retain(|copy| metric.norm(copy - start) < limit);
     copies
 }

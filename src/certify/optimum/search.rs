@@ -3,7 +3,7 @@
 use super::strips::{Cell, Door, Strips};
 use crate::geometry::{Ordered, Point};
 use crate::interrupt::checkpoint;
-use crate::space::Measure;
+use crate::space::{Measure, Segment};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 use std::f64::consts::TAU;
@@ -74,7 +74,7 @@ impl Cone {
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
-    goals: &'s [Point],
+    goals: &'s [Segment],
     /// Nothing as long as this is looked for.
     limit: f64,
     /// Values of joint 2 that ways shorter than the limit keep to.
@@ -87,7 +87,7 @@ pub(super) struct Search<'s, 'a> {
 }
 
 impl<'s, 'a> Search<'s, 'a> {
-    pub fn new(strips: &'s mut Strips<'a>, measure: Measure, goals: &'s [Point], limit: f64) -> Self {
+    pub fn new(strips: &'s mut Strips<'a>, measure: Measure, goals: &'s [Segment], limit: f64) -> Self {
         Self {
             strips,
             measure,
@@ -144,8 +144,10 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    fn push_goal(&mut self, root: u32, goal: Point, parent: f64) {
+    /// The nearest of some goals, all of which can be reached straight from a root.
+    fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
+        let goal = Point::from(goals.nearest(self.measure, at.coords));
         self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
     }
 
@@ -163,7 +165,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let side = if ahead { 1.0 } else { -1.0 };
         let line = [Point::new(x, right - side), Point::new(x, left + side)];
         let ends = [Point::new(x, right), Point::new(x, left)];
-        let through = |goal: &Point| self.measure.through(at, ends, line, *goal);
+        let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
         let bound = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
         let seen = Door { lower, upper, tips };
         self.push(bound.max(parent), Entry::Cone(Cone { root, row, ahead, seen }));
@@ -203,12 +205,21 @@ impl<'s, 'a> Search<'s, 'a> {
         doors
     }
 
-    /// The goals in a cell of a strip.
-    fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Point> + use<'s> {
+    /// The goals in a cell of a strip: of a segment the part.
+    fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
-        self.goals.iter().copied().filter(move |goal| {
-            let [lower, upper] = cell.at((goal.x - from) / (to - from));
-            from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper
+        self.goals.iter().filter_map(move |goals| {
+            let part = goals.within([from, f64::NEG_INFINITY], [to, f64::INFINITY])?;
+            let beyond = |part: &Segment, side: usize| {
+                part.ends().map(|q| {
+                    let [lower, upper] = cell.at((q[0] - from) / (to - from));
+                    if side == 0 { q[1] - lower } else { upper - q[1] }
+                })
+            };
+            (0..2).try_fold(part, |part, side| {
+                let [a, b] = beyond(&part, side);
+                part.where_positive(a, b)
+            })
         })
     }
 
@@ -218,7 +229,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
         let Some(cell) = self.strips.cell(strip, (at.x - from) / (to - from), at.y) else { return };
         for goal in self.goals(strip, cell) {
-            self.push_goal(root, goal, parent);
+            self.push_goal(root, &goal, parent);
         }
         for (row, ahead, share) in [(strip, false, 0.0), (strip + 1, true, 1.0)] {
             let range = cell.at(share);
@@ -247,7 +258,8 @@ impl<'s, 'a> Search<'s, 'a> {
             };
             if let Some(root) = self.turn(root, row, Point::new(at.x, end), !ahead) {
                 let Root { at, cost, .. } = self.roots[root as usize];
-                let nearest = self.goals.iter().map(|goal| self.measure.norm(goal - at)).fold(f64::INFINITY, f64::min);
+                let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at.coords));
+                let nearest = ways.fold(f64::INFINITY, f64::min);
                 self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { row - 1 } else { row }));
             }
         }
@@ -263,18 +275,25 @@ impl<'s, 'a> Search<'s, 'a> {
         let below = if seen.tips[0] { self.turn(root, row, Point::new(x, seen.lower), ahead) } else { None };
         let above = if seen.tips[1] { self.turn(root, row, Point::new(x, seen.upper), ahead) } else { None };
         let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
-        for goal in self.goals(cone.strip(), cell) {
-            // Where the straight line to the goal passes the row.
-            let at = from.y + (goal.y - from.y) * ((x - from.x) / (goal.x - from.x));
-            let by = if at < seen.lower - hair[0] {
-                below
-            } else if at > seen.upper + hair[1] {
-                above
-            } else {
-                Some(root)
+        for goals in self.goals(cone.strip(), cell) {
+            // How far they are above the line from the root past a value at the row.
+            let above_line = |goals: &Segment, at: f64| {
+                let slope = (at - from.y) / (x - from.x);
+                goals.ends().map(|goal| goal[1] - from.y - slope * (goal[0] - from.x))
             };
-            if let Some(by) = by {
-                self.push_goal(by, goal, bound);
+            let (lowest, highest) = (seen.lower - hair[0], seen.upper + hair[1]);
+            let low = above_line(&goals, lowest);
+            let in_sight = goals.where_positive(low[0], low[1]).and_then(|goals| {
+                let [a, b] = above_line(&goals, highest);
+                goals.where_positive(-a, -b)
+            });
+            if let Some(goals) = in_sight {
+                self.push_goal(root, &goals, bound);
+            }
+            let high = above_line(&goals, highest);
+            let by = [below.filter(|_| low.iter().any(|a| *a < 0.0)), above.filter(|_| high.iter().any(|a| *a > 0.0))];
+            for by in by.into_iter().flatten() {
+                self.push_goal(by, &goals, bound);
             }
         }
         let far = cone.far();

@@ -3,7 +3,7 @@
 use super::closed::{Closed, Wall};
 use crate::geometry::merge_in_place;
 use crate::model::Scene;
-use crate::space::{Axis, Configuration, Topology};
+use crate::space::{Axis, Configuration, Segment, Topology};
 use std::f64::consts::TAU;
 
 /// The first strips are this share of the domain wide, or narrower beside values that link 1 closes. At least three, so
@@ -213,6 +213,30 @@ impl<'a> Strips<'a> {
             self.strips[after].doors = Some(if is_closed { Vec::new() } else { left_by(&closed, axis) });
         }
         self.strips[after].doors.as_deref().unwrap_or(&[])
+    }
+
+    /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the
+    /// strips.
+    pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
+        let [from, to] = piece.ends();
+        let axis = self.topology.axes[1];
+        let ((bottom, top), (low, high)) = ((from[1].min(to[1]), from[1].max(to[1])), axis.domain());
+        if piece.is_point() || from[0] != to[0] || bottom < low || high < top {
+            return vec![*piece];
+        }
+        let walls = self.closed.walls(self.topology.axes[0].wrap(from[0]));
+        let mut closed: Vec<[f64; 2]> =
+            walls.iter().flat_map(|wall| within_domain(axis, wall.lower, wall.upper)).collect();
+        merge_in_place(&mut closed);
+        let mut open = Vec::new();
+        let mut at = bottom;
+        for [lower, upper] in closed.into_iter().chain([[top, f64::INFINITY]]) {
+            if at < lower.min(top) {
+                open.push([at, lower.min(top)].map(|q2| Configuration::new(from[0], q2)));
+            }
+            at = at.max(upper);
+        }
+        open.into_iter().map(|[from, to]| Segment::new(from, to)).collect()
     }
 
     /// What is closed at the row before a strip.

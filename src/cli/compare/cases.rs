@@ -54,7 +54,7 @@ impl Case {
 }
 
 fn asked(base: &Problem, start: Configuration, goal: Configuration) -> Problem {
-    Problem { scene: base.scene.clone(), start, goal: Goal::Joints(goal), goals: vec![goal] }
+    Problem { scene: base.scene.clone(), start, goal: Goal::Joints(goal), goals: goal.into() }
 }
 
 impl Cases {
@@ -131,7 +131,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>,
             scene.workspace.clearance = input::clearance(clearance).map_err(input::InputError::from)?;
         }
         let nowhere = Configuration::zeros();
-        Ok((member.name, Problem { scene, start: nowhere, goal: Goal::Joints(nowhere), goals: vec![nowhere] }))
+        Ok((member.name, Problem { scene, start: nowhere, goal: Goal::Joints(nowhere), goals: nowhere.into() }))
     };
     suite.members.into_iter().map(scene).collect()
 }

@@ -109,7 +109,7 @@ fn picture<'a>(
         status: format!("{found} of {} found a certified path", comparison.rows.len()),
         scene: &problem.scene,
         start: problem.start,
-        goals: &problem.goals,
+        goals: problem.goals.pieces(),
         paths,
         trace: None,
         proof: &[],

@@ -11,7 +11,7 @@ use crate::input::{LoadedScene, Overrides};
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::model::{Arm, inverse, within};
 use crate::solve::Method;
-use crate::space::{Axis, Configuration};
+use crate::space::{Axis, Configuration, Measure, Metric};
 use std::time::{Duration, Instant};
 
 /// The page is not to wait longer than this for what it shows while something is dragged.
@@ -133,9 +133,9 @@ impl<'a> Desk<'a> {
                 return Ok(shown.map(|shown| AnswerReply { error, toml, start, ..shown }));
             }
         };
-        let (start, goals) = (problem.start, &problem.goals);
+        let (start, goals) = (problem.start, problem.goals.pieces());
         let places = |answer: AnswerReply| {
-            let goals = goals.iter().map(|&q| q.into()).collect();
+            let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
             AnswerReply { start: Some(start.into()), goals, ..answer }
         };
         let plan = || match ask.is_final {

@@ -12,13 +12,13 @@ use crate::draw::{Ending, Picture, View};
 use crate::input::LoadedTask;
 use crate::model::{Problem, Scene};
 use crate::solve::{Answer, Effort, Method, Verdict, solve};
-use crate::space::Configuration;
+use crate::space::{Configuration, Segment};
 use crate::task::{Manner, TaskReport, TaskVerdict};
 use crate::trajectory::Report;
 use serde_json::value::RawValue;
 
 /// A scene with its configuration space, and no path: why not, in a word or two.
-pub fn bare(scene: &Scene, start: Configuration, goals: &[Configuration], status: &str) -> AnswerReply {
+pub fn bare(scene: &Scene, start: Configuration, goals: &[Segment], status: &str) -> AnswerReply {
     let contours = output::contours(scene);
     let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
     AnswerReply { view: drawn(&View::of_picture(&picture, Ending::Shown, Vec::new(), None)), ..AnswerReply::default() }
@@ -35,7 +35,7 @@ pub fn quick(problem: &Problem, method: Method, effort: &Effort) -> AnswerReply 
         trace: Some(&answer.run.trace),
         proof: answer.verdict.proof(),
         status: planned::status(&answer.verdict).into(),
-        ..picture(&problem.scene, problem.start, &problem.goals, &contours)
+        ..picture(&problem.scene, problem.start, problem.goals.pieces(), &contours)
     };
     if let Verdict::Found(path) = &answer.verdict {
         reply.figures.length = Some(effort.metric.length(path.path()));
@@ -49,7 +49,7 @@ pub fn quick(problem: &Problem, method: Method, effort: &Effort) -> AnswerReply 
 fn picture<'a>(
     scene: &'a Scene,
     start: Configuration,
-    goals: &'a [Configuration],
+    goals: &'a [Segment],
     c_obstacles: &'a [CObstacle],
 ) -> Picture<'a> {
     Picture {

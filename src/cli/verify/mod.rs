@@ -136,7 +136,7 @@ fn draw(
     let path = recording.outline();
     // The arm is shown where it hits.
     let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
-    let goals = [shown.unwrap_or(path.goal())];
+    let goals = [shown.unwrap_or(path.goal()).into()];
     let picture = Picture {
         title: vec![output::title_of(scene), format!("{} samples", findings.samples)],
         status: findings.verdict.word().into(),

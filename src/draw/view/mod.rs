@@ -21,6 +21,7 @@ mod world;
 pub use html::{page, shell};
 
 use super::{Picture, Posture, TaskPicture, extent};
+use crate::space::Segment;
 use crate::trajectory::Trajectory;
 use arm::ArmView;
 use motion::{Clock, MotionView, PathView};
@@ -58,6 +59,8 @@ pub struct View {
     frame: [[f64; 2]; 2],
     start: [f64; 2],
     goals: Vec<[f64; 2]>,
+    /// Goals along segments: both ends of each, one coordinate after the other.
+    goal_lines: Vec<[f64; 4]>,
     worlds: Vec<WorldView>,
     paths: Vec<PathView>,
     motions: Vec<MotionView>,
@@ -79,11 +82,14 @@ impl View {
     pub fn of_picture(picture: &Picture, ending: Ending, facts: Vec<[String; 2]>, motion: Option<&Trajectory>) -> Self {
         let arm = &picture.scene.arm;
         let grain = Grain::of(arm);
-        let shown: Vec<_> = [picture.start].into_iter().chain(picture.goals.iter().copied()).collect();
         let world = WorldView::new(picture.scene, String::new(), picture.c_obstacles, grain);
         let world = match picture.trace {
             Some(trace) => world.traced(trace, &arm.topology(), grain),
             None => world,
+        };
+        let line = |goals: &Segment| {
+            let [[a, b], [c, d]] = goals.ends().map(|q| grain.configuration(q));
+            [a, b, c, d]
         };
         Self {
             title: picture.title.clone(),
@@ -91,9 +97,11 @@ impl View {
             ending,
             facts,
             arm: ArmView::new(picture.scene, grain),
-            frame: extent::sides(picture.scene, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
+            frame: extent::sides(picture.scene, &picture.shown())
+                .map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
             start: grain.configuration(picture.start),
-            goals: picture.goals.iter().map(|&q| grain.configuration(q)).collect(),
+            goals: picture.single_goals().into_iter().map(|q| grain.configuration(q)).collect(),
+            goal_lines: picture.goals.iter().filter(|goal| !goal.is_point()).map(line).collect(),
             worlds: vec![world.proven(picture.proof, grain)],
             paths: PathView::of_picture(&picture.paths, grain),
             motions: motion.map(|trajectory| MotionView::only(trajectory.duration())).into_iter().collect(),

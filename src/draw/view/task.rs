@@ -51,6 +51,7 @@ pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> V
         frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
         start: grain.configuration(task.start),
         goals: Vec::new(),
+        goal_lines: Vec::new(),
         worlds: worlds.views,
         paths,
         motions,

@@ -3,6 +3,7 @@
 use super::corners::{Corner, Tangency};
 use super::{Mesh, next, previous};
 use crate::geometry::{Orientation, Point, orientation};
+use crate::space::Segment;
 
 /// A ray from a root, as a directed line through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,8 +41,16 @@ impl Cone {
     }
 
     /// Whether `p` lies on one of the rays or on the line of one before the root.
-    pub fn holds(&self, p: Point) -> bool {
+    fn holds(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
+    }
+
+    /// The part of a segment that lies on the rays or on their lines before the root; exact for a point.
+    pub fn part(&self, segment: &Segment) -> Option<Segment> {
+        if segment.is_point() {
+            return self.holds(segment.corners()[0]).then_some(*segment);
+        }
+        segment.left_of(self.right.from, self.right.to)?.left_of(self.left.to, self.left.from)
     }
 }
 

@@ -12,6 +12,7 @@ pub(super) use corners::{Corner, Tangency};
 use super::NONE;
 use super::boundary::Boundary;
 use crate::geometry::Point;
+use crate::space::Segment;
 use corners::Corners;
 use location::Columns;
 use triangulation::HalfEdges;
@@ -52,6 +53,19 @@ impl Mesh {
     /// even size.
     pub fn triangles_at(&self, p: Point) -> impl Iterator<Item = u32> + '_ {
         self.columns.triangles_at(&self.vertices, &self.edges, p)
+    }
+
+    /// The triangles that hold any of a segment, and what. Linear, but for a point.
+    pub fn parts_of(&self, segment: &Segment) -> Vec<(u32, Segment)> {
+        if segment.is_point() {
+            let [at, _] = segment.corners();
+            return self.triangles_at(at).map(|triangle| (triangle, *segment)).collect();
+        }
+        let part = |triangle: u32| {
+            let corners = [0, 1, 2].map(|k| self.origin(3 * triangle + k));
+            Some((triangle, segment.within_polygon(&corners)?))
+        };
+        (0..self.triangles() as u32).filter_map(part).collect()
     }
 
     /// The point at which a half-edge begins.

@@ -39,7 +39,7 @@ fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {
 }
 
 fn run(planner: FieldPlanner, zoned: &ZonedGrid, start: usize, goal: usize) -> Run {
-    let query = Query { start: zoned.grid.center(start), goals: vec![zoned.grid.center(goal)] };
+    let query = Query { start: zoned.grid.center(start), goals: zoned.grid.center(goal).into() };
     planner.build(zoned);
     planner.query(zoned, &(), &query)
 }
@@ -87,7 +87,7 @@ proptest! {
         let mut blocked = blocked;
         (blocked[start], blocked[goal]) = (false, false);
         let zoned = ZonedGrid::new(grid(cells, [circle, false], blocked), &scene(Vec::new()));
-        let query = Query { start: zoned.grid.center(start), goals: vec![zoned.grid.center(goal)] };
+        let query = Query { start: zoned.grid.center(start), goals: zoned.grid.center(goal).into() };
         let wave = Wavefront::default();
         let exists = match wave.query(&zoned.grid, &wave.build(&zoned.grid), &query).outcome {
             Outcome::Found(_) => true,

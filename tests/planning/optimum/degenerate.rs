@@ -24,7 +24,7 @@ fn assert_straight(axes: [Axis; 2], start: Configuration, goals: &[Configuration
         let straight = goals.iter().map(way).fold(f64::INFINITY, f64::min);
         for factor in LIMITS {
             let limit = factor * straight.max(0.1);
-            let found = least_length(&scene, start, goals, 0.0, metric, limit, 1e-4);
+            let found = least_length(&scene, start, &goals.iter().copied().collect(), 0.0, metric, limit, 1e-4);
             let error = (found - straight).abs();
             assert!(
                 error <= 2.0 * ROUNDING * straight.max(1e-3),
@@ -86,7 +86,7 @@ fn starts_and_goals_on_rows() {
 }
 
 fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
-    Problem { scene: scene(rr(axes), pieces), start, goal: Goal::Joints(goal), goals: vec![goal] }
+    Problem { scene: scene(rr(axes), pieces), start, goal: Goal::Joints(goal), goals: goal.into() }
 }
 
 /// A post that the upper arm cannot pass: goals on its other side are reached the other way round, with a straight arm.

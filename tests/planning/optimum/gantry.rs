@@ -17,7 +17,7 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
     let links = [link("beam", Vec::new()), link("tool", vec![Convex::disc(Point::origin(), 0.0)])];
     let arm = arm(joints, links, Vector::zeros(), Point::origin());
-    Problem { scene: scene(arm, pieces), start, goal: Goal::Joints(goals[0]), goals: goals.to_vec() }
+    Problem { scene: scene(arm, pieces), start, goal: Goal::Joints(goals[0]), goals: goals.iter().copied().collect() }
 }
 
 /// With slides along x and y.

@@ -74,7 +74,7 @@ proptest! {
         let start = inside(&scene, start);
         let goals: Vec<_> = goals.into_iter().map(|at| inside(&scene, at)).collect();
         prop_assume!(goals.iter().chain([&start]).all(|&at| scene.clearance(at) > clearance + 1e-6));
-        keeps_below(&Problem { scene, start, goal: Goal::Joints(goals[0]), goals }, gap);
+        keeps_below(&Problem { scene, start, goal: Goal::Joints(goals[0]), goals: goals.into_iter().collect() }, gap);
     }
 
     /// Touching, pointed and thin obstacles, joints of all ranges, starts on limits, on other turns, next to obstacles.
@@ -96,6 +96,6 @@ proptest! {
         let scene = scene(all_kinds().swap_remove(kind), walls);
         let (start, goal) = (inside(&scene, start), inside(&scene, goal));
         prop_assume!(scene.clearance(start) > 1e-6 && scene.clearance(goal) > 1e-6);
-        keeps_below(&Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] }, gap);
+        keeps_below(&Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() }, gap);
     }
 }

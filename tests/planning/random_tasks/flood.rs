@@ -124,7 +124,7 @@ fn payloads_are_judged_like_a_flood_fill() {
         let surely = bitmap.connects(start, goal, &[Cell::Free]);
         let perhaps = bitmap.connects(start, goal, &[Cell::Free, Cell::Mixed]);
         decisive += u64::from(surely || !perhaps);
-        let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: vec![goal] };
+        let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() };
         let effort = Effort { levels: 4, boxes: 20_000, bounded: false, ..Effort::default() };
         match solve(&problem, Method::Visibility, &effort, &mut |_| {}).verdict {
             Verdict::Found(_) => {

@@ -82,7 +82,7 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
             if path.start() != problem.start {
                 return Some(format!("starts at {:?}", path.start()));
             }
-            if !problem.goals.iter().any(|&g| topology.distance(g, path.goal()) < ROUNDING) {
+            if !problem.goals.contains(&topology, path.goal(), ROUNDING) {
                 return Some(format!("ends at {:?}", path.goal()));
             }
             for q in path.waypoints() {
@@ -107,7 +107,7 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let kind = problem.scene.arm.kind();
     let clock = Instant::now();
     let oracle = Oracle::new(&problem.scene);
-    let truth = connected(&oracle, problem.start, &problem.goals, run.lattice);
+    let truth = connected(&oracle, problem.start, &problem.goals.points().collect::<Vec<_>>(), run.lattice);
     let oracle_time = clock.elapsed();
     let mut lies = Vec::new();
     let mut lengths = [None; PLANNERS];
@@ -160,7 +160,7 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
     let margin = 3.0 * run.effort.margin * problem.scene.arm.reach();
     if let Some((shortest, _, _)) = lengths[0]
-        && problem.goals.iter().all(|&goal| oracle.room(goal) > margin)
+        && problem.goals.points().all(|goal| oracle.room(goal) > margin)
     {
         let margin = margin + problem.scene.workspace.clearance;
         for (length, clearance, _) in lengths[1..].iter().flatten() {

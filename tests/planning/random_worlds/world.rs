@@ -58,7 +58,7 @@ pub fn world(kind: &str, seed: u64) -> Option<Problem> {
     let count = 1 + dice.below(3);
     let goals: Vec<Configuration> = (0..count).filter_map(|_| free(&mut dice, &scene)).collect();
     let goal = Goal::Joints(*goals.first()?);
-    Some(Problem { scene, start, goal, goals })
+    Some(Problem { scene, start, goal, goals: goals.into_iter().collect() })
 }
 
 fn arm(dice: &mut Dice, kind: &str) -> Arm {

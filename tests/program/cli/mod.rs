@@ -4,6 +4,7 @@ mod commands;
 mod compare;
 mod fields;
 mod first;
+mod free_joint;
 mod help;
 mod inputs;
 mod mazes;

@@ -10,7 +10,7 @@ use cplan::draw::{Ending, Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene};
 use cplan::plan::Trace;
-use cplan::space::{Axis, Configuration, Path};
+use cplan::space::{Axis, Configuration, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
@@ -129,7 +129,7 @@ fn planned(
         status: "found".to_owned(),
         scene,
         start: path.start(),
-        goals: &[path.goal()],
+        goals: &[path.goal().into()],
         paths: vec![("wavefront".to_owned(), &path)],
         trace: Some(&trace),
         proof: &[],
@@ -204,7 +204,7 @@ fn a_comparison_tells_paths_apart() {
         status: "3 of 3 found".to_owned(),
         scene: &scene,
         start: walk.start(),
-        goals: &[walk.goal()],
+        goals: &[walk.goal().into()],
         paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
         trace: None,
         proof: &[],
@@ -229,7 +229,7 @@ fn a_crowd_without_a_path() {
         status: "infeasible: proven".to_owned(),
         scene: &scene,
         start: at(-2.0, 2.4),
-        goals: &[at(1.0, -2.4), at(2.0, 2.4)],
+        goals: &[at(1.0, -2.4).into(), at(2.0, 2.4).into()],
         paths: Vec::new(),
         trace: None,
         proof: &[],
@@ -239,7 +239,7 @@ fn a_crowd_without_a_path() {
     assert!(words.contains("infeasible: proven") && !words.contains("o17"));
 }
 
-fn bare<'a>(scene: &'a Scene, goals: &'a [Configuration]) -> Picture<'a> {
+fn bare<'a>(scene: &'a Scene, goals: &'a [Segment]) -> Picture<'a> {
     Picture {
         title: vec!["<&> \"title\"".to_owned()],
         status: "unknown".to_owned(),
@@ -262,7 +262,7 @@ fn empty_and_degenerate_scenes_have_finite_axes() {
         [1e-9, 1e-9],
         [capsule(0.0, 0.0), capsule(0.0, 0.0)],
     );
-    let no_goals: [Configuration; 0] = [];
+    let no_goals: [Segment; 0] = [];
     let far = || vec![circle("far", 1e9, -1e9, 1.0), polygon("farther", &[(1e12, 0.0), (1e12, 1.0), (9e11, 1.0)])];
     for (name, scene) in [
         ("empty", scene(planar([Axis::Circle, interval(-1.0, 1.0)]), Vec::new())),
@@ -280,7 +280,7 @@ fn empty_and_degenerate_scenes_have_finite_axes() {
 fn a_motion_that_stays_where_it_is_is_drawn() {
     let scene = three();
     let path = Path::new(vec![at(0.0, 0.0)]);
-    let goals = [at(0.0, 0.0)];
+    let goals = [at(0.0, 0.0).into()];
     for trace in [
         Trace::Roadmap { edges: Vec::new(), whole: true },
         Trace::Channel { cells: [].into(), channel: Vec::new() },
@@ -306,7 +306,7 @@ mod raster {
     #[test]
     fn a_png_has_its_size_and_is_not_blank() {
         let scene = three();
-        let goals = [at(1.0, 1.0)];
+        let goals = [at(1.0, 1.0).into()];
         let bytes = png(&bare(&scene, &goals), 0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         let pixels = resvg::tiny_skia::Pixmap::decode_png(&bytes).unwrap();

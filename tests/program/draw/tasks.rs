@@ -427,7 +427,7 @@ fn pictures_of_one_motion_show_what_is_carried() {
         status: String::new(),
         scene: &leg.scene,
         start: path.start(),
-        goals: &[path.goal()],
+        goals: &[path.goal().into()],
         paths: vec![("visibility".into(), &path)],
         trace: None,
         proof: &[],

@@ -62,7 +62,7 @@ fn cplan_length(
     map: &<Visibility as Planner>::Map,
     &[start, goal]: &[Configuration; 2],
 ) -> Option<f64> {
-    match Visibility::default().query(regions, map, &Query { start, goals: vec![goal] }).outcome {
+    match Visibility::default().query(regions, map, &Query { start, goals: goal.into() }).outcome {
         Outcome::Found(path) => Some(path.length()),
         Outcome::NoPath | Outcome::GaveUp(_) => None,
     }

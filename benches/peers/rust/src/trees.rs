@@ -29,7 +29,7 @@ pub fn run(urdf: &str, world: &str, planner: &str, seed: u64, limit: f64) -> Res
     let definition = Arc::new(ProblemDefinition {
         space: Arc::new(Torus),
         start_states: vec![joints(problem.start)],
-        goal: Arc::new(Target(joints(problem.goals[0]))),
+        goal: Arc::new(Target(joints(problem.goals.points().next().expect("a single goal")))),
     });
     let checker = Arc::new(Checker::new(&bars, &obstacles));
     let start = Instant::now();

@@ -236,8 +236,22 @@ const CSpace = (() => {
         });
       }
     }
+    goalLines(context, panel, view);
     view.goals().forEach(([q, reached]) => diamond(context, panel, place(view, panel, q), reached));
     ring(context, panel, place(view, panel, view.beginning()), 5.5);
+  }
+
+  /** Goals of which a joint is free: dots along a line. */
+  function goalLines(context, panel, view) {
+    for (const [width, color] of [[4.6, panel.theme.paper], [2, panel.theme.ink]]) {
+      context.beginPath();
+      for (const line of view.model.goal_lines) shifted(context, panel, line, circles(view), false);
+      context.setLineDash(width > 2 ? [] : [1.5, 3.5]);
+      context.lineWidth = width;
+      context.strokeStyle = color;
+      context.stroke();
+    }
+    context.setLineDash([]);
   }
 
   function place(view, panel, q) {

@@ -1,0 +1,157 @@
+//! Where a motion may end.
+
+use super::{Axis, Configuration, Measure, Metric, Segment, Topology};
+use std::f64::consts::TAU;
+
+/// A set of configurations to reach any of: single ones, and straight segments of them.
+///
+/// A goal of the tip leaves a joint free where the tip is on that joint's axis, or where the tip's goal is on the axis of joint
+/// 1: then all values of the joint within its limits will do, which is a segment. On a circle copies by whole turns belong to
+/// the set.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GoalSet {
+    pieces: Vec<Segment>,
+}
+
+impl GoalSet {
+    /// Its pieces: points are segments without length.
+    #[must_use]
+    pub fn pieces(&self) -> &[Segment] {
+        &self.pieces
+    }
+
+    /// The single configurations among them.
+    pub fn points(&self) -> impl Iterator<Item = Configuration> {
+        self.pieces.iter().filter(|piece| piece.is_point()).map(|piece| piece.ends()[0])
+    }
+
+    /// Whether there is nothing to reach.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// Its pieces as copies that lie in the fundamental domain; of a piece across a seam as many as cover it there.
+    pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Segment> {
+        self.pieces.iter().flat_map(|piece| {
+            let [from, to] = piece.ends();
+            let [first, second] = [0, 1].map(|k| into_domain(topology.axes[k], [from[k], to[k]]));
+            let pairs = first.iter().flat_map(|a| second.iter().map(move |b| [0, 1].map(|end| [a[end], b[end]])));
+            pairs.map(|ends| ends.map(Configuration::from)).map(|[from, to]| Segment::new(from, to)).collect::<Vec<_>>()
+        })
+    }
+
+    /// The configuration of the set that is nearest to `q`, as the copy nearest to it; the first of several.
+    #[must_use]
+    pub fn nearest(&self, topology: &Topology, metric: Metric, q: Configuration) -> Option<Configuration> {
+        let measure = Measure::from(metric);
+        let copies = self.pieces.iter().flat_map(|piece| copies_near(topology, piece, q));
+        let places = copies.map(|copy| copy.nearest(measure, q));
+        places.reduce(|best, next| if metric.norm(next - q) < metric.norm(best - q) { next } else { best })
+    }
+
+    /// Length of the shortest displacement from `q` to any of it; infinite if it is empty.
+    #[must_use]
+    pub fn distance(&self, topology: &Topology, metric: Metric, q: Configuration) -> f64 {
+        self.nearest(topology, metric, q).map_or(f64::INFINITY, |goal| metric.norm(goal - q))
+    }
+
+    /// Whether `q`, or a copy of it, is in the set up to a Euclidean distance.
+    #[must_use]
+    pub fn contains(&self, topology: &Topology, q: Configuration, tolerance: f64) -> bool {
+        self.distance(topology, Metric::Euclidean, q) <= tolerance
+    }
+}
+
+/// The copies of a stretch of values that are in the domain of an axis, or any of their length.
+fn into_domain(axis: Axis, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let (lower, upper) = axis.domain();
+    match axis {
+        Axis::Interval { .. } => vec![[from, to]],
+        Axis::Circle if from == to => vec![[axis.wrap(from); 2]],
+        Axis::Circle => {
+            // From where its greatest value comes past the lower end to where its least one is short of the upper end.
+            let first = ((lower - from.max(to)) / TAU).floor() as i64 + 1;
+            let last = ((upper - from.min(to)) / TAU).ceil() as i64 - 1;
+            (first..=last).map(|turns| [from, to].map(|value| axis.turned(value, turns as f64))).collect()
+        }
+    }
+}
+
+/// The copies of a piece that may be nearest to `q`: on a circle those at most a turn from its middle.
+fn copies_near(topology: &Topology, piece: &Segment, q: Configuration) -> impl Iterator<Item = Segment> + use<> {
+    let middle = piece.at(0.5);
+    let turns = [0, 1].map(|k| {
+        let turns = if topology.axes[k].is_circle() { ((q[k] - middle[k]) / TAU).round() } else { 0.0 };
+        let around = if topology.axes[k].is_circle() { -1..=1 } else { 0..=0 };
+        around.map(move |more| turns + f64::from(more))
+    });
+    let [first, second] = turns;
+    let piece = *piece;
+    first.flat_map(move |first| second.clone().map(move |second| piece.turned([first, second])))
+}
+
+impl From<Configuration> for GoalSet {
+    fn from(q: Configuration) -> Self {
+        Self { pieces: vec![Segment::point(q)] }
+    }
+}
+
+impl From<Segment> for GoalSet {
+    fn from(piece: Segment) -> Self {
+        Self { pieces: vec![piece] }
+    }
+}
+
+impl<P: Into<Segment>> FromIterator<P> for GoalSet {
+    fn from_iter<I: IntoIterator<Item = P>>(pieces: I) -> Self {
+        Self { pieces: pieces.into_iter().map(Into::into).collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::Axis;
+    use std::f64::consts::PI;
+
+    fn at(q1: f64, q2: f64) -> Configuration {
+        Configuration::new(q1, q2)
+    }
+
+    #[test]
+    fn the_nearest_goal_may_be_on_another_turn() {
+        let topology = Topology { axes: [Axis::Circle, Axis::Interval { lower: -2.0, upper: 2.0 }] };
+        let goals: GoalSet =
+            [Segment::new(at(3.0, -2.0), at(3.0, 2.0)), Segment::point(at(0.0, 0.0))].into_iter().collect();
+        assert_eq!(goals.nearest(&topology, Metric::Euclidean, at(-3.0, 0.7)), Some(at(3.0 - TAU, 0.7)));
+        assert_eq!(goals.nearest(&topology, Metric::Euclidean, at(-3.0 + TAU, 2.5)), Some(at(3.0, 2.0)));
+        assert!(goals.contains(&topology, at(3.0 - 3.0 * TAU, -1.0), 1e-9));
+        assert!(!goals.contains(&topology, at(2.9, -1.0), 1e-9));
+        assert_eq!(GoalSet::default().distance(&topology, Metric::Euclidean, at(0.0, 0.0)), f64::INFINITY);
+    }
+
+    #[test]
+    fn in_the_domain_a_piece_across_a_seam_is_two() {
+        let topology = Topology { axes: [Axis::Circle, Axis::Circle] };
+        let wrapped = |from, to| GoalSet::from(Segment::new(from, to)).wrapped(&topology).collect::<Vec<_>>();
+        let inside = Segment::new(at(1.0, -PI), at(1.0, PI));
+        assert_eq!(wrapped(at(1.0, -PI), at(1.0, PI)), [inside]);
+        assert_eq!(wrapped(at(PI, 0.5), at(PI, 1.0)), [Segment::new(at(-PI, 0.5), at(-PI, 1.0))]);
+        let across = wrapped(at(3.0, 0.5), at(4.0, 0.5));
+        assert_eq!(
+            across,
+            [Segment::new(at(3.0 - TAU, 0.5), at(4.0 - TAU, 0.5)), Segment::new(at(3.0, 0.5), at(4.0, 0.5))]
+        );
+    }
+
+    #[test]
+    fn a_whole_circle_has_no_ends() {
+        let topology = Topology { axes: [Axis::Circle; 2] };
+        let circle = GoalSet::from(Segment::new(at(-PI, 1.0), at(PI, 1.0)));
+        for k in -20..20 {
+            let q = at(f64::from(k) * 0.7, 1.25);
+            assert!((circle.distance(&topology, Metric::Euclidean, q) - 0.25).abs() < 1e-12, "{q}");
+        }
+    }
+}

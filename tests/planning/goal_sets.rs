@@ -1,0 +1,240 @@
+//! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
+//!
+//! `CPLAN_CASES` asks for another number of random worlds.
+
+use crate::common::{arm, joint, link, rectangle, scene};
+use crate::random_worlds::world::Dice;
+use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Arm, Goal, Motion, Problem, Scene, inverse};
+use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Values of the free joint that are tried one by one.
+const TRIED: usize = 13;
+
+fn cases(default: u64) -> u64 {
+    std::env::var("CPLAN_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default)
+}
+
+/// An arm whose tip goal leaves a joint free, and where the tip is to go.
+fn drawn(dice: &mut Dice) -> (Arm, Point) {
+    let turn = |dice: &mut Dice| Motion::Revolute { sign: if dice.below(3) == 0 { -1.0 } else { 1.0 } };
+    let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
+    let turns = |dice: &mut Dice| match dice.below(3) {
+        0 => Axis::Circle,
+        1 => Axis::Interval { lower: -dice.range(1.5, 3.3), upper: dice.range(1.5, 3.3) },
+        _ => Axis::Interval { lower: -4.0, upper: 4.5 },
+    };
+    let stroke = |dice: &mut Dice| Axis::Interval { lower: -dice.range(0.3, 1.0), upper: dice.range(0.3, 1.0) };
+    let links = |length: f64| {
+        [
+            link("first", vec![rectangle(0.0, length, -0.03, 0.03)]),
+            link("second", vec![rectangle(-0.05, 0.7, -0.03, 0.03)]),
+        ]
+    };
+    match dice.below(5) {
+        // The tip on the axis of a turning joint 2.
+        0 | 1 => {
+            let joints = [joint("a", turn(dice), turns(dice)), joint("b", turn(dice), turns(dice))];
+            let arm = arm(joints, links(1.0), Vector::new(1.0, 0.0), Point::origin());
+            let angle = dice.range(-1.4, 1.4);
+            (arm, Point::new(angle.cos(), angle.sin()))
+        }
+        2 => {
+            let joints = [joint("a", slide(FRAC_PI_2), stroke(dice)), joint("b", turn(dice), turns(dice))];
+            let arm = arm(joints, links(0.4), Vector::new(0.4, 0.0), Point::origin());
+            (arm, Point::new(0.4, dice.range(-0.3, 0.3)))
+        }
+        // The goal on the axis of joint 1: an arm folded back, and one drawn in.
+        3 => {
+            let joints = [
+                joint("a", turn(dice), turns(dice)),
+                joint("b", turn(dice), Axis::Interval { lower: -3.3, upper: 3.3 }),
+            ];
+            (arm(joints, links(0.7), Vector::new(0.7, 0.0), Point::new(0.7, 0.0)), Point::origin())
+        }
+        _ => {
+            let joints = [joint("a", turn(dice), turns(dice)), joint("b", slide(0.0), stroke(dice))];
+            (arm(joints, links(0.3), Vector::new(-0.2, 0.0), Point::new(0.2, 0.0)), Point::origin())
+        }
+    }
+}
+
+/// A random world with a free start and the tip's goals; none if no start is free, or all goals are blocked.
+fn world(seed: u64) -> Option<Problem> {
+    let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
+    let (arm, tip) = drawn(&mut dice);
+    let count = 2 + dice.below(6);
+    let piece = |dice: &mut Dice| {
+        let (r, angle) = (dice.range(0.25, 1.6), dice.range(-PI, PI));
+        let at = Point::new(r * angle.cos(), r * angle.sin());
+        let along = dice.range(-PI, PI);
+        let end = at + Vector::new(along.cos(), along.sin()) * dice.range(0.1, 0.9);
+        if dice.below(3) == 0 { Convex::disc(at, dice.range(0.02, 0.15)) } else { Convex::segment(at, end) }
+    };
+    let pieces = (0..count).map(|_| piece(&mut dice)).collect();
+    let scene: Scene = scene(arm, pieces);
+    let start = (0..50).map(|_| anywhere(&mut dice, &scene)).find(|&q| scene.clearance(q) > 1e-3)?;
+    let solved = inverse(&scene.arm, tip, start);
+    assert!(solved.free.is_some(), "the generator's goals leave a joint free");
+    let mut goals = solved.solutions(&scene.arm);
+    goals.retain(|goals| scene.blocked_along(goals).is_none());
+    let goals: GoalSet = goals.into_iter().collect();
+    (!goals.is_empty()).then_some(Problem { scene, start, goal: Goal::Tip(tip), goals })
+}
+
+fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
+    let topology = scene.arm.topology();
+    Configuration::from_fn(|k, _| {
+        let (lower, upper) = topology.axes[k].domain();
+        dice.range(lower, upper)
+    })
+}
+
+/// Free goals at several values of the free joint.
+fn tried(problem: &Problem) -> Vec<Configuration> {
+    let along = |goals: &Segment| (0..TRIED).map(|k| goals.at((k as f64 + 0.5) / TRIED as f64)).collect::<Vec<_>>();
+    let mut tried: Vec<Configuration> = problem.goals.pieces().iter().flat_map(along).collect();
+    tried.retain(|&goal| problem.scene.clearance(goal) > 1e-6);
+    tried
+}
+
+#[test]
+fn a_set_of_goals_is_reached_if_any_of_it_is() {
+    let (mut worlds, mut infeasible, mut slid) = (0, 0, 0);
+    for seed in 0..cases(120) {
+        let Some(problem) = world(seed) else { continue };
+        worlds += 1;
+        let (scene, start) = (&problem.scene, problem.start);
+        let topology = scene.arm.topology();
+        let each: Vec<_> = tried(&problem)
+            .into_iter()
+            .map(|goal| {
+                let goals = goal.into();
+                (goal, slab_connectivity(scene, start, &goals, 0.0, 4_000))
+            })
+            .collect();
+        let connected: Vec<Configuration> = each
+            .iter()
+            .filter(|(_, answer)| matches!(answer, Connectivity::Connected(_)))
+            .map(|(goal, _)| *goal)
+            .collect();
+        let whole = slab_connectivity(scene, start, &problem.goals, 0.0, 4_000);
+        let boxes = connectivity(scene, start, &problem.goals, 0.0, 20_000);
+        for answer in [&whole, &boxes] {
+            match answer {
+                Connectivity::Disconnected(proof) => {
+                    assert!(connected.is_empty(), "seed {seed}: a false proof, {connected:?} can be reached");
+                    assert_eq!(recheck(proof.stuck(), scene, start, &problem.goals, 0.0), Ok(()), "seed {seed}");
+                    infeasible += 1;
+                }
+                Connectivity::Connected(channel) => {
+                    let end = channel.path().goal();
+                    assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
+                }
+                Connectivity::Undecided { .. } => assert!(connected.is_empty(), "seed {seed}: undecided"),
+            }
+        }
+        // A proof for one value holds for the set only if nothing of the set can be reached.
+        for (goal, answer) in &each {
+            if let (Connectivity::Disconnected(proof), false) = (answer, connected.is_empty()) {
+                let whole = recheck(proof.stuck(), scene, start, &problem.goals, 0.0);
+                assert!(whole.is_err(), "seed {seed}: a proof about {goal} is taken for one about all goals");
+            }
+        }
+        let answer = solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {});
+        match &answer.verdict {
+            Verdict::Found(path) => {
+                let end = path.path().goal();
+                assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
+                slid += u64::from(problem.goals.pieces().iter().any(|goals| !goals.is_point()));
+                let bound = answer.bound.expect("visibility bounds what it finds");
+                for &goal in &connected {
+                    let single = Problem { goal: Goal::Joints(goal), goals: goal.into(), ..problem.clone() };
+                    let Verdict::Found(other) =
+                        solve(&single, Method::Visibility, &Effort::default(), &mut |_| {}).verdict
+                    else {
+                        continue;
+                    };
+                    let length = other.path().length();
+                    assert!(
+                        bound.lower <= length * (1.0 + 1e-9),
+                        "seed {seed}: {} above {length} to {goal}",
+                        bound.lower
+                    );
+                    let least = least_length(scene, start, &problem.goals, 0.0, Metric::Euclidean, length, 1e-3);
+                    assert!(least <= length, "seed {seed}");
+                    assert!(bound.upper <= 1.02 * length, "seed {seed}: {} beside {length} to {goal}", bound.upper);
+                }
+            }
+            Verdict::Infeasible(_) => assert!(connected.is_empty(), "seed {seed}: a false proof"),
+            Verdict::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
+        }
+    }
+    assert!(worlds >= cases(120) / 2 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+}
+
+/// No planner says that there is no way where there is one.
+#[test]
+fn planners_agree_about_sets_of_goals() {
+    for seed in 1_000..1_000 + cases(120) / 8 {
+        let Some(problem) = world(seed) else { continue };
+        let verdicts = Method::ALL.map(|method| {
+            let verdict = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict;
+            if let Verdict::Found(path) = &verdict {
+                let end = path.path().goal();
+                let topology = problem.scene.arm.topology();
+                assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}, {method}: {end} is no goal");
+            }
+            verdict
+        });
+        let found = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Found(_)));
+        let infeasible = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Infeasible(_)));
+        assert!(!(found && infeasible), "seed {seed}");
+    }
+}
+
+/// A tip on the common axis of both joints, and one beside it: everything is a goal, or all ways to share an angle.
+#[test]
+fn joints_about_one_axis_share_the_angle() {
+    let turning = |lower, upper| joint("t", Motion::Revolute { sign: 1.0 }, Axis::Interval { lower, upper });
+    let links = || {
+        [link("first", vec![rectangle(0.0, 0.3, -0.03, 0.03)]), link("second", vec![rectangle(0.0, 0.7, -0.03, 0.03)])]
+    };
+    let coaxial = |tip| arm([turning(-2.0, 2.0), turning(-2.5, 2.5)], links(), Vector::zeros(), tip);
+    let blocks = vec![Convex::segment(Point::new(0.2, 0.05), Point::new(0.25, 0.05))];
+    let scene = scene(coaxial(Point::new(0.7, 0.0)), blocks);
+    let start = Configuration::new(-0.5, -1.0);
+    let problem = |angle: f64| {
+        let target = Point::new(0.7 * angle.cos(), 0.7 * angle.sin());
+        let goals: GoalSet = inverse(&scene.arm, target, start).solutions(&scene.arm).into_iter().collect();
+        for goals in goals.pieces() {
+            for k in 0..=10 {
+                let q = goals.at(f64::from(k) / 10.0);
+                assert!((scene.arm.tip_at(q) - target).norm() < 1e-9, "{q}");
+            }
+        }
+        Problem { scene: scene.clone(), start, goal: Goal::Tip(target), goals }
+    };
+    // A sum of 1.5; 1.5 - tau is beyond both limits, and the obstacle is in between.
+    let barred = problem(1.5);
+    assert_eq!(barred.goals.pieces().len(), 1, "{:?}", barred.goals);
+    // Of 1.9 and 1.9 - tau one can be reached the other way round.
+    let open = problem(1.9);
+    assert_eq!(open.goals.pieces().len(), 2, "{:?}", open.goals);
+    for method in Method::ALL {
+        let Verdict::Infeasible(proof) = solve(&barred, method, &Effort::default(), &mut |_| {}).verdict else {
+            panic!("{method}: link 2 has to pass the obstacle")
+        };
+        assert_eq!(recheck(proof.stuck(), &scene, start, &barred.goals, 0.0), Ok(()), "{method}");
+        let Verdict::Found(path) = solve(&open, method, &Effort::default(), &mut |_| {}).verdict else {
+            panic!("{method}: the other way round is free")
+        };
+        let end = path.path().goal();
+        assert!((end[0] + end[1] - (1.9 - TAU)).abs() < 1e-9, "{method}: {end}");
+    }
+    let anywhere = inverse(&coaxial(Point::origin()), Point::origin(), start).solutions(&coaxial(Point::origin()));
+    assert_eq!(anywhere, [Segment::point(start)]);
+}
