@@ -1,7 +1,6 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
-//!
-//! `CPLAN_CASES` asks for another number of random worlds.
 
+use crate::common::random::{seeds, times};
 use crate::common::{arm, joint, link, rectangle, scene};
 use crate::random_worlds::world::Dice;
 use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
@@ -13,10 +12,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Values of the free joint that are tried one by one.
 const TRIED: usize = 13;
-
-fn cases(default: u64) -> u64 {
-    std::env::var("CPLAN_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(default)
-}
 
 /// An arm whose tip goal leaves a joint free, and where the tip is to go.
 fn drawn(dice: &mut Dice) -> (Arm, Point) {
@@ -104,7 +99,7 @@ fn tried(problem: &Problem) -> Vec<Configuration> {
 #[test]
 fn a_set_of_goals_is_reached_if_any_of_it_is() {
     let (mut worlds, mut infeasible, mut slid) = (0, 0, 0);
-    for seed in 0..cases(120) {
+    for seed in seeds(120) {
         let Some(problem) = world(seed) else { continue };
         worlds += 1;
         let (scene, start) = (&problem.scene, problem.start);
@@ -173,13 +168,13 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             Verdict::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
-    assert!(worlds >= cases(120) / 2 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+    assert!(worlds >= times(120) / 2 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
 /// No planner says that there is no way where there is one.
 #[test]
 fn planners_agree_about_sets_of_goals() {
-    for seed in 1_000..1_000 + cases(120) / 8 {
+    for seed in seeds(15).map(|seed| seed + 1_000) {
         let Some(problem) = world(seed) else { continue };
         let verdicts = Method::ALL.map(|method| {
             let verdict = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict;
