@@ -20,6 +20,7 @@ mod recheck;
 mod replay;
 mod slab;
 mod slabs;
+mod slim;
 mod vicinity;
 mod wrist;
 

@@ -96,7 +96,7 @@ fn check_box(
             return Err(ProofDefect::NotInDomain(index));
         }
     }
-    if !scene.pairs().contains(&stuck.pair) {
+    if scene.pairs().binary_search(&stuck.pair).is_err() {
         return Err(ProofDefect::UnknownPair(index));
     }
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);

@@ -8,7 +8,7 @@
 use super::boxes::Cell;
 use super::deviation::{Deviation, Posture};
 use super::disconnection::StuckBox;
-use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
+use crate::geometry::{BoxTree, Convex, Features, Hits, Point, ROUNDING, Vector};
 use crate::interrupt::checkpoint;
 use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
@@ -29,13 +29,30 @@ const MOST_TILES: usize = 4096;
 /// A pair of link 2, prepared.
 struct Prepared<'a> {
     pair: Pair,
+    /// Into the parts.
+    part: usize,
     piece: &'a Convex,
     features: Features,
-    part: Carried,
-    /// Reach from the base of all that the part can occupy, and of the piece grown by the clearance, metres.
-    reach: [f64; 2],
-    /// The eroded shape for every width of slab that was asked for; none where nothing is left.
+    /// Reach from the base of the piece grown by the clearance, metres.
+    reach: f64,
+    /// How deep the piece is, metres.
+    depth: f64,
+    /// The eroded piece for every width of slab that it was asked for; none where nothing is left.
     eroded: Vec<Option<Option<Eroded>>>,
+}
+
+/// A part of link 2, prepared, and the pairs with it.
+struct PreparedPart {
+    carried: Carried,
+    /// Reach from the base of all that the part can occupy, metres.
+    reach: f64,
+    /// How deep it is, metres.
+    depth: f64,
+    /// The part when it is the deeper shape, eroded for every width of slab.
+    eroded: Vec<Option<Option<Eroded>>>,
+    /// Number of its first pair, and the boxes of the pieces of all of them.
+    first: usize,
+    pieces: BoxTree,
 }
 
 /// A shape of a pair that is nearer to the bone.
@@ -49,14 +66,27 @@ pub(super) enum Eroded {
 impl Eroded {
     /// Whichever shape is deeper, eroded by `overlap` less `clearance`; none where nothing is left.
     pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        if part.shape().depth() > piece.depth() {
+            Self::part(part, overlap, clearance)
+        } else {
+            Self::piece(piece, overlap, clearance)
+        }
+    }
+
+    fn part(part: &Carried, overlap: f64, clearance: f64) -> Option<Self> {
         let by = overlap - clearance;
         if by <= 0.0 {
-            Some(Self::Grown(-by))
-        } else if part.shape().depth() > piece.depth() {
-            part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.motion(), &shape)))
-        } else {
-            piece.eroded(by).map(|shape| Self::Piece(Features::new(&shape)))
+            return Some(Self::Grown(-by));
         }
+        part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.motion(), &shape)))
+    }
+
+    fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        let by = overlap - clearance;
+        if by <= 0.0 {
+            return Some(Self::Grown(-by));
+        }
+        piece.eroded(by).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
     /// Values of the joint at which the pair's shapes overlap by at least as much as one of them was eroded by.
@@ -80,8 +110,10 @@ impl Eroded {
 pub(super) struct SecondLink<'a> {
     scene: &'a Scene,
     clearance: f64,
+    parts: Vec<PreparedPart>,
     pairs: Vec<Prepared<'a>>,
     scratch: Vec<[f64; 2]>,
+    near: Vec<u32>,
 }
 
 /// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`SecondLink`].
@@ -96,20 +128,34 @@ pub(super) struct Verdicts {
 impl<'a> SecondLink<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let joint = &scene.arm.joints[1];
-        let prepare = |&pair: &Pair| {
-            let (part, piece) = (scene.part(pair), scene.piece(pair));
-            let carried = swept(part, joint, scene.arm.offset).reach_from(Point::origin());
-            Prepared {
-                pair,
-                piece,
-                features: Features::new(piece),
-                part: Carried::new(joint.motion, part),
-                reach: [carried, piece.reach_from(scene.arm.base) + clearance],
-                eroded: Vec::new(),
+        let of_second: Vec<Pair> = scene.pairs().iter().filter(|p| p.link == 1).copied().collect();
+        let (mut parts, mut pairs) = (Vec::new(), Vec::with_capacity(of_second.len()));
+        for of_part in of_second.chunk_by(|a, b| a.part == b.part) {
+            let shape = scene.part(of_part[0]);
+            let first = pairs.len();
+            for &pair in of_part {
+                checkpoint();
+                let piece = scene.piece(pair);
+                pairs.push(Prepared {
+                    pair,
+                    part: parts.len(),
+                    piece,
+                    features: Features::new(piece),
+                    reach: piece.reach_from(scene.arm.base) + clearance,
+                    depth: piece.depth(),
+                    eroded: Vec::new(),
+                });
             }
-        };
-        let pairs = scene.pairs().iter().filter(|p| p.link == 1).map(prepare).collect();
-        Self { scene, clearance, pairs, scratch: Vec::new() }
+            parts.push(PreparedPart {
+                carried: Carried::new(joint.motion, shape),
+                reach: swept(shape, joint, scene.arm.offset).reach_from(Point::origin()),
+                depth: shape.depth(),
+                eroded: Vec::new(),
+                first,
+                pieces: BoxTree::new(of_part.iter().map(|&pair| scene.piece(pair).bounds()).collect()),
+            });
+        }
+        Self { scene, clearance, parts, pairs, scratch: Vec::new(), near: Vec::new() }
     }
 
     /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
@@ -130,26 +176,79 @@ impl<'a> SecondLink<'a> {
         let width = (to - middle).max(middle - from);
         let (elbow, heading) = self.elbow(middle);
         let mut scratch = std::mem::take(&mut self.scratch);
-        for index in 0..self.pairs.len() {
-            let pair = &self.pairs[index];
-            let grow = self.clearance + self.motion(pair.reach[0].min(pair.reach[1]), width) + OUTWARD;
-            scratch.clear();
-            let hits = pair.part.hits(elbow, heading, &pair.features, grow, &mut scratch);
-            if hits == Hits::Never {
-                continue;
-            }
-            let joint = &self.scene.arm.joints[1];
-            on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
-            let overlap = self.motion(pair.reach[0], half) * OVERLAP + OUTWARD;
-            scratch.clear();
-            let hits = self.pairs[index].stuck(level, overlap, self.clearance, elbow, heading, &mut scratch);
-            on_axis(joint, hits, &scratch, |interval| {
-                if interval[0] < interval[1] {
-                    verdicts.inner.push((index, interval));
+        let mut near = std::mem::take(&mut self.near);
+        for part in 0..self.parts.len() {
+            self.near(part, elbow, width, &mut near);
+            for &index in &near {
+                let index = index as usize;
+                let (pair, part) = (&self.pairs[index], &self.parts[part]);
+                let grow = self.clearance + self.motion(part.reach.min(pair.reach), width) + OUTWARD;
+                scratch.clear();
+                let hits = part.carried.hits(elbow, heading, &pair.features, grow, &mut scratch);
+                if hits == Hits::Never {
+                    continue;
                 }
-            });
+                let joint = &self.scene.arm.joints[1];
+                on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
+                let overlap = self.motion(part.reach, half) * OVERLAP + OUTWARD;
+                scratch.clear();
+                let hits = self.stuck(index, level, overlap, elbow, heading, &mut scratch);
+                let joint = &self.scene.arm.joints[1];
+                on_axis(joint, hits, &scratch, |interval| {
+                    if interval[0] < interval[1] {
+                        verdicts.inner.push((index, interval));
+                    }
+                });
+            }
         }
-        self.scratch = scratch;
+        (self.scratch, self.near) = (scratch, near);
+    }
+
+    /// The numbers of a part's pairs, ascending, that it can come near to in a slab at most `width` to either side of where
+    /// joint 2 is, and some others.
+    fn near(&self, part: usize, elbow: Point, width: f64, found: &mut Vec<u32>) {
+        let PreparedPart { carried, reach, first, pieces, .. } = &self.parts[part];
+        found.clear();
+        match carried.motion() {
+            Motion::Revolute { .. } => {
+                let grow = self.clearance + self.motion(*reach, width) + 2.0 * OUTWARD;
+                let around = Vector::repeat(carried.shape().reach_from(Point::origin()) + grow);
+                pieces.meeting(&[elbow - around, elbow + around], found);
+                found.iter_mut().for_each(|index| *index += *first as u32);
+            }
+            Motion::Prismatic { .. } => {
+                let end = self.parts.get(part + 1).map_or(self.pairs.len(), |next| next.first);
+                found.extend(*first as u32..end as u32);
+            }
+        }
+    }
+
+    /// Values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance; `overlap` depends on
+    /// the part and the level alone.
+    fn stuck(
+        &mut self,
+        index: usize,
+        level: usize,
+        overlap: f64,
+        elbow: Point,
+        heading: Vector,
+        out: &mut Vec<[f64; 2]>,
+    ) -> Hits {
+        let (clearance, pair) = (self.clearance, &mut self.pairs[index]);
+        let part = &mut self.parts[pair.part];
+        let of_part = part.depth > pair.depth;
+        let known = if of_part { &mut part.eroded } else { &mut pair.eroded };
+        if known.len() <= level {
+            known.resize_with(level + 1, || None);
+        }
+        let eroded = known[level].get_or_insert_with(|| match of_part {
+            true => Eroded::part(&part.carried, overlap, clearance),
+            false => Eroded::piece(pair.piece, overlap, clearance),
+        });
+        match eroded {
+            None => Hits::Never,
+            Some(eroded) => eroded.hits(&part.carried, &pair.features, elbow, heading, out),
+        }
     }
 
     /// The boxes that state that pair `index` is stuck for `q2` in `interval`, all over the slab. Whether the bounds that
@@ -179,28 +278,6 @@ impl<'a> SecondLink<'a> {
     fn elbow(&self, q1: f64) -> (Point, Vector) {
         let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
         (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
-    }
-}
-
-impl Prepared<'_> {
-    /// Values of joint 2 at which the shapes overlap by more than `overlap` less `clearance`.
-    fn stuck(
-        &mut self,
-        level: usize,
-        overlap: f64,
-        clearance: f64,
-        elbow: Point,
-        heading: Vector,
-        out: &mut Vec<[f64; 2]>,
-    ) -> Hits {
-        if self.eroded.len() <= level {
-            self.eroded.resize_with(level + 1, || None);
-        }
-        let eroded = self.eroded[level].get_or_insert_with(|| Eroded::new(&self.part, self.piece, overlap, clearance));
-        match eroded {
-            None => Hits::Never,
-            Some(eroded) => eroded.hits(&self.part, &self.features, elbow, heading, out),
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Which obstacles are near a part of the arm at all.
 
 use super::deviation::{Deviation, Posture};
-use crate::geometry::{Bounds, BoxTree, Convex, Point, Vector};
+use crate::geometry::{BoxTree, Vector};
 use crate::model::{Pair, Scene};
 
 /// The pairs of a scene, by the place of the obstacle's piece.
@@ -19,7 +19,7 @@ impl<'a> Vicinity<'a> {
         let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
             let first = from;
             from += stretch.len();
-            (first, BoxTree::new(stretch.iter().map(|&pair| bounds(scene.piece(pair))).collect()))
+            (first, BoxTree::new(stretch.iter().map(|&pair| scene.piece(pair).bounds()).collect()))
         });
         let parts = stretches.collect();
         Self { pairs, parts }
@@ -44,12 +44,4 @@ impl<'a> Vicinity<'a> {
         }
         Ok(())
     }
-}
-
-/// The box around a shape.
-fn bounds(shape: &Convex) -> Bounds {
-    let radius = Vector::repeat(shape.radius());
-    let core = shape.core();
-    let [lower, upper] = core.iter().fold([core[0]; 2], |[lower, upper]: [Point; 2], p| [lower.inf(p), upper.sup(p)]);
-    [lower - radius, upper + radius]
 }

@@ -1,6 +1,7 @@
 //! Where the rows of a C-obstacle can change their structure: closed form.
 
 use crate::geometry::{Convex, Point, Vector, cross, perpendicular, separation};
+use crate::interrupt::checkpoint;
 use crate::model::{Arm, Motion};
 use crate::space::Configuration;
 use std::f64::consts::TAU;
@@ -81,6 +82,7 @@ struct Turning<'a> {
 impl Turning<'_> {
     fn solve(mut self) -> Vec<f64> {
         for feature in radial_features(self.part.core()) {
+            checkpoint();
             // The piece then has the opposite normal, `radius` farther out or in.
             let distance =
                 if feature.outward { feature.distance + self.radius } else { feature.distance - self.radius };

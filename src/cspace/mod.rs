@@ -2,6 +2,7 @@
 
 mod bitmap;
 mod chord;
+mod coarse;
 mod curves;
 mod events;
 mod grid;

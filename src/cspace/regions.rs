@@ -1,10 +1,12 @@
 //! Configuration space as polygons.
 
+use super::coarse::coarse;
 use super::curves::Curves;
 use super::rows::Rows;
 use super::union::free_space;
 use super::{Proves, translation};
 use crate::geometry::{Hits, Point, cross};
+use crate::interrupt::checkpoint;
 use crate::model::{Joint, Scene};
 use crate::space::{Axis, Configuration, Topology};
 use std::f64::consts::{PI, TAU};
@@ -12,6 +14,9 @@ use std::f64::consts::{PI, TAU};
 /// Share of the margin that is left of it, as proven distance, on the contours of [`regions`] after flattening. The rest
 /// is what chords may cut off; the more, the fewer corners.
 const KEPT: f64 = 0.25;
+
+/// Shapes with many corners may be coarser than they are by so many times the margin that contours keep of it.
+const COARSENESS: f64 = 2.0;
 
 /// Overlap of bands across the seam of a turn, relative to the distance they are grown by: far above the rounding of the
 /// union.
@@ -87,6 +92,12 @@ pub struct Regions {
 }
 
 impl Regions {
+    /// The contours of free space, which lies to the left of them.
+    #[must_use]
+    pub fn contours(&self) -> Vec<&[Point]> {
+        self.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes)).map(Vec::as_slice).collect()
+    }
+
     /// The component of free space that holds `q`, given within the window. Linear in the number of corners.
     #[must_use]
     pub fn component(&self, q: Configuration) -> Option<usize> {
@@ -128,7 +139,8 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
 
 /// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
 /// hardly any in which it is more than twice `tolerance` farther; metres, `tolerance` positive. Each obstacle appears
-/// once for every pair, strip or band it takes; contours of one obstacle may overlap.
+/// once for every pair, strip or band it takes; contours of one obstacle may overlap. Around shapes with many corners,
+/// unless the margin is 0, contours may be another two margins away: details that small are not traced.
 ///
 /// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
 /// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact rows, and
@@ -143,10 +155,12 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
     let level = scene.workspace.clearance + margin;
+    let scene = &*coarse(scene, COARSENESS * margin);
     let rows = Rows::new(scene);
     let map = translation::joint_map(&scene.arm);
     let mut obstacles = Vec::new();
     for (index, pair) in scene.pairs().iter().enumerate() {
+        checkpoint();
         let contours = match (pair.link, &map) {
             (0, _) => bands(&rows, index, level + tolerance, OVERLAP * level.min(1.0)),
             (_, Some(map)) => {

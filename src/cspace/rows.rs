@@ -1,11 +1,12 @@
 //! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
 
-use crate::geometry::{Convex, Features, Hits, Point, Vector, merge_in_place};
+use crate::geometry::{BoxTree, Features, Hits, Point, ROUNDING, Vector, merge_in_place};
 use crate::interrupt::checkpoint;
-use crate::model::{Arm, Carried, Motion, Pair, Scene, on_axis, swept};
+use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// A scene prepared for rows.
 ///
@@ -16,31 +17,59 @@ use std::f64::consts::PI;
 pub struct Rows<'a> {
     scene: &'a Scene,
     pairs: Vec<Prepared>,
+    parts: Vec<PreparedPart>,
     pieces: Vec<Features>,
 }
 
-/// A pair with its part prepared for the joint that carries it.
-#[derive(Debug, Clone)]
+/// A pair, by numbers.
+#[derive(Debug, Clone, Copy)]
 struct Prepared {
-    pair: Pair,
-    part: Carried,
-    /// Link 2 only: the part with all its positions under joint 2, as carried by joint 1.
-    sweep: Option<Carried>,
+    link: u32,
+    /// Into the parts.
+    part: u32,
     /// Into the pieces.
-    piece: usize,
+    piece: u32,
 }
 
-impl Prepared {
-    /// The pair with `part` for its link and the piece of that number.
-    fn new(arm: &Arm, pair: Pair, part: &Convex, piece: usize) -> Self {
+/// A part, prepared for the joint that carries it.
+#[derive(Debug, Clone)]
+struct PreparedPart {
+    carried: Carried,
+    /// Link 2 only: the part with all its positions under joint 2, as carried by joint 1.
+    sweep: Option<Carried>,
+    /// Its pairs.
+    pairs: Range<usize>,
+    /// The boxes of their pieces.
+    pieces: BoxTree,
+}
+
+impl PreparedPart {
+    /// The part of some pairs, which are the next from the number `from` on.
+    fn new(scene: &Scene, pairs: &[Pair], from: usize) -> Self {
+        let arm = &scene.arm;
         let [first, second] = &arm.joints;
-        let (part, sweep) = if pair.link == 0 {
+        let part = scene.part(pairs[0]);
+        let (carried, sweep) = if pairs[0].link == 0 {
             (Carried::new(first.motion, part), None)
         } else {
             let sweep = swept(part, second, arm.offset);
             (Carried::new(second.motion, part), Some(Carried::new(first.motion, &sweep)))
         };
-        Self { pair, part, sweep, piece }
+        let pieces = BoxTree::new(pairs.iter().map(|&pair| scene.piece(pair).bounds()).collect());
+        Self { carried, sweep, pairs: from..from + pairs.len(), pieces }
+    }
+
+    /// The numbers of its pairs, ascending, that it can come near to with joint 2 at `elbow`, and some others.
+    fn near(&self, elbow: Point, grow: f64, found: &mut Vec<u32>) {
+        found.clear();
+        match self.carried.motion() {
+            Motion::Revolute { .. } => {
+                let around = Vector::repeat(self.carried.shape().reach_from(Point::origin()) + grow + ROUNDING);
+                self.pieces.meeting(&[elbow - around, elbow + around], found);
+                found.iter_mut().for_each(|index| *index += self.pairs.start as u32);
+            }
+            Motion::Prismatic { .. } => found.extend(self.pairs.start as u32..self.pairs.end as u32),
+        }
     }
 }
 
@@ -48,20 +77,28 @@ impl<'a> Rows<'a> {
     /// Prepares a scene. Linear in its size.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
-        let mut pieces = Vec::new();
-        let mut piece_of = BTreeMap::new();
-        let pairs = scene
-            .pairs()
-            .iter()
-            .map(|&pair| {
+        let (mut parts, mut pieces, mut pairs) = (Vec::new(), Vec::new(), Vec::with_capacity(scene.pairs().len()));
+        let mut piece_of = HashMap::new();
+        for of_part in scene.pairs().chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)) {
+            parts.push(PreparedPart::new(scene, of_part, pairs.len()));
+            for &pair in of_part {
+                checkpoint();
                 let piece = *piece_of.entry((pair.obstacle, pair.piece)).or_insert_with(|| {
                     pieces.push(Features::new(scene.piece(pair)));
-                    pieces.len() - 1
+                    pieces.len() as u32 - 1
                 });
-                Prepared::new(&scene.arm, pair, scene.part(pair), piece)
-            })
-            .collect();
-        Self { scene, pairs, pieces }
+                pairs.push(Prepared { link: pair.link as u32, part: parts.len() as u32 - 1, piece });
+            }
+        }
+        Self { scene, pairs, parts, pieces }
+    }
+
+    fn part(&self, pair: Prepared) -> &PreparedPart {
+        &self.parts[pair.part as usize]
+    }
+
+    fn piece(&self, pair: Prepared) -> &Features {
+        &self.pieces[pair.piece as usize]
     }
 
     /// The scene.
@@ -75,9 +112,9 @@ impl<'a> Rows<'a> {
     /// # Panics
     /// If the pair is of link 2, or there is none of that number.
     pub fn first_link(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
-        let pair = &self.pairs[index];
-        assert_eq!(pair.pair.link, 0, "a pair of link 1");
-        pair.part.hits(self.scene.arm.base, Vector::x(), &self.pieces[pair.piece], grow, out)
+        let pair = self.pairs[index];
+        assert_eq!(pair.link, 0, "a pair of link 1");
+        self.part(pair).carried.hits(self.scene.arm.base, Vector::x(), self.piece(pair), grow, out)
     }
 
     /// Values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at `q1`.
@@ -96,9 +133,9 @@ impl<'a> Rows<'a> {
     /// # Panics
     /// If the pair is of link 1, or there is none of that number.
     pub fn reach_range(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
-        let pair = &self.pairs[index];
-        let sweep = pair.sweep.as_ref().expect("a pair of link 2");
-        sweep.hits(self.scene.arm.base, Vector::x(), &self.pieces[pair.piece], grow, out)
+        let pair = self.pairs[index];
+        let sweep = self.part(pair).sweep.as_ref().expect("a pair of link 2");
+        sweep.hits(self.scene.arm.base, Vector::x(), self.piece(pair), grow, out)
     }
 
     /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
@@ -107,13 +144,19 @@ impl<'a> Rows<'a> {
         checkpoint();
         row.clear();
         let (elbow, heading) = self.elbow(q1);
-        for index in self.second_link_pairs() {
-            row.scratch.clear();
-            let hits = self.at_elbow(index, elbow, heading, grow, &mut row.scratch);
-            let Row { forbidden, scratch, .. } = row;
-            let joint = &self.scene.arm.joints[1];
-            on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+        let joint = &self.scene.arm.joints[1];
+        let mut near = std::mem::take(&mut row.near);
+        for part in self.parts.iter().filter(|part| part.sweep.is_some()) {
+            part.near(elbow, grow, &mut near);
+            for &index in &near {
+                row.scratch.clear();
+                let index = index as usize;
+                let hits = self.at_elbow(index, elbow, heading, grow, &mut row.scratch);
+                let Row { forbidden, scratch, .. } = row;
+                on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
+            }
         }
+        row.near = near;
         row.merge();
     }
 
@@ -134,7 +177,7 @@ impl<'a> Rows<'a> {
     /// Numbers of the pairs of link 2; those of link 1 come before.
     #[must_use]
     pub fn second_link_pairs(&self) -> std::ops::Range<usize> {
-        self.pairs.partition_point(|p| p.pair.link == 0)..self.pairs.len()
+        self.pairs.partition_point(|p| p.link == 0)..self.pairs.len()
     }
 
     /// Farthest that a point of pair `index`'s part which is within `clearance` of the piece can move, metres, while
@@ -142,12 +185,13 @@ impl<'a> Rows<'a> {
     /// distance from the base, and a point near the piece is no farther out than the piece is.
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
-        let pair = &self.pairs[index];
+        let pair = self.pairs[index];
         match self.scene.arm.joints[0].motion {
             Motion::Prismatic { .. } => step,
             Motion::Revolute { .. } => {
-                let carried = pair.sweep.as_ref().unwrap_or(&pair.part).shape().reach_from(Point::origin());
-                let touched = self.pieces[pair.piece].shape().reach_from(self.scene.arm.base) + clearance;
+                let part = self.part(pair);
+                let carried = part.sweep.as_ref().unwrap_or(&part.carried).shape().reach_from(Point::origin());
+                let touched = self.piece(pair).shape().reach_from(self.scene.arm.base) + clearance;
                 2.0 * carried.min(touched) * (step.min(PI) / 2.0).sin()
             }
         }
@@ -156,7 +200,7 @@ impl<'a> Rows<'a> {
     /// Farthest that a point of pair `index`'s part moves per unit of the joint that carries its link, metres.
     #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
-        let part = &self.pairs[index].part;
+        let part = &self.part(self.pairs[index]).carried;
         match part.motion() {
             Motion::Prismatic { .. } => 1.0,
             Motion::Revolute { .. } => part.shape().reach_from(Point::origin()),
@@ -178,9 +222,9 @@ impl<'a> Rows<'a> {
         grow: f64,
         out: &mut Vec<[f64; 2]>,
     ) -> Hits {
-        let pair = &self.pairs[index];
-        assert_eq!(pair.pair.link, 1, "a pair of link 2");
-        pair.part.hits(elbow, heading, &self.pieces[pair.piece], grow, out)
+        let pair = self.pairs[index];
+        assert_eq!(pair.link, 1, "a pair of link 2");
+        self.part(pair).carried.hits(elbow, heading, self.piece(pair), grow, out)
     }
 }
 
@@ -201,6 +245,7 @@ pub struct Row {
     /// Their union: disjoint, ascending.
     pub merged: Vec<[f64; 2]>,
     scratch: Vec<[f64; 2]>,
+    near: Vec<u32>,
 }
 
 impl Row {

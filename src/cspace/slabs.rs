@@ -1,15 +1,21 @@
 //! Grids from rows: no collision test a cell.
 
+use super::coarse::coarse;
 use super::rows::Rows;
 use super::{Grid, Proves};
 use crate::geometry::ROUNDING;
 use crate::interrupt::checkpoint;
 use crate::model::{Scene, on_axis};
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// Arcs are widened by this before whole cells are judged, radians or metres: rounding in the division into cells is
 /// some 1e-13 of a cell.
 const WIDENING: f64 = 1e-9;
+
+/// Share of what the joints' motion over a cell adds to the margin by which shapes with many corners may be coarser than they
+/// are.
+const COARSENESS: f64 = 1.0 / 16.0;
 
 /// The grid whose cells are blocked where their *centre* comes within `clearance` of an obstacle. What a sampled grid
 /// shows, up to centres within [`ROUNDING`] of contact, in `O(rows * contacts + cells)`.
@@ -48,19 +54,26 @@ pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid 
 /// Obstacle by obstacle, only in the rows where link 2 reaches it at all: `O(reached rows * contacts + cells)`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
-    let rows = Rows::new(scene);
     let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
-    let [h1, h2] = grid.step();
+    let steps = grid.step();
     let kept = clearance + 2.0 * ROUNDING;
-    let motions: Vec<f64> = rows.second_link_pairs().map(|index| rows.motion(index, h1 / 2.0, kept)).collect();
-    grid.proves = Proves::Outer { margin: margin(&rows, &motions, [h1, h2], clearance) };
+    let motions = |rows: &Rows| -> Vec<f64> {
+        rows.second_link_pairs().map(|index| rows.motion(index, steps[0] / 2.0, kept)).collect()
+    };
+    let fine = Rows::new(scene);
+    let within = COARSENESS * margin(&fine, &motions(&fine), steps, clearance);
+    let scene = coarse(scene, within);
+    let rows = if let Cow::Owned(scene) = &scene { Rows::new(scene) } else { fine };
+    let within = if matches!(scene, Cow::Owned(_)) { within } else { 0.0 };
+    let motions = motions(&rows);
+    grid.proves = Proves::Outer { margin: margin(&rows, &motions, steps, clearance) + within };
 
     let columns = Columns::new(&grid);
     let bands = rows.bands(kept);
     let axis = grid.topology.axes[0];
     let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
     let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
-    let half = h1 / 2.0 + WIDENING;
+    let half = steps[0] / 2.0 + WIDENING;
     let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
     let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
     let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| rows.elbow(q1))).collect();

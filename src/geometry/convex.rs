@@ -1,6 +1,6 @@
 //! The one shape that everything is made of: a convex polygon grown by a radius.
 
-use super::{Point, Pose};
+use super::{Bounds, Point, Pose, Vector};
 
 /// A *rounded convex polygon*: all points within `radius` of the convex hull of `core`.
 ///
@@ -72,6 +72,15 @@ impl Convex {
     #[must_use]
     pub fn reach_from(&self, pivot: Point) -> f64 {
         self.core.iter().map(|p| (p - pivot).norm()).fold(0.0, f64::max) + self.radius
+    }
+
+    /// The smallest box with sides along the axes that holds the shape.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let radius = Vector::repeat(self.radius);
+        let first = [self.core[0]; 2];
+        let [lower, upper] = self.core.iter().fold(first, |[lower, upper], p| [lower.inf(p), upper.sup(p)]);
+        [lower - radius, upper + radius]
     }
 
     /// Area, square metres (Steiner's formula: core + perimeter * r + pi r^2).

@@ -1,162 +1,114 @@
 //! Decomposition of a simple polygon into convex ones.
 
-use std::collections::VecDeque;
-
+use super::planar::{Boundary, HalfEdges, NONE, triangulate};
 use super::polygon::turn;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
+use crate::interrupt::checkpoint;
 
-/// Strictly convex polygons (of radius 0) with disjoint interiors whose union is `polygon`.
+/// Corners of the largest piece. What is asked of a piece takes time that grows with its corners; of many smaller ones only
+/// those that are near are asked.
+pub const MOST_CORNERS: usize = 64;
+
+/// Strictly convex polygons (of radius 0) with disjoint interiors whose union is `polygon`, each of at most
+/// [`MOST_CORNERS`] corners.
 ///
-/// Ear clipping, then removal of every diagonal that no reflex corner needs (S. Hertel, K. Mehlhorn, *Fast
-/// Triangulation of Simple Polygons*, 1983): at most four times as many pieces as the least possible number. All
-/// corners are corners of the polygon, so with the exact predicates the union is the polygon itself, without rounding.
-/// Straight corners of a piece are dropped. `O(n^2)`.
+/// A triangulation by a sweep, then removal of every diagonal that no reflex corner needs (S. Hertel, K. Mehlhorn, *Fast
+/// Triangulation of Simple Polygons*, 1983): at most four times as many as the least possible number. Pieces with too many
+/// corners are cut once more (see [`cut_up`]). All corners are corners of the polygon, so with the exact predicates the
+/// union is the polygon itself, without rounding. Straight corners of a piece are dropped. `O(n log n)`.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     let corners = polygon.corners();
-    let (triangles, diagonals) = triangulate(corners);
-    let strict = |ring: Vec<usize>| {
-        let points: Vec<Point> = ring.into_iter().map(|i| corners[i]).collect();
-        let kept = (0..points.len()).filter(|&i| turn(&points, i) != Orientation::Collinear).map(|i| points[i]);
-        Convex::new(kept.collect(), 0.0)
+    let pieces = if polygon.is_convex() {
+        vec![corners.to_vec()]
+    } else {
+        let boundary = Boundary::new(&[corners]);
+        convex_faces(&boundary.vertices, triangulate(&boundary))
     };
-    merge(corners, triangles, &diagonals).into_iter().map(strict).collect()
+    let strict = |ring: Vec<Point>| -> Vec<Point> {
+        (0..ring.len()).filter(|&i| turn(&ring, i) != Orientation::Collinear).map(|i| ring[i]).collect()
+    };
+    let mut convex = Vec::with_capacity(pieces.len());
+    for piece in pieces {
+        cut_up(strict(piece), 0.0, &mut convex);
+    }
+    convex
 }
 
-/// A side that two triangles share: `[from, to]` as the first of them runs through it.
-struct Diagonal {
-    ends: [usize; 2],
-    triangles: [usize; 2],
+impl Convex {
+    /// Shapes of at most [`MOST_CORNERS`] corners whose union is this one: cut along diagonals of the core, which must be
+    /// strictly convex. `O(n)`.
+    #[must_use]
+    pub fn cut_up(self) -> Vec<Self> {
+        if self.core().len() <= MOST_CORNERS {
+            return vec![self];
+        }
+        let mut pieces = Vec::new();
+        cut_up(self.core().to_vec(), self.radius(), &mut pieces);
+        pieces
+    }
 }
 
-/// Triangles as counter-clockwise corner indices, and their common sides.
-///
-/// An ear is a convex corner whose closed triangle with its neighbours contains no further corner. A simple polygon
-/// of more than three corners has two ears, straight corners or not (G. H. Meisters, *Polygons Have Ears*, 1975), and
-/// cutting one off leaves a simple polygon, of which only the two neighbours can newly be ears.
-fn triangulate(corners: &[Point]) -> (Vec<[usize; 3]>, Vec<Diagonal>) {
-    let n = corners.len();
-    let mut ring = Ring::new(corners);
-    // The triangle on the far side of the ring's side from `i`, once that side is a diagonal.
-    let mut beyond: Vec<Option<usize>> = vec![None; n];
-    let mut triangles = Vec::with_capacity(n - 2);
-    let mut diagonals = Vec::with_capacity(n - 3);
-    let mut candidates: VecDeque<usize> = (0..n).collect();
-    while triangles.len() < n - 2 {
-        let Some(tip) = candidates.pop_front() else {
-            debug_assert!(false, "a simple polygon has an ear");
-            break;
-        };
-        if ring.removed[tip] || !ring.is_ear(tip) {
+/// Adds a strictly convex polygon grown by `radius`, cut along diagonals into pieces of at most [`MOST_CORNERS`] corners: as
+/// few caps of equal length as will do, each cut off by one diagonal, and what the diagonals leave, cut up in turn. So one
+/// piece holds the most of the polygon, and the thin ones are at its rim. `O(n)`.
+fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
+    while ring.len() > MOST_CORNERS {
+        checkpoint();
+        let n = ring.len();
+        let caps = n.div_ceil(MOST_CORNERS - 1);
+        let at = |cap: usize| cap * n / caps;
+        for cap in 0..caps {
+            let mut corners = ring[at(cap)..at(cap + 1)].to_vec();
+            corners.push(ring[at(cap + 1) % n]);
+            out.push(Convex::new(corners, radius));
+        }
+        ring = (0..caps).map(|cap| ring[at(cap)]).collect();
+    }
+    // Of two caps nothing is left but the diagonal between them.
+    if ring.len() > 2 {
+        out.push(Convex::new(ring, radius));
+    }
+}
+
+/// The faces that are left of a triangulation when each side between two triangles is removed whose ends both stay convex.
+fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Vec<Vec<Point>> {
+    let at = |half: usize| vertices[origin[half] as usize];
+    // Half-edges before and after each in its face.
+    let mut before: Vec<u32> = (0..origin.len() as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect();
+    let mut after: Vec<u32> = (0..origin.len() as u32).map(|h| if h % 3 == 2 { h - 2 } else { h + 1 }).collect();
+    let mut removed = vec![false; origin.len()];
+    for half in 0..origin.len() {
+        let other = twin[half];
+        if other == NONE || (other as usize) < half {
             continue;
         }
-        let triangle = [ring.before[tip], tip, ring.after[tip]];
-        let [from, _, to] = triangle;
-        let index = triangles.len();
-        let last = index == n - 3;
-        for (side, ends) in [(from, [from, tip]), (tip, [tip, to])] {
-            if let Some(other) = beyond[side] {
-                diagonals.push(Diagonal { ends, triangles: [index, other] });
+        let other = other as usize;
+        // Where a half-edge begins its own face's boundary arrives, and that of the other face goes on.
+        let joints = [(before[half], after[other]), (before[other], after[half])];
+        let convex = |(arriving, leaving): (u32, u32)| {
+            let corner = at(leaving as usize);
+            orientation(at(arriving as usize), corner, at(after[leaving as usize] as usize)) != Orientation::Clockwise
+        };
+        if joints.into_iter().all(convex) {
+            for (arriving, leaving) in joints {
+                after[arriving as usize] = leaving;
+                before[leaving as usize] = arriving;
             }
-        }
-        if let (true, Some(other)) = (last, beyond[to]) {
-            diagonals.push(Diagonal { ends: [to, from], triangles: [index, other] });
-        }
-        triangles.push(triangle);
-        beyond[from] = Some(index);
-        ring.remove(tip);
-        candidates.extend([from, to]);
-    }
-    (triangles, diagonals)
-}
-
-/// What is left of the boundary while ears are cut off.
-struct Ring<'a> {
-    corners: &'a [Point],
-    before: Vec<usize>,
-    after: Vec<usize>,
-    removed: Vec<bool>,
-}
-
-impl<'a> Ring<'a> {
-    fn new(corners: &'a [Point]) -> Self {
-        let n = corners.len();
-        let before = (0..n).map(|i| (i + n - 1) % n).collect();
-        let after = (0..n).map(|i| (i + 1) % n).collect();
-        Self { corners, before, after, removed: vec![false; n] }
-    }
-
-    fn turn(&self, i: usize) -> Orientation {
-        orientation(self.corners[self.before[i]], self.corners[i], self.corners[self.after[i]])
-    }
-
-    fn remove(&mut self, i: usize) {
-        let (before, after) = (self.before[i], self.after[i]);
-        self.after[before] = after;
-        self.before[after] = before;
-        self.removed[i] = true;
-    }
-
-    fn is_ear(&self, tip: usize) -> bool {
-        if self.turn(tip) != Orientation::CounterClockwise {
-            return false;
-        }
-        let (from, to) = (self.before[tip], self.after[tip]);
-        let [a, b, c] = [from, tip, to].map(|i| self.corners[i]);
-        let (low, high) = (a.inf(&b).inf(&c), a.sup(&b).sup(&c));
-        let mut i = self.after[to];
-        while i != from {
-            let p = self.corners[i];
-            let in_box = low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
-            let right_of = |s, t| orientation(s, t, p) == Orientation::Clockwise;
-            if in_box && !right_of(a, b) && !right_of(b, c) && !right_of(c, a) {
-                return false;
-            }
-            i = self.after[i];
-        }
-        true
-    }
-}
-
-/// Joins triangles across every diagonal whose removal leaves no reflex corner.
-fn merge(corners: &[Point], triangles: Vec<[usize; 3]>, diagonals: &[Diagonal]) -> Vec<Vec<usize>> {
-    let mut owner: Vec<usize> = (0..triangles.len()).collect();
-    let mut pieces: Vec<Vec<usize>> = triangles.into_iter().map(Vec::from).collect();
-    for Diagonal { ends: [from, to], triangles } in diagonals {
-        let [first, second] = triangles.map(|t| find(&mut owner, t));
-        let joined = joined(&pieces[first], &pieces[second], *from, *to);
-        let n = joined.len();
-        // The ends of the diagonal: where `from` and `to` stand in the result of `joined`.
-        let convex = [0, pieces[first].len() - 1].into_iter().all(|k| {
-            let [a, b, c] = [joined[(k + n - 1) % n], joined[k], joined[(k + 1) % n]].map(|i| corners[i]);
-            orientation(a, b, c) != Orientation::Clockwise
-        });
-        if convex {
-            pieces[first] = joined;
-            pieces[second].clear();
-            owner[second] = first;
+            (removed[half], removed[other]) = (true, true);
         }
     }
-    pieces.retain(|piece| !piece.is_empty());
-    pieces
-}
-
-/// The corners of `first` from `to` on to `from`, then those of `second` between `from` and `to`.
-fn joined(first: &[usize], second: &[usize], from: usize, to: usize) -> Vec<usize> {
-    let starting_at = |ring: &[usize], corner: usize| {
-        let start = ring.iter().position(|&i| i == corner).unwrap_or(0);
-        ring.iter().cycle().skip(start).take(ring.len()).copied().collect::<Vec<_>>()
-    };
-    let mut ring = starting_at(first, to);
-    ring.extend(&starting_at(second, from)[1..second.len() - 1]);
-    ring
-}
-
-/// The piece that triangle `t` has gone into (with path halving).
-fn find(owner: &mut [usize], mut t: usize) -> usize {
-    while owner[t] != t {
-        owner[t] = owner[owner[t]];
-        t = owner[t];
+    let mut faces = Vec::new();
+    for first in 0..origin.len() {
+        let mut face = Vec::new();
+        let mut half = first;
+        while !std::mem::replace(&mut removed[half], true) {
+            face.push(at(half));
+            half = after[half] as usize;
+        }
+        if !face.is_empty() {
+            faces.push(face);
+        }
     }
-    t
+    faces
 }

@@ -16,6 +16,7 @@ mod meet;
 mod minkowski;
 mod ordered;
 mod penetration;
+pub(crate) mod planar;
 mod polygon;
 mod predicates;
 mod separation;
@@ -24,7 +25,7 @@ mod turning;
 
 pub use box_tree::{Bounds, BoxTree};
 pub use convex::Convex;
-pub use decompose::decompose;
+pub use decompose::{MOST_CORNERS, decompose};
 pub use hull::hull;
 pub use inset::{clip, common, inset};
 pub use intervals::{Interval, merge_in_place};

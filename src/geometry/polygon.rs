@@ -1,6 +1,7 @@
 //! Simple polygons: validation, orientation, area.
 
-use super::predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
+use super::planar::first_meeting;
+use super::predicates::{Orientation, orientation, point_on_segment, segments_cross};
 use super::{Convex, Point, cross, decompose};
 
 /// Why a list of corners is no simple polygon.
@@ -66,11 +67,11 @@ pub struct SimplePolygon {
 impl SimplePolygon {
     /// The polygon with these corners, given in either direction.
     ///
-    /// All conditions are decided exactly. `O(n log n + k)` for `k` pairs of sides whose extents in x overlap, so
-    /// `O(n^2)` at worst, with a small constant.
+    /// All conditions are decided exactly. `O(n log n)`, and another factor of `log n` to say which sides meet.
     ///
     /// # Errors
-    /// The first defect found, in the order of [`PolygonDefect`]'s variants.
+    /// The first defect found, in the order of [`PolygonDefect`]'s variants; of sides that meet the first in the list that
+    /// meets an earlier one.
     pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonDefect> {
         check_corners(&corners)?;
         check_neighbours(&corners)?;
@@ -175,28 +176,8 @@ fn check_neighbours(corners: &[Point]) -> Result<(), PolygonDefect> {
 
 /// No two sides meet but neighbours in their common corner. Neighbours are without spikes already.
 fn check_sides(corners: &[Point]) -> Result<(), PolygonDefect> {
-    let n = corners.len();
-    let side = |i: usize| (corners[i], corners[(i + 1) % n]);
-    let extent = |i: usize| {
-        let (a, b) = side(i);
-        (a.x.min(b.x), a.x.max(b.x))
-    };
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_unstable_by(|&i, &j| extent(i).0.total_cmp(&extent(j).0).then(i.cmp(&j)));
-    let mut worst: Option<(usize, usize)> = None;
-    for (k, &i) in order.iter().enumerate() {
-        let (a, b) = side(i);
-        let right = extent(i).1;
-        for &j in order[k + 1..].iter().take_while(|&&j| extent(j).0 <= right) {
-            let (first, second) = (i.min(j), i.max(j));
-            let neighbours = second - first == 1 || second - first == n - 1;
-            let (c, d) = side(j);
-            if !neighbours && segments_meet(a, b, c, d) && worst.is_none_or(|w| (first, second) < w) {
-                worst = Some((first, second));
-            }
-        }
-    }
-    let Some((first, second)) = worst else { return Ok(()) };
+    let Some((first, second)) = first_meeting(corners) else { return Ok(()) };
+    let side = |i: usize| (corners[i], corners[(i + 1) % corners.len()]);
     let ((a, b), (c, d)) = (side(first), side(second));
     Err(if segments_cross(a, b, c, d) {
         PolygonDefect::SidesCross { first, second }

@@ -93,9 +93,17 @@ fn listed(defects: &[Defect]) -> String {
     lines.join("\n")
 }
 
+/// More names than this are counted, not listed: nobody reads them, and each defect may have its own list.
+const NAMED: usize = 64;
+
 /// Names in quotes, separated by commas, for messages.
 pub(super) fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
-    let names: Vec<String> = names.into_iter().map(|n| format!("\"{}\"", n.as_ref())).collect();
+    let mut all = names.into_iter();
+    let mut names: Vec<String> = all.by_ref().take(NAMED).map(|n| format!("\"{}\"", n.as_ref())).collect();
+    let more = all.count();
+    if more > 0 {
+        names.push(format!("... and {more} more"));
+    }
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 

@@ -5,6 +5,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// A place in a text file, counted from 1; columns count characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,14 +17,25 @@ pub struct Position {
 }
 
 /// The text of an input, read from a file or made by the program.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone)]
 pub struct Source {
     /// The file, or the name of a text that is none.
     pub(super) path: PathBuf,
     pub(super) text: String,
     /// Whether there is such a file, beside which others may lie.
     is_file: bool,
+    /// The position of every [`MILE`]th byte, once it is asked for.
+    milestones: OnceLock<Vec<Position>>,
 }
+
+/// What was asked of a text makes no difference.
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.path, &self.text, self.is_file) == (&other.path, &other.text, other.is_file)
+    }
+}
+
+impl Eq for Source {}
 
 /// Finds positions of ascending byte offsets in one pass over the text.
 pub(super) struct Cursor<'a> {
@@ -68,6 +80,9 @@ pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Bytes from one place whose line and column are known to the next.
+const MILE: usize = 4096;
+
 /// Characters of a long source line that an excerpt shows on either side of the place.
 const EXCERPT_REACH: usize = 60;
 
@@ -76,7 +91,7 @@ impl Source {
     /// other files (meshes, maps), so nothing is ever read for it.
     #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
-        Self { path: name.into(), text: text.into(), is_file: false }
+        Self { path: name.into(), text: text.into(), is_file: false, milestones: OnceLock::new() }
     }
 
     /// The text.
@@ -89,7 +104,7 @@ impl Source {
     /// same file.
     #[must_use]
     pub fn with_text(&self, text: impl Into<String>) -> Self {
-        Self { text: text.into(), ..self.clone() }
+        Self { path: self.path.clone(), text: text.into(), is_file: self.is_file, milestones: OnceLock::new() }
     }
 
     /// Reads a file as UTF-8, without a byte order mark.
@@ -109,7 +124,7 @@ impl Source {
             .cure("save it as UTF-8")
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
-        Ok(Self { path: path.to_owned(), text, is_file: true })
+        Ok(Self { path: path.to_owned(), text, is_file: true, milestones: OnceLock::new() })
     }
 
     /// The path against which the names of other files are resolved.
@@ -125,9 +140,16 @@ impl Source {
         self.path.display().to_string()
     }
 
-    /// Line and column of a byte offset.
+    /// Line and column of a byte offset. `O(1)` but for the first, which takes note of places on the way through the text.
     pub(super) fn position(&self, offset: usize) -> Position {
-        self.cursor().position(offset)
+        let offset = offset.min(self.text.len());
+        let milestones = self.milestones.get_or_init(|| {
+            let mut cursor = self.cursor();
+            (0..=self.text.len()).step_by(MILE).map(|at| cursor.position(at)).collect()
+        });
+        let passed = offset / MILE;
+        let mut cursor = Cursor { bytes: self.text.as_bytes(), read: passed * MILE, at: milestones[passed] };
+        cursor.position(offset)
     }
 
     /// For the positions of many offsets.
@@ -145,7 +167,7 @@ impl Source {
         let position = self.position(range.start);
         Defect {
             position: Some(position),
-            excerpt: Some(self.excerpt(position, self.text.get(range).map_or(1, |text| text.chars().count()))),
+            excerpt: Some(self.excerpt(position, range)),
             ..Defect::new(self.name(), message)
         }
     }
@@ -162,16 +184,22 @@ impl Source {
         self.defect_at(before + at..before + at + 1, message)
     }
 
-    fn excerpt(&self, position: Position, length: usize) -> String {
-        let line = self.text.lines().nth(position.line - 1).unwrap_or("");
-        let at = position.column - 1;
-        let from = at.saturating_sub(EXCERPT_REACH);
-        let shown: String =
-            line.chars().skip(from).take(2 * EXCERPT_REACH).map(|c| if c.is_control() { ' ' } else { c }).collect();
+    /// As much of the line as is near a place in it, with carets below the place.
+    fn excerpt(&self, position: Position, range: Range<usize>) -> String {
+        let start = (0..=range.start.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i)).unwrap_or(0);
+        let (before, after) = self.text.split_at(start);
+        let shown = |c: char| if c.is_control() { ' ' } else { c };
+        let before: Vec<char> =
+            before.chars().rev().take_while(|&c| c != '\n').take(EXCERPT_REACH).map(shown).collect();
+        let room = 2 * EXCERPT_REACH - before.len();
+        let after: String = after.chars().take_while(|&c| c != '\n').take(room).map(shown).collect();
+        let length = self.text.get(range).map_or(1, |text| text.chars().take(room).count());
+        let carets = "^".repeat(length.clamp(1, after.chars().count().max(1)));
         let number = position.line.to_string();
         let margin = " ".repeat(number.len());
-        let carets = "^".repeat(length.clamp(1, shown.chars().count().saturating_sub(at - from).max(1)));
-        format!("  {number} | {}\n  {margin} | {}{carets}", shown.trim_end(), " ".repeat(at - from))
+        let gap = " ".repeat(before.len());
+        let line: String = before.into_iter().rev().chain(after.chars()).collect();
+        format!("  {number} | {}\n  {margin} | {gap}{carets}", line.trim_end())
     }
 }
 

@@ -1,6 +1,6 @@
 //! The arm among its obstacles.
 
-use super::{Arm, Grip, Part, Payload, Workspace};
+use super::{Arm, Grip, Obstacle, Part, Payload, Workspace};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -40,6 +40,8 @@ pub struct Scene {
     /// What surrounds it.
     pub workspace: Workspace,
     payload: Option<Payload>,
+    /// Obstacles that link 2 itself is free to meet.
+    spared: Vec<usize>,
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
     pairs: Vec<Pair>,
@@ -86,7 +88,23 @@ impl Scene {
                 }
             }
         }
-        Self { arm, workspace, payload, own_parts, pairs, differences }
+        let spared = spared.to_vec();
+        Self { arm, workspace, payload, spared, own_parts, pairs, differences }
+    }
+
+    /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
+    /// each obstacle one obstacle, and what is carried stays as it is.
+    #[must_use]
+    pub(crate) fn reshaped(&self, part: impl Fn(&Convex) -> Convex, pieces: impl Fn(&Obstacle) -> Vec<Convex>) -> Self {
+        let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
+        arm.links[1].parts.truncate(self.own_parts);
+        for own in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
+            own.shape = part(&own.shape);
+        }
+        for obstacle in &mut workspace.obstacles {
+            obstacle.pieces = pieces(obstacle);
+        }
+        Self::handling(arm, workspace, self.payload.clone(), &self.spared)
     }
 
     /// What the arm carries, if anything.

@@ -1,8 +1,7 @@
 //! Trapezoidal decomposition of polygonal free space.
 
 use super::NONE;
-use super::boundary::Boundary;
-use super::status::Status;
+use crate::geometry::planar::{Boundary, Status};
 use crate::geometry::{Orientation, Point, orientation};
 use crate::interrupt::checkpoint;
 use crate::space::Segment;

@@ -1,7 +1,6 @@
 //! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
 
 mod attach;
-mod boundary;
 mod channel;
 mod decomposition;
 mod field_choice;
@@ -10,9 +9,7 @@ mod funnel;
 mod grid_path;
 mod harmonic;
 mod mesh;
-mod noding;
 mod shortcut;
-mod status;
 mod taut_search;
 mod terminals;
 mod trapezoid;
@@ -26,11 +23,9 @@ pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
+use crate::geometry::planar::NONE;
 use crate::space::{Configuration, GoalSet, Path};
 use std::sync::Arc;
-
-/// No index, in tables of indices.
-const NONE: u32 = u32::MAX;
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
 #[derive(Debug, Clone, PartialEq)]

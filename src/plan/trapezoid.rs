@@ -1,12 +1,12 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a taut string.
 
-use super::boundary::Boundary;
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
 use super::funnel::{Passage, Turn, nearest_end, turns};
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
+use crate::geometry::planar::Boundary;
 use crate::geometry::{Orientation, Point, orientation};
 use crate::space::{Configuration, Measure, Metric, Path, Segment};
 use std::ops::Range;
@@ -47,7 +47,7 @@ impl Planner for Trapezoid {
     type Map = TrapezoidMap;
 
     fn build(&self, space: &Regions) -> TrapezoidMap {
-        let boundary = Boundary::new(space);
+        let boundary = Boundary::new(&space.contours());
         let decomposition = Decomposition::new(&boundary);
         let corners_of = |points: Vec<Point>| points.into_iter().map(|p| p.coords).collect();
         let corners = decomposition.cells.iter().map(|cell| corners_of(cell.corners(&boundary))).collect();

@@ -1,11 +1,11 @@
 //! Shortest paths by visibility graph and A*.
 
-use super::boundary::Boundary;
 use super::mesh::{Mesh, Tangency};
 use super::taut_search::TautSearch;
 use super::terminals::Terminals;
 use super::{Outcome, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
+use crate::geometry::planar::Boundary;
 use crate::space::{Configuration, Measure, Metric, Path};
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
@@ -37,7 +37,7 @@ impl Planner for Visibility {
     type Map = VisibilityMap;
 
     fn build(&self, space: &Regions) -> VisibilityMap {
-        VisibilityMap { mesh: Mesh::new(Boundary::new(space)) }
+        VisibilityMap { mesh: Mesh::new(Boundary::new(&space.contours())) }
     }
 
     /// The trace and the size are those of the part of the graph that the search looked at.

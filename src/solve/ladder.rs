@@ -16,6 +16,9 @@ use std::time::Instant;
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
 
+/// A proof by slabs of more boxes than this is worth a try whether boxes that are halved need fewer.
+const LARGE_PROOF: usize = 10_000;
+
 /// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
 const CLOSE: f64 = 1e-4;
 
@@ -216,12 +219,18 @@ fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict
     let clearance = problem.scene.workspace.clearance;
     let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
     // Slabs answer most questions in a small part of the time; boxes know about shapes without thickness, too.
-    let proof = match slab_connectivity(scene, start, goals, clearance, SLABS.min(boxes)) {
+    let by_boxes = |boxes: usize| match connectivity(scene, start, goals, clearance, boxes) {
         Connectivity::Disconnected(proof) => checked(problem, proof),
-        Connectivity::Undecided { .. } => match connectivity(scene, start, goals, clearance, boxes) {
-            Connectivity::Disconnected(proof) => checked(problem, proof),
-            Connectivity::Connected(_) | Connectivity::Undecided { .. } => None,
-        },
+        Connectivity::Connected(_) | Connectivity::Undecided { .. } => None,
+    };
+    let proof = match slab_connectivity(scene, start, goals, clearance, SLABS.min(boxes)) {
+        Connectivity::Disconnected(proof) => {
+            let proof = checked(problem, proof);
+            let is_large = proof.as_ref().is_some_and(|proof| proof.stuck().len() > LARGE_PROOF);
+            let other = is_large.then(|| by_boxes(LARGE_PROOF)).flatten();
+            other.or(proof)
+        }
+        Connectivity::Undecided { .. } => by_boxes(boxes),
         // There is a path, so there is no proof.
         Connectivity::Connected(_) => None,
     };

@@ -31,8 +31,9 @@ pub fn decide(problem: &Problem, slabs: usize) -> Verdict {
     }
 }
 
-/// The proof, if it passes the independent check: no search is trusted.
+/// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
 pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
     let clearance = problem.scene.workspace.clearance;
-    proof.recheck(&problem.scene, problem.start, &problem.goals, clearance).is_ok().then_some(proof)
+    let holds = |proof: &Disconnection| proof.recheck(&problem.scene, problem.start, &problem.goals, clearance).is_ok();
+    holds(&proof).then(|| proof.slimmed(holds))
 }

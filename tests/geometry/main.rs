@@ -6,6 +6,7 @@ mod common;
 mod cspace;
 mod hostile;
 mod lattice;
+mod many_corners;
 mod measures;
 mod minkowski;
 mod parry;

@@ -4,8 +4,9 @@ use crate::certify::deviation::{Deviation, Posture, STUCK_ROUNDING};
 use crate::certify::slab::{Eroded, OUTWARD};
 use crate::geometry::{Convex, Features, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
 use crate::interrupt::checkpoint;
-use crate::model::{Carried, Pair, Scene, on_axis};
+use crate::model::{Carried, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
+use std::cmp::Reverse;
 use std::f64::consts::PI;
 
 /// Times that a motion is halved before it counts as not proven.
@@ -21,20 +22,36 @@ pub(super) struct Wall {
     pub upper: f64,
 }
 
+/// Pairs of link 2 at most. What fewer of them close is no more, so that the bound holds; with many it is hardly lower: they
+/// are smaller than the link, which keeps meeting others beside those that are left out.
+const MOST_PAIRS: usize = 4096;
+
+/// Rows times pairs at most, some seconds' worth.
+const MOST_LOOKS: usize = 4_000_000;
+
 /// A pair of link 2.
 struct Prepared {
-    part: Carried,
+    /// Into the parts.
+    part: usize,
     piece: Features,
     /// None where the shapes are too thin to overlap by as much as rounding may amount to.
     eroded: Option<Eroded>,
-    /// Half-planes of the cores of part and piece.
-    sides: [Vec<(Vector, f64)>; 2],
+    /// Half-planes of the piece's core.
+    sides: Vec<(Vector, f64)>,
+}
+
+/// A part of link 2.
+struct PreparedPart {
+    carried: Carried,
+    /// Half-planes of its core.
+    sides: Vec<(Vector, f64)>,
 }
 
 /// All that link 2 can meet.
 pub(super) struct Closed<'a> {
     scene: &'a Scene,
     clearance: f64,
+    parts: Vec<PreparedPart>,
     pairs: Vec<Prepared>,
     scratch: Vec<[f64; 2]>,
 }
@@ -42,14 +59,25 @@ pub(super) struct Closed<'a> {
 impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let motion = scene.arm.joints[1].motion;
-        let prepare = |&pair: &Pair| {
-            let (part, piece) = (Carried::new(motion, scene.part(pair)), scene.piece(pair));
-            let eroded = Eroded::new(&part, piece, OUTWARD, clearance);
-            let sides = [part.shape().core(), piece.core()].map(half_planes);
-            Prepared { part, piece: Features::new(piece), eroded, sides }
-        };
-        let pairs = scene.pairs().iter().filter(|pair| pair.link == 1).map(prepare).collect();
-        Self { scene, clearance, pairs, scratch: Vec::new() }
+        let (mut parts, mut pairs): (Vec<PreparedPart>, Vec<Prepared>) = (Vec::new(), Vec::new());
+        for of_part in chosen(scene, clearance).chunk_by(|a, b| a.part == b.part) {
+            let carried = Carried::new(motion, scene.part(of_part[0]));
+            let part = parts.len();
+            for &pair in of_part {
+                checkpoint();
+                let piece = scene.piece(pair);
+                let eroded = Eroded::new(&carried, piece, OUTWARD, clearance);
+                pairs.push(Prepared { part, piece: Features::new(piece), eroded, sides: half_planes(piece.core()) });
+            }
+            let sides = half_planes(carried.shape().core());
+            parts.push(PreparedPart { carried, sides });
+        }
+        Self { scene, clearance, parts, pairs, scratch: Vec::new() }
+    }
+
+    /// How many rows are worth looking at.
+    pub fn most_rows(&self) -> usize {
+        MOST_LOOKS / self.pairs.len().max(1)
     }
 
     /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
@@ -69,7 +97,7 @@ impl<'a> Closed<'a> {
         bands
     }
 
-    /// What is closed at `q1`, by pair.
+    /// What is closed at `q1`, in the order of the pairs.
     pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
         checkpoint();
         let arm = &self.scene.arm;
@@ -80,7 +108,8 @@ impl<'a> Closed<'a> {
         for (number, pair) in self.pairs.iter().enumerate() {
             let Some(eroded) = &pair.eroded else { continue };
             self.scratch.clear();
-            let hits = eroded.hits(&pair.part, &pair.piece, elbow, heading, &mut self.scratch);
+            let part = &self.parts[pair.part].carried;
+            let hits = eroded.hits(part, &pair.piece, elbow, heading, &mut self.scratch);
             let mut add = |[lower, upper]: [f64; 2]| {
                 if lower < upper {
                     walls.push(Wall { pair: number, lower, upper });
@@ -109,7 +138,8 @@ impl<'a> Closed<'a> {
         }
         let pose = self.scene.arm.pose(1, middle);
         halvings > 0
-            && separation(&pair.part.shape().at(&pose), pair.piece.shape()).distance < self.clearance
+            && separation(&self.parts[pair.part].carried.shape().at(&pose), pair.piece.shape()).distance
+                < self.clearance
             && self.halved(pair, [ends[0], middle], halvings - 1)
             && self.halved(pair, [middle, ends[1]], halvings - 1)
     }
@@ -121,12 +151,12 @@ impl<'a> Closed<'a> {
     /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
     /// as seen from the link. Shapes are too near each other where a point of one core is within `radius` of the other.
     fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
-        let (part, piece) = (pair.part.shape(), pair.piece.shape());
+        let (PreparedPart { carried, sides: of_part }, of_piece) = (&self.parts[pair.part], &pair.sides);
+        let (part, piece) = (carried.shape(), pair.piece.shape());
         let poses = ends.map(|q| self.scene.arm.pose(1, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
-        let [of_part, of_piece] = &pair.sides;
         let of_world = |p: Point| {
             let allowed = radius - posture.curvature_in_link(1, p, deviation) / 2.0;
             poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
@@ -141,6 +171,45 @@ impl<'a> Closed<'a> {
         let pose = self.scene.arm.pose(1, (ends[0] + ends[1]) / 2.0);
         common_point(part, piece, &pose).is_some_and(|p| of_world(p) || of_link(pose.inverse_transform_point(&p)))
     }
+}
+
+/// The pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces, and of
+/// pieces of about a size some all over the list.
+fn chosen(scene: &Scene, clearance: f64) -> Vec<Pair> {
+    let arm = &scene.arm;
+    let in_reach = |pair: &Pair| {
+        let swept = swept(scene.part(*pair), &arm.joints[1], arm.offset);
+        let piece = scene.piece(*pair);
+        // A joint that slides takes link 2 anywhere along its way.
+        !arm.joints[0].motion.is_revolute()
+            || least_distance(piece, arm.base) <= swept.reach_from(Point::origin()) + clearance
+    };
+    let mut pairs: Vec<Pair> =
+        scene.pairs().iter().filter(|pair| pair.link == 1).filter(|p| in_reach(p)).copied().collect();
+    if pairs.len() > MOST_PAIRS {
+        let bits = usize::BITS - pairs.len().leading_zeros();
+        let mut ranked: Vec<(Reverse<i32>, usize, Pair)> = pairs
+            .into_iter()
+            .enumerate()
+            .map(|(number, pair)| {
+                let core = scene.piece(pair).core();
+                let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
+                // Numbers with their bits reversed ascend all over the list at a time.
+                (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), pair)
+            })
+            .collect();
+        ranked.sort_unstable();
+        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., pair)| pair).collect();
+        pairs.sort_unstable();
+    }
+    pairs
+}
+
+/// A lower bound on the distance of a shape from a point.
+fn least_distance(shape: &Convex, from: Point) -> f64 {
+    let core = shape.core();
+    let extent = core.iter().map(|p| (p - core[0]).norm()).fold(0.0, f64::max);
+    (core[0] - from).norm() - extent - shape.radius()
 }
 
 /// A point in the middle of what the cores have in common with the part at `pose`.

@@ -23,9 +23,6 @@ const COORDINATES: f64 = 1024.0 * f64::EPSILON;
 /// Times that strips are halved at most.
 const ROUNDS: usize = 64;
 
-/// Strips at most.
-const MOST_STRIPS: usize = 100_000;
-
 /// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
 const PATIENCE: usize = 3;
 
@@ -90,7 +87,7 @@ pub fn least_length(
         };
         idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
         best = f64::max(best, length);
-        if best >= enough || idle >= PATIENCE || strips.count() > MOST_STRIPS {
+        if best >= enough || idle >= PATIENCE || strips.are_too_many() {
             break;
         }
         let passed = passed(scene, clearance, &mut strips, &corners, measure, gap * limit * WORTH);

@@ -10,6 +10,12 @@ use std::f64::consts::TAU;
 /// that across a seam no strip is its own neighbour.
 const FIRST: usize = 64;
 
+/// Strips at most.
+const MOST_STRIPS: usize = 100_000;
+
+/// Barriers that are tried in a strip at most.
+const MOST_BARRIERS: usize = 512;
+
 /// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
 const NARROWEST: f64 = 1e-9;
 
@@ -114,6 +120,11 @@ impl<'a> Strips<'a> {
 
     pub fn count(&self) -> usize {
         self.strips.len()
+    }
+
+    /// Whether more strips would cost more than they are worth.
+    pub fn are_too_many(&self) -> bool {
+        self.strips.len() > MOST_STRIPS.min(self.closed.most_rows())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
@@ -261,10 +272,8 @@ impl<'a> Strips<'a> {
                 self.last.clone()
             };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
-            for left in &before {
-                for right in after.iter().filter(|right| right.pair == left.pair) {
-                    barriers.extend(self.barrier([from, to], left, right));
-                }
+            for (left, right) in some(of_the_same_pairs(&before, &after)) {
+                barriers.extend(self.barrier([from, to], left, right));
             }
             barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
             // Those that cross others are left out: cells are to be convex.
@@ -340,6 +349,29 @@ impl<'a> Strips<'a> {
         }
         self.strips.len() > count
     }
+}
+
+/// The walls that a pair makes at both of two rows, in the order of pairs, which that of the rows' walls is.
+fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall, &'w Wall)> {
+    let mut both = Vec::new();
+    let mut rest = after;
+    for of_pair in before.chunk_by(|a, b| a.pair == b.pair) {
+        let pair = of_pair[0].pair;
+        rest = &rest[rest.partition_point(|wall| wall.pair < pair)..];
+        let same = &rest[..rest.partition_point(|wall| wall.pair == pair)];
+        both.extend(of_pair.iter().flat_map(|left| same.iter().map(move |right| (left, right))));
+    }
+    both
+}
+
+/// All, or of too many some from all over the list, ordered by the middles of the first walls.
+fn some<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
+    if candidates.len() > MOST_BARRIERS {
+        candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
+        let count = candidates.len();
+        candidates = (0..MOST_BARRIERS).map(|k| candidates[k * count / MOST_BARRIERS]).collect();
+    }
+    candidates
 }
 
 /// Bands, ascending, that are neither nearer than [`APART`] to each other or to an end of the domain, nor narrower.

@@ -7,6 +7,9 @@ use crate::geometry::merge_in_place;
 use crate::interrupt::checkpoint;
 use crate::space::{Configuration, GoalSet, Segment};
 
+/// Boxes of a proof at most: with more it is no use to anybody.
+const MOST_BOXES: usize = 200_000;
+
 impl Slabs<'_> {
     /// What free and mixed spans connect with any of the places, as one flag a span.
     fn reached(&self, places: &GoalSet) -> Vec<bool> {
@@ -75,7 +78,9 @@ impl Slabs<'_> {
             merged.retain(touches);
             for (pair, interval) in &self.verdicts.inner {
                 let needed = merged.iter().any(|m| m[0] <= interval[0] && interval[1] <= m[1]);
-                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes) {
+                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes)
+                    || boxes.len() > MOST_BOXES
+                {
                     return None;
                 }
             }

@@ -17,6 +17,9 @@ use std::time::{Duration, Instant};
 /// The page is not to wait longer than this for what it shows while something is dragged.
 const DRAG_TIME: Duration = Duration::from_millis(150);
 
+/// Nor than this for the obstacles alone, once the time for a plan is up.
+const SHOW_TIME: Duration = Duration::from_secs(5);
+
 /// Bisections towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
 
@@ -68,7 +71,10 @@ impl<'a> Desk<'a> {
 
     /// Takes another text, if it is a world, and plans in it.
     pub fn load(&mut self, id: u64, text: &str, options: String, interrupt: &Interrupt, tell: &mut dyn FnMut(Reply)) {
-        match self.host.read(text) {
+        // Newer requests do not stop it: they may speak of what it loads.
+        let limited = Interrupt::new().by(Instant::now() + self.host.time);
+        let read = limited.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
+        match read {
             Ok((document, scene)) => {
                 (self.document, self.scene) = (document, scene);
                 self.base += 1;
@@ -106,10 +112,16 @@ impl<'a> Desk<'a> {
         let options = Options::parse(&ask.options)?;
         let text = self.text(ask)?;
         let source = self.host.world.with_text(text.as_str());
-        let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
-        let toml = ask.is_final.then_some(text);
         let deadline = Instant::now() + self.time(ask);
         let limited = interrupt.clone().by(deadline);
+        // Reading takes as long as it takes while something is dragged: without it there is nothing to show.
+        let reading = if ask.is_final { limited.clone() } else { interrupt.clone().by(deadline + self.host.time) };
+        let loaded = match reading.run(|| self.scene.edited(&self.host.urdf, source)) {
+            Ok(loaded) => loaded.map_err(|error| error.to_string())?,
+            Err(Interrupted::Set) => return Ok(None),
+            Err(Interrupted::TimeUp) => return Ok(Some(late(self.time(ask)))),
+        };
+        let toml = ask.is_final.then_some(text);
         let effort = options.effort(&loaded.scene)?;
         if loaded.has_steps() {
             let mut loaded = loaded.task(&Overrides::default()).map_err(|error| error.to_string())?;
@@ -120,6 +132,8 @@ impl<'a> Desk<'a> {
                 Err(Interrupted::TimeUp) => Ok(Some(AnswerReply { toml, ..late(self.time(ask)) })),
             };
         }
+        // What is shown in place of an answer must not take longer than that did.
+        let showing = interrupt.clone().by(deadline + self.host.time.min(SHOW_TIME));
         let at = |q: Option<Pair>| q.map_or_else(Configuration::zeros, Configuration::from);
         let start = ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
         let problem = match loaded.clone().problem(&Overrides::default()) {
@@ -129,8 +143,12 @@ impl<'a> Desk<'a> {
             }
             Err(error) => {
                 let error = Some(error.to_string());
-                let shown = interrupt.run(|| result::bare(&loaded.scene, at(start), &[], "not planned")).ok();
-                return Ok(shown.map(|shown| AnswerReply { error, toml, start, ..shown }));
+                let shown = match showing.run(|| result::bare(&loaded.scene, at(start), &[], "not planned")) {
+                    Ok(shown) => shown,
+                    Err(Interrupted::Set) => return Ok(None),
+                    Err(Interrupted::TimeUp) => AnswerReply::default(),
+                };
+                return Ok(Some(AnswerReply { error, toml, start, ..shown }));
             }
         };
         let (start, goals) = (problem.start, problem.goals.pieces());
@@ -142,18 +160,26 @@ impl<'a> Desk<'a> {
             true => Found::in_full(&problem, &options, &effort).answer(),
             false => Ok(result::quick(&problem, options.method(), &effort)),
         };
-        let bare = |status| interrupt.run(|| result::bare(&loaded.scene, start, goals, status));
+        let bare = |status| showing.run(|| result::bare(&loaded.scene, start, goals, status));
         if ask.is_final {
-            let Ok(shown) = bare("planning") else { return Ok(None) };
-            tell(places(shown));
+            match limited.run(|| result::bare(&loaded.scene, start, goals, "planning")) {
+                Ok(shown) => tell(places(shown)),
+                Err(Interrupted::Set) => return Ok(None),
+                Err(Interrupted::TimeUp) => return Ok(Some(AnswerReply { toml, ..places(late(self.time(ask))) })),
+            }
         }
         match limited.run(plan) {
             Ok(answer) => Ok(Some(AnswerReply { toml, ..places(answer?) })),
             Err(Interrupted::Set) => Ok(None),
-            Err(Interrupted::TimeUp) => Ok(bare("unknown").ok().map(|shown| {
+            Err(Interrupted::TimeUp) => {
+                let shown = match bare("unknown") {
+                    Ok(shown) => shown,
+                    Err(Interrupted::Set) => return Ok(None),
+                    Err(Interrupted::TimeUp) => AnswerReply::default(),
+                };
                 let AnswerReply { verdict, reason, .. } = late(self.time(ask));
-                places(AnswerReply { verdict, reason, toml, ..shown })
-            })),
+                Ok(Some(places(AnswerReply { verdict, reason, toml, ..shown })))
+            }
         }
     }
 

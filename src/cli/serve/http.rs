@@ -23,6 +23,10 @@ const MOST_CONNECTIONS: usize = 32;
 /// Time that a client has to send the head of a request.
 const HEAD_TIME: Duration = Duration::from_secs(10);
 
+/// Time that a connection lives, but for WebSockets, which have times of their own. A browser opens another one. Without it
+/// clients that ask and never read would keep all others out.
+const LIFE: Duration = Duration::from_secs(10);
+
 /// Bytes of the head of a request.
 const LARGEST_HEAD: usize = 16 << 10;
 
@@ -82,7 +86,8 @@ pub async fn serve(listener: TcpListener, host: Arc<Host>) {
             let mut http = hyper::server::conn::http1::Builder::new();
             http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIME).max_buf_size(LARGEST_HEAD);
             // What a client does wrong is its own affair.
-            let _ = http.serve_connection(TokioIo::new(stream), service).with_upgrades().await;
+            let _ =
+                tokio::time::timeout(LIFE, http.serve_connection(TokioIo::new(stream), service).with_upgrades()).await;
             drop(permit);
         });
     }

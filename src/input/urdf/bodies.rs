@@ -14,6 +14,9 @@ use nalgebra::{Isometry3, Translation2, Vector3};
 use std::ops::Range;
 use urdf_rs::Geometry;
 
+/// Corners of the largest outline that stays one shape: what is asked of it takes time that grows with them.
+const MOST_CORNERS: usize = 1024;
+
 /// Everything that the outlines are made from.
 pub(super) struct Bodies<'a> {
     pub document: &'a Document,
@@ -190,7 +193,9 @@ impl Bodies<'_> {
                 };
                 let pose = self.poses[*body] * isometry(origin);
                 let shape = solid.outline(&pose, self.plane).at(&to_link.into());
-                found.parts.push(Part { shape, heights: solid.heights(&pose, self.plane), body: link.name.clone() });
+                let heights = solid.heights(&pose, self.plane);
+                let shapes = if shape.core().len() > MOST_CORNERS { shape.cut_up() } else { vec![shape] };
+                found.parts.extend(shapes.into_iter().map(|shape| Part { shape, heights, body: link.name.clone() }));
             }
         }
         found

@@ -66,7 +66,7 @@ pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
     let joints = &document.robot.joints;
     let mut movable: Vec<usize> =
         (0..joints.len()).filter(|j| is_movable(&joints[*j]) && joints[*j].mimic.is_none()).collect();
-    movable.sort_by_key(|j| tree.path_to(tree.child[*j]).len());
+    movable.sort_by_key(|j| tree.depth(tree.child[*j]));
     let carried = |a: usize| movable.iter().filter(move |b| tree.carries(a, tree.parent[**b])).map(move |b| [a, *b]);
     movable.iter().flat_map(|a| carried(*a)).collect()
 }
@@ -232,11 +232,10 @@ impl Chooser<'_> {
                 return Err(self.mimic_defect(j, &message));
             }
         }
-        let on_path = self.tree.path_to(self.tree.child[chosen[1]]);
         for (j, joint) in self.all().iter().enumerate() {
             let carried = self.tree.carries(chosen[0], self.tree.child[j]);
             if matches!(joint.joint_type, JointType::Floating | JointType::Planar | JointType::Spherical)
-                && (carried || on_path.contains(&j))
+                && (carried || self.tree.carries(j, self.tree.child[chosen[1]]))
             {
                 let message =
                     format!("is of type {}: where its link is does not follow from one value", type_name(joint));
@@ -283,7 +282,7 @@ impl Chooser<'_> {
             };
         }
         // The deepest link below joint 2, the first of the file among equals.
-        let depth = |l: &usize| (self.tree.path_to(*l).len(), std::cmp::Reverse(*l));
+        let depth = |l: &usize| (self.tree.depth(*l), std::cmp::Reverse(*l));
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }
 }

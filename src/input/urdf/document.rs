@@ -9,7 +9,7 @@ use super::foreign;
 use crate::input::error::{Defect, InputError};
 use crate::input::source::Source;
 use roxmltree::Node;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -116,7 +116,8 @@ impl Reader<'_> {
         let _ = write!(self.copy, "<robot name=\"{}\" version=\"1.1\">", escaped(root.attribute("name").unwrap_or("")));
         let mut links = Vec::new();
         let mut joints = Vec::new();
-        let mut names: Vec<(&str, String, usize)> = Vec::new();
+        // Where the first of each name is.
+        let mut names: HashMap<(&str, &str), usize> = HashMap::new();
         for node in root.children().filter(|n| is_ours(*n, root)) {
             let kind = node.tag_name().name();
             if kind != "link" && kind != "joint" {
@@ -128,14 +129,14 @@ impl Reader<'_> {
                 self.tree_is_sound = false;
                 continue;
             };
-            let line = self.source.position(node.range().start).line;
-            if let Some((.., first)) = names.iter().find(|(k, n, _)| *k == kind && n == name) {
+            if let Some(&first) = names.get(&(kind, name)) {
+                let first = self.source.position(first).line;
                 let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
                 self.defect(node, message, "rename one of them");
                 self.tree_is_sound = false;
                 continue;
             }
-            names.push((kind, name.to_owned(), line));
+            names.insert((kind, name), node.range().start);
             if kind == "link" {
                 links.push(self.link(node, name));
             } else {

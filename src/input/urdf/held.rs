@@ -51,9 +51,7 @@ impl Chooser<'_> {
                 continue;
             }
             values[j] = self.held_at(j)?;
-            if self.tree.path_to(self.tree.child[chosen[1]]).contains(&j)
-                || self.tree.carries(chosen[0], self.tree.child[j])
-            {
+            if self.tree.carries(j, self.tree.child[chosen[1]]) || self.tree.carries(chosen[0], self.tree.child[j]) {
                 held.push(j);
                 notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
             }

@@ -3,6 +3,8 @@
 use super::document::Document;
 use crate::input::error::{Defect, InputError, quoted};
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
+use std::collections::HashMap;
+use std::ops::Range;
 use urdf_rs::JointType;
 
 /// The links of a URDF as a tree. Links and joints are indices into the file's lists; an undeclared link `world` at the
@@ -20,15 +22,19 @@ pub(super) struct Tree {
     pub root: usize,
     /// Whether the root is a `world` that the file does not declare.
     pub implicit_world: bool,
-    /// Links in an order in which parents come first.
+    /// Links from the root downwards, each right before all that hangs from it.
     order: Vec<usize>,
+    /// Of each link, the stretch of that order that it and all that hangs from it are.
+    stretch: Vec<Range<usize>>,
+    /// Number of joints above each link.
+    depth: Vec<usize>,
 }
 
 /// The one link name that may be used without being declared, as a root.
 const WORLD: &str = "world";
 
 impl Tree {
-    /// Links the joints up.
+    /// Links the joints up. Linear in their number.
     ///
     /// # Errors
     /// Missing links, links below two joints, cycles, several roots: all of a kind together.
@@ -38,13 +44,27 @@ impl Tree {
         let (parent, child) = endpoints(document, &mut links)?;
         let above = joints_above(document, &links, &child)?;
         let roots: Vec<usize> = (0..links.len()).filter(|l| above[*l].is_none()).collect();
-        let order = reachable(&roots, &parent, &child);
-        if let Some(stray) = (0..links.len()).find(|l| !order.contains(l)) {
+        let order = downwards(&roots, links.len(), &parent, &child);
+        let mut reached = vec![false; links.len()];
+        order.iter().for_each(|&link| reached[link] = true);
+        if let Some(stray) = reached.iter().position(|reached| !reached) {
             return Err(cycle(document, stray, &above, &parent).into());
         }
         match roots.as_slice() {
             [root] => {
-                Ok(Self { implicit_world: links.len() > declared, root: *root, parent, child, above, order, links })
+                let (root, implicit_world) = (*root, links.len() > declared);
+                let mut depth = vec![0; links.len()];
+                let mut stretch = vec![0..0; links.len()];
+                for (at, &link) in order.iter().enumerate() {
+                    depth[link] = above[link].map_or(0, |joint| depth[parent[joint]] + 1);
+                    stretch[link] = at..at + 1;
+                }
+                for &link in order.iter().rev() {
+                    if let Some(joint) = above[link] {
+                        stretch[parent[joint]].end = stretch[parent[joint]].end.max(stretch[link].end);
+                    }
+                }
+                Ok(Self { links, parent, child, above, root, implicit_world, order, stretch, depth })
             }
             _ => Err(several_roots(document, &links, &roots).into()),
         }
@@ -55,16 +75,14 @@ impl Tree {
         self.links.iter().position(|l| l == name)
     }
 
-    /// The joints from the root to a link, base first.
-    pub fn path_to(&self, link: usize) -> Vec<usize> {
-        let mut path: Vec<usize> = std::iter::successors(self.above[link], |j| self.above[self.parent[*j]]).collect();
-        path.reverse();
-        path
+    /// Number of joints from the root to a link.
+    pub fn depth(&self, link: usize) -> usize {
+        self.depth[link]
     }
 
-    /// Whether `joint` moves `link`.
+    /// Whether `joint` moves `link`. `O(1)`.
     pub fn carries(&self, joint: usize, link: usize) -> bool {
-        self.path_to(link).contains(&joint)
+        self.stretch[self.child[joint]].contains(&self.stretch[link].start)
     }
 
     /// Pose of every link in the root frame, for these values of the joints. `O(links)`.
@@ -114,9 +132,13 @@ fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>
     if implicit {
         links.push(WORLD.to_owned());
     }
+    let mut numbers = HashMap::new();
+    for (number, link) in links.iter().enumerate() {
+        numbers.entry(link.as_str()).or_insert(number);
+    }
     let mut defects = Vec::new();
     let mut find = |name: &str, j: usize, role: &str, at| {
-        links.iter().position(|l| l == name).unwrap_or_else(|| {
+        numbers.get(name).copied().unwrap_or_else(|| {
             let message = format!("joint \"{}\": its {role} link \"{name}\" does not exist", joints[j].name);
             let cure = format!(
                 "declare <link name=\"{name}\"/> or correct the name; the links are {}",
@@ -156,13 +178,17 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
     Ok(above)
 }
 
-fn reachable(roots: &[usize], parent: &[usize], child: &[usize]) -> Vec<usize> {
-    let mut order = roots.to_vec();
-    let mut next = 0;
-    while next < order.len() {
-        let link = order[next];
-        order.extend((0..parent.len()).filter(|j| parent[*j] == link).map(|j| child[j]));
-        next += 1;
+/// The links that hang from roots, each right before all that hangs from it.
+fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -> Vec<usize> {
+    let mut below = vec![Vec::new(); links];
+    for (&parent, &child) in parent.iter().zip(child) {
+        below[parent].push(child);
+    }
+    let mut order = Vec::with_capacity(links);
+    let mut waiting: Vec<usize> = roots.iter().rev().copied().collect();
+    while let Some(link) = waiting.pop() {
+        order.push(link);
+        waiting.extend(below[link].iter().rev());
     }
     order
 }
@@ -170,8 +196,9 @@ fn reachable(roots: &[usize], parent: &[usize], child: &[usize]) -> Vec<usize> {
 fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Defect {
     // Walking up from a link that no root reaches must run into the cycle.
     let mut seen = Vec::new();
+    let mut passed = vec![false; parent.len()];
     let mut joint = above[stray];
-    while let Some(j) = joint.filter(|j| !seen.contains(j)) {
+    while let Some(j) = joint.filter(|&j| !std::mem::replace(&mut passed[j], true)) {
         seen.push(j);
         joint = above[parent[j]];
     }

@@ -1,7 +1,7 @@
 //! Convex corners of obstacles, as free space sees them.
 
-use super::triangulation::HalfEdges;
 use super::{next, previous};
+use crate::geometry::planar::HalfEdges;
 use crate::geometry::{Orientation, Point, orientation};
 use crate::plan::NONE;
 

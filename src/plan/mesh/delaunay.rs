@@ -1,7 +1,7 @@
 //! Flipping edges until no triangle has the far corner of a neighbour in its circumcircle.
 
-use super::triangulation::HalfEdges;
 use super::{next, previous};
+use crate::geometry::planar::HalfEdges;
 use crate::geometry::{Orientation, Point, in_circle, orientation};
 use crate::interrupt::checkpoint;
 use crate::plan::NONE;

@@ -1,6 +1,6 @@
 //! Which triangle contains a point?
 
-use super::triangulation::HalfEdges;
+use crate::geometry::planar::HalfEdges;
 use crate::geometry::{Orientation, Point, orientation};
 
 /// Triangles by vertical strips, as many as the root of their number.

@@ -4,18 +4,16 @@ mod cone;
 mod corners;
 mod delaunay;
 mod location;
-mod triangulation;
 
 pub(super) use cone::{Beyond, Bound, Cone, Crossing};
 pub(super) use corners::{Corner, Tangency};
 
 use super::NONE;
-use super::boundary::Boundary;
 use crate::geometry::Point;
+use crate::geometry::planar::{Boundary, HalfEdges, triangulate};
 use crate::space::Segment;
 use corners::Corners;
 use location::Columns;
-use triangulation::HalfEdges;
 
 /// The constrained Delaunay triangulation of free space, its convex corners, and an index of its triangles.
 ///
@@ -31,7 +29,7 @@ pub(super) struct Mesh {
 impl Mesh {
     /// Triangulates, `O(n log n)` for `n` vertices.
     pub fn new(boundary: Boundary) -> Self {
-        let mut edges = triangulation::triangulate(&boundary);
+        let mut edges = triangulate(&boundary);
         let vertices = boundary.vertices;
         delaunay::flip(&vertices, &mut edges);
         let corners = Corners::new(&vertices, &edges);
@@ -150,7 +148,7 @@ mod tests {
         fn is_the_constrained_delaunay_triangulation(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
         ) {
-            let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix)));
+            let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix).contours()));
             let corners = |t: u32| [3 * t, 3 * t + 1, 3 * t + 2].map(|h| mesh.origin(h));
             let mut twice_area = 0.0;
             for t in 0..mesh.triangles() as u32 {

@@ -7,8 +7,10 @@ mod first;
 mod free_joint;
 mod help;
 mod inputs;
+mod many_corners;
 mod mazes;
 mod narrow;
+mod proof_sizes;
 mod results;
 mod tasks;
 

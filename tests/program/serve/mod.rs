@@ -1,6 +1,7 @@
 //! The live page's server from outside: plain HTTP, and its WebSocket as a page would use it.
 
 mod client;
+mod endurance;
 mod pages;
 mod plans;
 mod refusals;

@@ -1,15 +1,27 @@
-//! The boundary of free space as roadmap planners see it: distinct vertices and directed sides that meet in vertices.
+//! Polygons with holes as distinct vertices and directed sides that meet in vertices, and their triangulation.
 
-use super::{NONE, noding};
-use crate::cspace::Regions;
-use crate::geometry::{Orientation, Point, orientation};
+mod noding;
+mod simplicity;
+mod status;
+mod triangulation;
+
+pub(super) use simplicity::first_meeting;
+pub use status::Status;
+pub use triangulation::{HalfEdges, triangulate};
+
+use super::{Orientation, Point, orientation};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// A side of the boundary, by vertex number; free space lies to the left of its direction.
+/// No index, in tables of indices.
+pub const NONE: u32 = u32::MAX;
+
+/// A side of the boundary, by vertex number; the inside (for planners free space) lies to the left of its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Side {
+pub struct Side {
+    /// Where it begins.
     pub from: u32,
+    /// Where it ends.
     pub to: u32,
 }
 
@@ -24,7 +36,7 @@ impl Side {
         self.from.max(self.to) as usize
     }
 
-    /// Whether it is directed to the right, so that free space lies above.
+    /// Whether it is directed to the right, so that the inside lies above.
     pub fn is_floor(self) -> bool {
         self.from < self.to
     }
@@ -32,13 +44,14 @@ impl Side {
 
 /// Distinct vertices in lexicographic order, directed sides that meet in vertices only.
 ///
-/// Contours that touch (in a shared corner, or a corner on a side) are cut there, so that what is free around a point
+/// Contours that touch (in a shared corner, or a corner on a side) are cut there, so that what is inside around a point
 /// is told by the sides that end there, whichever way the contours were traced. Sides must not cross or overlap each
 /// other, which holds for the result of any polygon union; where the rounding of its corners has made them cross by a
 /// hair, they are cut and joined at the corner next to the crossing. Two coincident sides, where obstacles touch along
 /// a side, are allowed.
 #[derive(Debug, Clone)]
-pub(super) struct Boundary {
+pub struct Boundary {
+    /// Distinct, in lexicographic order.
     pub vertices: Vec<Point>,
     /// By left end, and of one left end from bottom to top.
     pub sides: Vec<Side>,
@@ -52,11 +65,16 @@ pub(super) struct Boundary {
 }
 
 impl Boundary {
-    /// From the polygons of free space, `O(n log n)` for `n` corners.
-    pub fn new(regions: &Regions) -> Self {
-        let contours = || regions.free.iter().flat_map(|p| std::iter::once(&p.outer).chain(&p.holes));
+    /// Of contours with the inside to the left, `O(n log n)` for `n` corners.
+    #[must_use]
+    pub fn new(contours: &[&[Point]]) -> Self {
+        noding::planar(Self::bare(contours))
+    }
+
+    /// Vertices and sides in no order.
+    fn bare(contours: &[&[Point]]) -> Self {
         let mut order: Vec<(Point, u32)> =
-            contours().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
+            contours.iter().copied().flatten().zip(0..).map(|(p, index)| (unsigned_zero(*p), index)).collect();
         order.sort_unstable_by(|a, b| lexicographic(a.0, b.0).then(a.1.cmp(&b.1)));
         let mut vertices: Vec<Point> = Vec::with_capacity(order.len());
         let mut number = vec![0; order.len()];
@@ -68,17 +86,25 @@ impl Boundary {
         }
         let mut sides = Vec::with_capacity(number.len());
         let mut begin = 0;
-        for contour in contours() {
+        for contour in contours {
             let numbers = &number[begin..begin + contour.len()];
             let next = numbers.iter().cycle().skip(1);
             sides.extend(numbers.iter().zip(next).filter(|(a, b)| a != b).map(|(&from, &to)| Side { from, to }));
             begin += contour.len();
         }
-        noding::planar(Self { vertices, sides, first: vec![], by_right_end: vec![], last: vec![], below: vec![] })
+        Self { vertices, sides, first: vec![], by_right_end: vec![], last: vec![], below: vec![] }
+    }
+
+    /// Of the first `count` sides of a ring of distinct corners, each from a corner to the next one; nothing is cut.
+    fn of_chain(ring: &[Point], count: usize) -> Self {
+        let mut this = Self::bare(&[ring]);
+        this.sides.truncate(count);
+        this.arrange();
+        this
     }
 
     /// Puts the sides in order and sets up the lists by vertex.
-    pub fn arrange(&mut self) {
+    fn arrange(&mut self) {
         let point = |v: usize| self.vertices[v];
         self.sides.sort_unstable_by(|a, b| {
             let slopes = || below_at(point(a.left_end()), point(a.right_end()), point(b.right_end()));
@@ -120,7 +146,7 @@ impl Boundary {
     }
 
     /// Sets what [`Boundary::below`] tells.
-    pub fn set_below(&mut self, below: Vec<u32>) {
+    fn set_below(&mut self, below: Vec<u32>) {
         self.below = below;
     }
 
@@ -141,8 +167,8 @@ impl Boundary {
         from.x == to.x
     }
 
-    /// The ordinate at which a side that is not vertical meets the abscissa `x` within its range, rounded *into* free
-    /// space: the point `(x, y)` is on the side or on its free side, exactly.
+    /// The ordinate at which a side that is not vertical meets the abscissa `x` within its range, rounded *into* the
+    /// inside: the point `(x, y)` is on the side or on its inner side, exactly.
     pub fn ordinate(&self, side: usize, x: f64) -> f64 {
         let is_floor = self.sides[side].is_floor();
         let (from, to) = self.ends(side);
@@ -155,7 +181,7 @@ impl Boundary {
         }
         let (low, high) = (a.y.min(b.y), a.y.max(b.y));
         let mut y = (a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))).clamp(low, high);
-        // Doubling the step from the rounding error's size on reaches the far end, which is free, in any case.
+        // Doubling the step from the rounding error's size on reaches the far end, which is inside, in any case.
         let mut step = f64::EPSILON * low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
         while orientation(from, to, Point::new(x, y)) == Orientation::Clockwise {
             y = if is_floor { (y + step).min(high) } else { (y - step).max(low) };

@@ -9,7 +9,7 @@ use super::NONE;
 /// neighbours constant time. Sides are found again by their number, never by comparison, so an order that rounding of
 /// the input has made inconsistent costs results, not termination.
 #[derive(Debug, Clone)]
-pub(super) struct Status {
+pub struct Status {
     root: u32,
     first: u32,
     nodes: Vec<Node>,
@@ -28,16 +28,19 @@ const ALONE: Node = Node { parent: NONE, children: [NONE; 2], previous: NONE, ne
 
 impl Status {
     /// No sides, of `count` that may be inserted.
+    #[must_use]
     pub fn new(count: usize) -> Self {
         Self { root: NONE, first: NONE, nodes: vec![ALONE; count] }
     }
 
     /// The side above `side`, or the lowest of all.
+    #[must_use]
     pub fn above(&self, side: Option<usize>) -> Option<usize> {
         index(side.map_or(self.first, |side| self.nodes[side].next))
     }
 
     /// The side below `side`.
+    #[must_use]
     pub fn below(&self, side: usize) -> Option<usize> {
         index(self.nodes[side].previous)
     }

@@ -1,25 +1,25 @@
-//! Triangulation of polygonal free space by a sweep.
+//! Triangulation by a sweep.
 
+use super::{Boundary, NONE};
 use crate::geometry::{Orientation, Point, orientation};
 use crate::interrupt::checkpoint;
-use crate::plan::NONE;
-use crate::plan::boundary::Boundary;
 
 /// Triangles as half-edges: triangle `t` has the half-edges `3 t`, `3 t + 1`, `3 t + 2`, counter-clockwise.
 #[derive(Debug, Clone, Default)]
-pub(super) struct HalfEdges {
+pub struct HalfEdges {
     /// The vertex at which each begins.
     pub origin: Vec<u32>,
     /// The same edge in the triangle on its other side; `NONE` on the boundary.
     pub twin: Vec<u32>,
 }
 
-/// Triangulates the interior of free space: no new vertices, every triangle counter-clockwise, exactly.
+/// Triangulates the inside of a boundary: no new vertices, every triangle counter-clockwise, exactly.
 ///
-/// The sweep of Hertel and Mehlhorn (1983). Left of the sweep line free space between two neighbouring sides is
+/// The sweep of Hertel and Mehlhorn (1983). Left of the sweep line what is inside between two neighbouring sides is
 /// triangulated up to a chain from the floor's left end to the ceiling's, from which nothing more can be cut off:
 /// each vertex is joined to as much of the chain as it sees, `O(n)` in all after the sweep that made the boundary.
-pub(super) fn triangulate(boundary: &Boundary) -> HalfEdges {
+#[must_use]
+pub fn triangulate(boundary: &Boundary) -> HalfEdges {
     let mut sweep = Sweep {
         vertices: &boundary.vertices,
         links: Vec::with_capacity(2 * boundary.vertices.len()),
@@ -204,7 +204,7 @@ impl Sweep<'_> {
         }
     }
 
-    /// Whether free space lies in the angle at `b` of three vertices of a chain, from bottom to top.
+    /// Whether the inside lies in the angle at `b` of three vertices of a chain, from bottom to top.
     fn is_open(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
         orientation(a, b, c) == Orientation::Clockwise

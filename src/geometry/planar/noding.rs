@@ -1,8 +1,6 @@
 //! Cutting sides where they touch or cross, so that they meet in vertices only.
 
-use super::NONE;
-use super::boundary::{Boundary, Side};
-use super::status::Status;
+use super::{Boundary, NONE, Side, Status};
 use crate::geometry::{Orientation, Point};
 use crate::interrupt::checkpoint;
 use std::cmp::Ordering;

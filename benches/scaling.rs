@@ -1,0 +1,67 @@
+//! How the time grows with the corners of an obstacle: a thousand, ten thousand, a hundred thousand.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use cplan::cspace::regions;
+use cplan::geometry::{Point, SimplePolygon};
+use cplan::model::{Heights, Obstacle, Scene, Shape, Workspace};
+use cplan::space::Axis;
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+const SIZES: [usize; 3] = [1_000, 10_000, 100_000];
+
+/// A ring of so many corners around a place that the arm reaches, in turn at these two distances.
+fn ring(count: usize, [inner, outer]: [f64; 2]) -> Vec<Point> {
+    let corner = |k: usize| {
+        let (angle, radius) = (k as f64 / count as f64 * TAU, if k.is_multiple_of(2) { outer } else { inner });
+        Point::new(1.2 + radius * angle.cos(), 0.3 + radius * angle.sin())
+    };
+    (0..count).map(corner).collect()
+}
+
+const SHAPES: [(&str, [f64; 2]); 2] = [("disc", [0.15, 0.15]), ("star", [0.1, 0.2])];
+
+/// Checking a polygon and cutting it up.
+fn reading(c: &mut Criterion) {
+    let mut group = c.benchmark_group("a polygon is read");
+    group.sample_size(10);
+    for (name, radii) in SHAPES {
+        for count in SIZES {
+            let corners = ring(count, radii);
+            group.throughput(Throughput::Elements(count as u64));
+            group.bench_function(BenchmarkId::new(name, count), |b| {
+                b.iter(|| SimplePolygon::new(black_box(&corners).clone()).unwrap().convex_pieces().len());
+            });
+        }
+    }
+    group.finish();
+}
+
+/// Configuration space with a margin of a thousandth of the reach.
+fn spaces(c: &mut Criterion) {
+    let mut group = c.benchmark_group("its configuration space");
+    group.sample_size(10);
+    for (name, radii) in SHAPES {
+        for count in SIZES {
+            let polygon = SimplePolygon::new(ring(count, radii)).unwrap();
+            let shape = Shape::Polygon(polygon.corners().to_vec());
+            let obstacle =
+                Obstacle { name: name.into(), shape, pieces: polygon.convex_pieces(), heights: Heights::ALL };
+            let workspace =
+                Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
+            let range = Axis::Interval { lower: -2.8, upper: 2.8 };
+            let scene = Scene::new(common::rr([range; 2]), workspace);
+            group.throughput(Throughput::Elements(count as u64));
+            group.bench_function(BenchmarkId::new(name, count), |b| {
+                b.iter(|| regions(black_box(&scene), 1.8e-3, common::q(0.0, 0.0), 1).free.len());
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, reading, spaces);
+criterion_main!(benches);

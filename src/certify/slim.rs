@@ -1,0 +1,42 @@
+//! Proofs with fewer boxes.
+
+use super::disconnection::{Disconnection, StuckBox};
+
+/// Proofs of no more boxes stay as they are.
+const SMALL: usize = 256;
+
+/// The share by which a proof may have more boxes than the fewest largest ones that hold.
+const CLOSE: usize = 8;
+
+impl Disconnection {
+    /// About the fewest of the largest boxes, by their extent in `q2`, that still are a proof: `holds` says whether some are.
+    /// The proof itself must. What slabs tell apart in thousands of boxes, where an obstacle's edge is grazed, a wall
+    /// through its middle tells as well in some dozens.
+    ///
+    /// More boxes separate no less, so doubling and halving find how many it takes. `O(log n)` questions.
+    #[must_use]
+    pub fn slimmed(self, holds: impl Fn(&Self) -> bool) -> Self {
+        let count = self.stuck().len();
+        if count <= SMALL {
+            return self;
+        }
+        let height = |b: &StuckBox| b.cell.upper[1] - b.cell.lower[1];
+        let mut largest: Vec<usize> = (0..count).collect();
+        largest.sort_by(|&a, &b| height(&self.stuck()[b]).total_cmp(&height(&self.stuck()[a])).then(a.cmp(&b)));
+        let some = |n: usize| {
+            let mut chosen = largest[..n].to_vec();
+            chosen.sort_unstable();
+            Self::of(chosen.into_iter().map(|k| self.stuck()[k].clone()).collect())
+        };
+        let (mut too_few, mut enough) = (0, SMALL);
+        while enough < count && !holds(&some(enough)) {
+            (too_few, enough) = (enough, 2 * enough);
+        }
+        enough = enough.min(count);
+        while enough - too_few > enough / CLOSE + 1 {
+            let middle = too_few.midpoint(enough);
+            *(if holds(&some(middle)) { &mut enough } else { &mut too_few }) = middle;
+        }
+        some(enough)
+    }
+}

@@ -1,0 +1,123 @@
+//! Polygons with more corners than anybody draws by hand: what they are cut into, against integer arithmetic and the polygon
+//! itself, and which sides of a broken one are named, against looking at all pairs.
+
+use crate::common::random::cases;
+use crate::lattice::{Corner, cross, meet, points};
+use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonDefect, SimplePolygon, decompose};
+use proptest::prelude::*;
+
+/// A ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
+fn around(count: usize, radius: impl Fn(usize) -> f64) -> Vec<Corner> {
+    let corner = |k: usize| {
+        let angle = k as f64 / count as f64 * std::f64::consts::TAU;
+        ((radius(k) * angle.cos()) as i64, (radius(k) * angle.sin()) as i64)
+    };
+    (0..count).map(corner).collect()
+}
+
+/// A comb: `teeth` of alternating heights that a slant leaves overlapping in both coordinates.
+fn slanted_comb(teeth: usize) -> Vec<Corner> {
+    let mut ring = vec![(0, 0)];
+    for k in 0..teeth as i64 {
+        ring.extend([(10 * k, 10), (10 * k + 5 * teeth as i64, 5 * teeth as i64 + k % 7)]);
+    }
+    ring.push((10 * teeth as i64, 0));
+    ring
+}
+
+/// Twice the area of a ring.
+fn twice_area(ring: &[Corner]) -> i128 {
+    let product = |i: usize| {
+        let ((a, b), (c, d)) = (ring[i], ring[(i + 1) % ring.len()]);
+        i128::from(a) * i128::from(d) - i128::from(c) * i128::from(b)
+    };
+    (0..ring.len()).map(product).sum()
+}
+
+fn in_integers(piece: &Convex) -> Vec<Corner> {
+    piece.core().iter().map(|p| (p.x as i64, p.y as i64)).collect()
+}
+
+/// Whether a strictly convex ring holds a point: 0 outside, 1 on the boundary, 2 inside.
+fn holds(ring: &[Corner], p: Corner) -> i64 {
+    let side = |i: usize| cross(ring[i], ring[(i + 1) % ring.len()], p).signum();
+    (0..ring.len()).map(side).min().map_or(0, |least| least + 1)
+}
+
+/// Pieces are strictly convex and small, and have disjoint interiors whose areas add up to the polygon's, exactly; points of
+/// the lattice are inside the polygon, on its boundary or outside of it as they are of the pieces.
+fn is_cut_up_exactly(ring: &[Corner]) {
+    let polygon = SimplePolygon::new(points(ring)).unwrap();
+    let pieces: Vec<Vec<Corner>> = decompose(&polygon).iter().map(in_integers).collect();
+    for piece in &pieces {
+        let n = piece.len();
+        assert!((3..=MOST_CORNERS).contains(&n));
+        assert!((0..n).all(|i| cross(piece[i], piece[(i + 1) % n], piece[(i + 2) % n]) > 0), "strictly convex");
+    }
+    assert_eq!(pieces.iter().map(|piece| twice_area(piece)).sum::<i128>(), twice_area(ring).abs());
+    let extent = ring.iter().map(|c| c.0.abs().max(c.1.abs())).max().unwrap();
+    for k in 0..40_i64 {
+        // Multiples of the golden section and of another irrational number are all over the square.
+        let at = |share: f64| ((k as f64 * share).fract() * 2.2 - 1.1) * extent as f64;
+        let p = (at(0.618_033_988_749) as i64, at(0.754_877_666_246) as i64);
+        let found: Vec<i64> = pieces.iter().map(|piece| holds(piece, p)).collect();
+        let inside = found.iter().filter(|&&held| held == 2).count();
+        assert!(inside <= 1, "the interiors of pieces are disjoint");
+        assert_eq!(found.iter().any(|&held| held > 0), polygon.contains(Point::new(p.0 as f64, p.1 as f64)), "{p:?}");
+    }
+}
+
+#[test]
+fn a_disc_of_20_000_corners_is_cut_up_exactly() {
+    is_cut_up_exactly(&around(20_000, |_| 1e9));
+}
+
+#[test]
+fn a_star_of_20_000_corners_is_cut_up_exactly() {
+    is_cut_up_exactly(&around(20_000, |k| if k % 2 == 0 { 1e9 } else { 5e8 }));
+}
+
+#[test]
+fn a_ragged_ring_of_20_000_corners_is_cut_up_exactly() {
+    is_cut_up_exactly(&around(20_000, |k| 1e9 * (0.4 + (k as f64 * 0.618_033_988_749).fract())));
+}
+
+#[test]
+fn a_slanted_comb_of_10_000_teeth_is_cut_up_exactly() {
+    is_cut_up_exactly(&slanted_comb(10_000));
+}
+
+#[test]
+fn one_crossing_among_20_000_sides_is_found() {
+    let mut ring = slanted_comb(10_000);
+    // The tip of one tooth through the next one.
+    ring[9_000].0 += 14;
+    let error = SimplePolygon::new(points(&ring)).unwrap_err();
+    let PolygonDefect::SidesCross { first, second } = error else { panic!("{error}") };
+    assert!((8_998..=9_001).contains(&first) && (9_000..=9_003).contains(&second), "{error}");
+}
+
+/// The sides of the first side, in the order of the list, that meets an earlier one which is no neighbour.
+fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
+    let n = ring.len();
+    let side = |i: usize| [ring[i], ring[(i + 1) % n]];
+    (0..n).find_map(|j| {
+        let apart = |i: &usize| j - i > 1 && !(*i == 0 && j == n - 1);
+        (0..j).filter(apart).find(|&i| meet(&side(i), &side(j))).map(|i| (i, j))
+    })
+}
+
+proptest! {
+    #![proptest_config(cases(2000))]
+
+    #[test]
+    fn of_sides_that_meet_the_first_of_the_list_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {
+        match SimplePolygon::new(points(&ring)) {
+            Ok(_) => prop_assert_eq!(first_meeting(&ring), None),
+            Err(PolygonDefect::SidesCross { first, second } | PolygonDefect::SidesTouch { first, second }) => {
+                prop_assert_eq!(first_meeting(&ring), Some((first, second)));
+            }
+            Err(_) => {}
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Input with a hundred or a thousand times as many corners, links or pixels as anybody draws: answered in the memory of a
+//! small machine, and as the same shapes are when they are given in a few numbers.
+
+use super::{FREE, Place, shipped};
+use serde_json::Value;
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::process::Command;
+
+/// Memory that a run may take, with all that is set aside and not used, KiB.
+const MEMORY: u32 = 1 << 20;
+
+fn listed(points: impl IntoIterator<Item = [f64; 2]>) -> String {
+    points.into_iter().fold(String::new(), |mut list, [x, y]| {
+        let _ = write!(list, "[{x:?}, {y:?}], ");
+        list
+    })
+}
+
+fn ring(count: usize, center: [f64; 2], radius: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
+    let corner = |k: usize| {
+        let angle = k as f64 / count as f64 * TAU;
+        [center[0] + radius(k) * angle.cos(), center[1] + radius(k) * angle.sin()]
+    };
+    (0..count).map(corner).collect()
+}
+
+fn polygon(corners: Vec<[f64; 2]>) -> String {
+    format!("[[obstacle]]\npolygon = [{}]\n", listed(corners))
+}
+
+fn polyline(points: Vec<[f64; 2]>) -> String {
+    format!("[[obstacle]]\npolyline = [{}]\n", listed(points))
+}
+
+/// What the program says of `planar_2r`, or another arm, among obstacles, within [`MEMORY`].
+fn planned(urdf: &str, obstacles: &str, options: &str) -> Value {
+    let place = Place::new();
+    place.write("world.toml", format!("{FREE}{obstacles}"));
+    let output = Command::new("sh")
+        .args(["-c", &format!("ulimit -v {MEMORY} && exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_cplan"), urdf])
+        .arg(place.path("world.toml"))
+        .args(["--json", "--quiet"])
+        .args(options.split_whitespace())
+        .output()
+        .unwrap();
+    assert!(
+        output.status.code().is_some_and(|code| code == 0 || code == 3),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn arm() -> String {
+    shipped("robots/planar_2r.urdf")
+}
+
+fn number(answer: &Value, key: &str) -> f64 {
+    answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", answer[key]))
+}
+
+/// A found path is certified, and its length lies between what is proven of any and `most`.
+fn is_found_within(answer: &Value, most: f64) {
+    assert_eq!((&answer["status"], &answer["certified"]), (&"found".into(), &true.into()));
+    let (length, least) = (number(answer, "length"), number(&answer["optimum"], "lower_bound"));
+    assert!(least <= length && length <= most, "{least} {length} {most}");
+}
+
+#[test]
+fn a_star_of_20_000_corners_out_of_reach_is_no_obstacle() {
+    let star = polygon(ring(20_000, [50.0, 50.0], |k| if k % 2 == 0 { 2.0 } else { 1.0 }));
+    let (answer, empty) = (planned(&arm(), &star, ""), planned(&arm(), "", ""));
+    assert_eq!(answer["path"], empty["path"]);
+}
+
+#[test]
+fn a_polygon_of_5000_corners_around_a_circle_is_passed_like_the_circle() {
+    let (center, radius) = ([1.2, 0.3], 0.15);
+    let disc = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n", "");
+    let answer = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "");
+    is_found_within(&answer, number(&disc, "length") * 1.01);
+    // The circle holds the polygon: no path around it is shorter than what is proven of the polygon.
+    assert!(number(&answer["optimum"], "lower_bound") <= number(&disc, "length"));
+    assert!(number(&disc["optimum"], "lower_bound") <= number(&answer, "length") * (1.0 + 1e-4));
+    let other = planned(&arm(), &polygon(ring(5000, center, |_| radius)), "--planner subdivision");
+    assert!(number(&answer["optimum"], "lower_bound") <= number(&other, "length"));
+}
+
+#[test]
+fn a_polyline_of_10_000_points_is_passed_like_one_of_100() {
+    let wave = |count: usize| {
+        let point = |k: usize| {
+            let t = k as f64 / (count - 1) as f64;
+            [1.0 + 0.3 * t, 0.2 + 0.1 * (9.0 * t).sin()]
+        };
+        polyline((0..count).map(point).collect())
+    };
+    let (rough, fine) = (planned(&arm(), &wave(100), ""), planned(&arm(), &wave(10_000), ""));
+    is_found_within(&fine, number(&rough, "length") * 1.01);
+    assert!(number(&rough["optimum"], "lower_bound") <= number(&fine, "length") * 1.001);
+}
+
+#[test]
+fn a_star_of_4000_corners_is_passed_between_its_core_and_the_circle_around_it() {
+    let center = [1.2, 0.3];
+    let around = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
+    let star = polygon(ring(4000, center, |k| if k % 2 == 0 { 0.2 } else { 0.1 }));
+    is_found_within(&planned(&arm(), &star, ""), number(&around, "length") * 1.01);
+}
+
+/// The arm with a forearm that is a mesh: a prism over a polygon of so many corners around that of the file.
+fn with_mesh(place: &Place, corners: usize) -> String {
+    let mut stl = vec![0; 80];
+    let rim = ring(corners, [0.0, 0.0], |_| 1.0);
+    let at = |k: usize, z: f32| {
+        let [x, y] = rim[k % corners];
+        [0.4 + 0.4 * x as f32, 0.05 * y as f32, z]
+    };
+    let triangles: Vec<[[f32; 3]; 3]> = (0..corners)
+        .flat_map(|k| [[at(k, 0.0), at(k + 1, 0.0), at(k, 0.05)], [at(k, 0.05), at(k + 1, 0.0), at(k + 1, 0.05)]])
+        .collect();
+    stl.extend((triangles.len() as u32).to_le_bytes());
+    for triangle in triangles {
+        stl.extend([0; 12]);
+        stl.extend(triangle.iter().flatten().flat_map(|c| c.to_le_bytes()));
+        stl.extend([0; 2]);
+    }
+    place.write("fore.stl", stl);
+    let urdf = r#"<robot name="mesh"><link name="base"/>
+<link name="upper"><collision><origin xyz="0.5 0 0"/><geometry><box size="1 0.1 0.05"/></geometry></collision></link>
+<link name="fore"><collision><geometry><mesh filename="fore.stl"/></geometry></collision></link><link name="tool"/>
+<joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/>
+<limit lower="-2.8" upper="2.8" velocity="2" effort="1"/></joint>
+<joint name="elbow" type="revolute"><parent link="upper"/><child link="fore"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/>
+<limit lower="-2.8" upper="2.8" velocity="2" effort="1"/></joint>
+<joint name="tip" type="fixed"><parent link="fore"/><child link="tool"/><origin xyz="0.8 0 0"/></joint></robot>"#;
+    place.write("mesh.urdf", urdf);
+    place.path("mesh.urdf").display().to_string()
+}
+
+#[test]
+fn a_mesh_with_an_outline_of_720_corners_is_a_link_like_others() {
+    let place = Place::new();
+    let post = "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.15 }\n";
+    let rough = planned(&with_mesh(&place, 60), post, "");
+    let fine = planned(&with_mesh(&place, 720), post, "");
+    is_found_within(&fine, number(&rough, "length") * 1.02);
+    assert!(number(&rough["optimum"], "lower_bound") <= number(&fine, "length") * 1.001);
+}
+
+/// A robot whose arm carries a chain of so many links more.
+fn long_chain(links: usize) -> String {
+    let mut urdf = r#"<robot name="chain"><link name="base"/><link name="l0"/><link name="l1"><collision><geometry>
+<box size="0.1 0.1 0.1"/></geometry></collision></link>
+<joint name="shoulder" type="continuous"><parent link="base"/><child link="l0"/><axis xyz="0 0 1"/><limit velocity="2" effort="1"/></joint>
+<joint name="elbow" type="continuous"><parent link="l0"/><child link="l1"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/><limit velocity="2" effort="1"/></joint>
+"#
+    .to_owned();
+    for k in 2..links {
+        let above = k - 1;
+        let _ = writeln!(
+            urdf,
+            "<link name=\"l{k}\"/><joint name=\"j{k}\" type=\"fixed\"><parent link=\"l{above}\"/><child link=\"l{k}\"/></joint>"
+        );
+    }
+    urdf + "</robot>"
+}
+
+#[test]
+fn a_robot_of_20_000_links_in_a_row_is_read() {
+    let place = Place::new();
+    place.write("chain.urdf", long_chain(20_000));
+    let answer = planned(&place.path("chain.urdf").display().to_string(), "", "");
+    assert_eq!(answer["status"], "found");
+}
+
+#[test]
+fn a_robot_with_20_000_broken_joints_is_refused_with_the_first_of_them() {
+    let place = Place::new();
+    place.write("chain.urdf", long_chain(20_000).replace("parent link=\"l", "parent link=\"no_l"));
+    place.write("world.toml", FREE);
+    let done = place.run(&["chain.urdf", "world.toml"], "");
+    done.refused(1, &["no_l2", "more"]);
+    assert!(done.stderr.len() < 40_000, "{} bytes", done.stderr.len());
+}

@@ -1,0 +1,77 @@
+//! How many boxes a proof takes in random worlds, through the program's own result.
+
+use super::{Place, shipped};
+use crate::common::random::seeds;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// Boxes of a proof at most.
+const MOST: usize = 10_000;
+
+/// Numbers in `[0, 1)` from a seed (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.roll()
+    }
+}
+
+/// A world of discs, triangles and thin walls around the arm, start and goal far apart. Walls and slim triangles are what
+/// proofs by slabs take the most boxes for.
+fn world(seed: u64) -> String {
+    let mut dice = Dice(seed);
+    let goal = dice.within(1.2, 2.6);
+    let mut world = format!("[start]\njoints = [{:?}, 0.2]\n[goal]\njoints = [{goal:?}, -0.3]\n", -goal);
+    for _ in 0..dice.within(3.0, 14.0) as usize {
+        let (angle, distance) = (dice.within(-3.0, 3.0), dice.within(1.05, 1.9));
+        let [x, y] = [distance * angle.cos(), distance * angle.sin()];
+        let mut near = |by: f64| [x + dice.within(-by, by), y + dice.within(-by, by)];
+        let (a, b, c) = (near(0.4), near(0.4), near(0.1));
+        let _ = match (dice.roll() * 3.0) as u32 {
+            0 => writeln!(
+                world,
+                "[[obstacle]]\ncircle = {{ center = [{x:?}, {y:?}], radius = {:?} }}",
+                dice.within(0.01, 0.15)
+            ),
+            1 => writeln!(world, "[[obstacle]]\npolygon = [{a:?}, {b:?}, {c:?}]"),
+            _ => writeln!(world, "[[obstacle]]\npolyline = [{a:?}, {b:?}]"),
+        };
+    }
+    world
+}
+
+/// Random worlds, of which `CPLAN_TIMES` asks for more: all proofs have at most [`MOST`] boxes, and hold.
+#[test]
+fn proofs_in_random_worlds_are_small() {
+    let place = Place::new();
+    let mut sizes = Vec::new();
+    for seed in seeds(60) {
+        let done = place.plan(world(seed), "--planner wavefront --output result.json --quiet");
+        // A start or goal that collides is no problem to solve.
+        if done.code == 1 {
+            continue;
+        }
+        let result: Value = serde_json::from_str(&place.read("result.json")).unwrap();
+        assert_eq!(done.code == 3, result["status"] == "infeasible", "seed {seed}");
+        if done.code == 3 {
+            sizes.push((result["proof"].as_array().unwrap().len(), seed));
+            let files = [shipped("robots/planar_2r.urdf"), "world.toml".into()];
+            assert_eq!(place.run(&[&["recheck".to_owned()], &files[..]].concat(), "--proof result.json").code, 0);
+        }
+    }
+    sizes.sort_unstable();
+    let count = sizes.len();
+    assert!(count >= 5, "{count} proofs");
+    println!("{count} proofs: median {:?}, largest {:?} (boxes, seed)", sizes[count / 2], sizes[count - 1]);
+    // One in a thousand may have more.
+    let large = sizes.iter().filter(|size| size.0 > MOST).count();
+    assert!(large * 1000 <= count, "{:?}", &sizes[count - large..]);
+}

@@ -1,0 +1,46 @@
+//! What could keep the server from answering: worlds that take long to read, and clients that ask and never read.
+
+use super::client::Page;
+use super::server::{PATIENCE, Server};
+use std::f64::consts::TAU;
+use std::io::Write;
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+/// Connections that the server keeps at a time, and some more.
+const MANY: usize = 40;
+
+#[test]
+fn a_world_of_19_999_corners_is_answered() {
+    let server = Server::planar("workspaces/shelf.toml", &[]);
+    let mut page = Page::open(&server);
+    let corner = |k: usize| {
+        let angle = k as f64 / 19_999.0 * TAU;
+        let radius = 0.15 + 0.03 * (9.0 * angle).sin();
+        format!("[{:.9}, {:.9}]", 1.2 + radius * angle.cos(), 0.5 + radius * angle.sin())
+    };
+    let corners: Vec<String> = (0..19_999).map(corner).collect();
+    let ends = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
+    let begun = Instant::now();
+    let answer = page.load(&format!("{ends}[[obstacle]]\npolygon = [{}]\n", corners.join(", ")));
+    // The limit for a plan, once more for what is read, and for showing it; the rest is for a slow machine.
+    assert!(begun.elapsed() < PATIENCE / 2, "{:?}", begun.elapsed());
+    assert!(answer["done"] == true && answer["verdict"].is_string(), "{answer}");
+}
+
+/// Asks and asks until nothing more goes in.
+fn pipelined(server: &Server) -> TcpStream {
+    let mut stream = server.connect();
+    stream.set_write_timeout(Some(Duration::from_millis(100))).unwrap();
+    let request = format!("GET / HTTP/1.1\r\nHost: {}\r\n\r\n", server.address).repeat(64);
+    while stream.write_all(request.as_bytes()).is_ok() {}
+    stream
+}
+
+#[test]
+fn clients_that_never_read_keep_nobody_out_for_long() {
+    let server = Server::planar("workspaces/shelf.toml", &[]);
+    let deaf: Vec<TcpStream> = (0..MANY).map(|_| pipelined(&server)).collect();
+    assert!(server.get("/").0.starts_with("HTTP/1.1 200"));
+    drop(deaf);
+}
