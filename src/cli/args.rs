@@ -6,6 +6,7 @@ use super::demo::DemoArgs;
 use super::field_args::FieldArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
+use super::message_args::MessageArgs;
 use super::motion::MotionArgs;
 use super::search_args::SearchArgs;
 #[cfg(feature = "serve")]
@@ -247,6 +248,8 @@ pub struct PlanArgs {
     /// and so on for --output plan.yaml (worlds with steps).
     #[arg(long)]
     pub per_step: bool,
+    #[command(flatten)]
+    pub message: MessageArgs,
     /// Draw workspace and configuration space side by side: .svg, .png, or .html (a page in which the arm can be moved).
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]

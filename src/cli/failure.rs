@@ -2,7 +2,8 @@
 
 use crate::draw::DrawError;
 use crate::input::InputError;
-use crate::trajectory::{FormatError, TimingError, WriteError};
+use crate::task::MessageError;
+use crate::trajectory::{AccelerationJump, FormatError, TimingError, WriteError};
 use thiserror::Error;
 
 /// Bad input or I/O, in the user's words.
@@ -14,6 +15,12 @@ pub enum Failure {
     /// The trajectory cannot be made as asked.
     #[error(transparent)]
     Trajectory(#[from] TimingError),
+    /// Accelerations that would mislead their readers.
+    #[error(transparent)]
+    Accelerations(#[from] AccelerationJump),
+    /// Joints that messages cannot name as asked.
+    #[error(transparent)]
+    Joints(#[from] MessageError),
     /// An output file.
     #[error(transparent)]
     Write(#[from] WriteError),

@@ -14,6 +14,7 @@ mod inspect;
 mod inspect_text;
 mod man;
 mod memory;
+mod message_args;
 mod motion;
 mod names;
 mod output;

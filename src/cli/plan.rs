@@ -68,6 +68,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
         ));
     }
     let (mut report, curve) = report(problem, &answer, &args.motion)?;
+    args.message.apply(&mut report, &loaded.robot.joints)?;
     report.field = field.map(|field| field_report(&field, &answer));
     report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
     clock.stage("trajectory");

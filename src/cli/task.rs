@@ -45,6 +45,7 @@ pub fn run(
     let answer = plan(task, &manner, &mut |text| say(text));
     clock.stage("plan");
     let mut report = TaskReport::new(args.planner.name(), task, &answer);
+    args.message.apply_to_task(&mut report, &loaded, &answer)?;
     report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
     clock.stage("report");
     if args.timings {

@@ -29,6 +29,7 @@ mod schema;
 mod sequence;
 mod source;
 mod step;
+mod stroke;
 mod suite;
 mod table;
 mod task;
@@ -55,7 +56,7 @@ pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};
 pub use world::World;
 
-use crate::model::{Problem, Scene};
+use crate::model::{Problem, RobotJoints, Scene};
 use std::path::Path;
 
 /// What the user should know of how the robot was read.
@@ -67,6 +68,8 @@ pub struct RobotReport {
     pub warnings: Vec<String>,
     /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
     pub held: Vec<(String, f64)>,
+    /// All joints that can move, for messages that name them.
+    pub joints: RobotJoints,
 }
 
 /// Arm, obstacles and objects as the files have them, without start, goal and steps.

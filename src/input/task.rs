@@ -3,10 +3,10 @@
 use super::error::{Defect, InputError};
 use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
-use super::{LoadedScene, Overrides, RobotReport, clearance as checked_clearance};
+use super::{LoadedScene, Overrides, RobotReport, World, clearance as checked_clearance};
 use crate::geometry::Point;
-use crate::model::{Payload, Scene, Task, Workspace, inverse};
-use crate::space::Configuration;
+use crate::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
+use crate::space::{Axis, Configuration};
 
 /// A task and how it was read.
 #[derive(Debug, Clone)]
@@ -65,11 +65,15 @@ impl LoadedScene {
         let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| self.unfulfilled(r, start)).collect())?;
         let Self { scene, world, robot } = self;
+        let stroke = robot.joints.stroke.clone();
+        if let Some(stroke) = &stroke {
+            InputError::check(too_deep(stroke, &world).collect())?;
+        }
         let workspace = Workspace { clearance: scene.workspace.clearance, ..world.workspace };
         let items = world.steps.map(|steps| steps.items).unwrap_or_default();
         let (wrist, note) = world.wrist.unzip();
         let notes = note.flatten().into_iter().collect();
-        let task = Task { arm: scene.arm.clone(), workspace, objects: world.objects, start, items, wrist };
+        let task = Task { arm: scene.arm.clone(), workspace, objects: world.objects, start, items, wrist, stroke };
         Ok(LoadedTask { task, scene, robot, notes })
     }
 
@@ -120,4 +124,20 @@ impl LoadedScene {
         );
         Some((message, "make it thicker, ask for less clearance, or remove its supports"))
     }
+}
+
+/// The objects for which the tool would have to go farther down than its joint can.
+fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Defect> + 'a {
+    let joint = &stroke.joint;
+    world.objects.iter().filter_map(|object| {
+        let Axis::Interval { lower, upper } = joint.axis else { return None };
+        let (depth, at) = (stroke.depth(object), stroke.lowered(stroke.depth(object)));
+        let message = format!(
+            "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside its \
+             limits [{lower}, {upper}] m",
+            object.name, joint.name
+        );
+        let cure = "choose another fixed value of the joint, less travel, or less lift of the object";
+        (at < lower || at > upper).then(|| world.source.defect(message).cure(cure))
+    })
 }

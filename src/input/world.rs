@@ -8,6 +8,7 @@ use super::schema::{HeldAs, NotNegative, Positive, Two};
 use super::sequence::{Sequence, write_out};
 use super::source::Source;
 use super::step::{StepReader, StepTable, TaskTable};
+use super::stroke::StrokeTable;
 use super::world_map::{self, MapTable};
 use super::wrist::WristTable;
 use crate::geometry::Point;
@@ -105,9 +106,19 @@ pub(super) struct RobotTable {
     pub bar: Option<Number>,
     /// The wrist that keeps or turns what is carried with payload "level".
     wrist: Option<WristTable>,
+    /// How the tool is lowered and raised at picks and places; by default it is not.
+    #[schemars(with = "Option<StrokeTable>")]
+    pub stroke: Option<StrokeTable>,
     /// How objects are held that do not say it; by default "rigid".
     #[schemars(with = "Option<HeldAs>")]
     payload: Option<Spanned<String>>,
+}
+
+impl RobotTable {
+    /// The joint of the wrist, if it is named.
+    pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
+        self.wrist.as_ref()?.joint.as_ref()
+    }
 }
 
 /// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are

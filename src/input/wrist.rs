@@ -7,12 +7,16 @@ use super::world::{Number, Reader};
 use crate::model::Wrist;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use toml::Spanned;
 
 /// The wrist's limits.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "wrist")]
 pub(super) struct WristTable {
+    /// The joint that it is, so that ROS 2 files have its values; without it they hold it still.
+    #[schemars(with = "Option<String>")]
+    pub joint: Option<Spanned<String>>,
     /// Top speed, rad/s.
     #[schemars(with = "Positive")]
     velocity: Number,

@@ -1,6 +1,6 @@
 //! A sequence of things to do.
 
-use super::{Arm, Goal, Grip, Heights, Obstacle, Payload, Shape, Workspace};
+use super::{Arm, Goal, Grip, Heights, Obstacle, Payload, Shape, Stroke, Workspace};
 use crate::geometry::{Convex, Point, Pose};
 use crate::space::Configuration;
 
@@ -110,6 +110,8 @@ pub struct Task {
     pub items: Vec<Item>,
     /// The wrist, if it has to turn objects.
     pub wrist: Option<Wrist>,
+    /// How the tool is lowered at picks and places, if it is.
+    pub stroke: Option<Stroke>,
 }
 
 impl Task {
@@ -154,6 +156,13 @@ impl Object {
     pub fn carried(&self, grip: Grip, supports: Vec<usize>) -> Payload {
         let (object, pieces) = (self.name.clone(), self.pieces.clone());
         Payload { object, pieces, heights: self.carried_heights(), grip, supports }
+    }
+
+    /// Its extent along the plane's normal from where it lies to where it is carried.
+    #[must_use]
+    pub fn handled_heights(&self) -> Heights {
+        let carried = self.carried_heights();
+        Heights { lower: self.heights.lower.min(carried.lower), upper: self.heights.upper.max(carried.upper) }
     }
 
     /// Its extent along the plane's normal while it is carried.

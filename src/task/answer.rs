@@ -1,6 +1,7 @@
 //! What becomes of a task.
 
 use super::impossible::Impossible;
+use super::stroke::ToolStroke;
 use crate::certify::WristTurn;
 use crate::geometry::Pose;
 use crate::model::{Scene, Step};
@@ -36,8 +37,9 @@ impl Event {
 
 /// What the arm does for one step: a motion from rest to rest, perhaps a turn of the wrist, perhaps an event, and a rest.
 ///
-/// A pick: motion, grasp, dwell, turn. A place: motion, turn, release, dwell. A move: motion, dwell.
-#[derive(Debug, Clone)]
+/// A pick: motion, stroke down, grasp, dwell, stroke up, turn. A place: motion, turn, stroke down, release, dwell, stroke up. A
+/// move: motion, dwell.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
     /// The step.
     pub step: Step,
@@ -49,7 +51,9 @@ pub struct Leg {
     pub timed: Rc<Timed>,
     /// Turn of the wrist, and the seconds that it takes.
     pub turn: Option<(WristTurn, f64)>,
-    /// What happens then.
+    /// How the tool is lowered and raised, if it is.
+    pub stroke: Option<ToolStroke>,
+    /// What happens while it is lowered.
     pub event: Option<Event>,
     /// Seconds from the beginning of the task to that of the motion.
     pub begin: f64,
@@ -65,16 +69,34 @@ impl Leg {
     /// Seconds that the arm stands still after the motion.
     #[must_use]
     pub fn rest(&self) -> f64 {
-        self.step.dwell + self.turn.map_or(0.0, |(_, seconds)| seconds)
+        self.step.dwell + self.turning() + 2.0 * self.lowering()
+    }
+
+    /// Seconds that the wrist turns.
+    #[must_use]
+    pub fn turning(&self) -> f64 {
+        self.turn.map_or(0.0, |(_, seconds)| seconds)
+    }
+
+    /// Seconds that the tool takes down, and up again.
+    #[must_use]
+    pub fn lowering(&self) -> f64 {
+        self.stroke.map_or(0.0, |stroke| stroke.seconds)
+    }
+
+    /// Seconds from the end of the motion to the grasp or release, if there is one.
+    #[must_use]
+    pub fn event_after(&self) -> Option<f64> {
+        match self.event? {
+            Event::Grasp { .. } => Some(self.lowering()),
+            Event::Release { .. } => Some(self.turning() + self.lowering()),
+        }
     }
 
     /// Seconds from the beginning of the task to the grasp or release, if there is one.
     #[must_use]
     pub fn event_time(&self) -> Option<f64> {
-        match self.event? {
-            Event::Grasp { .. } => Some(self.arrival()),
-            Event::Release { .. } => Some(self.arrival() + self.turn.map_or(0.0, |(_, seconds)| seconds)),
-        }
+        self.event_after().map(|after| self.arrival() + after)
     }
 
     /// Seconds from the beginning of the task to the end of the step.
@@ -83,11 +105,13 @@ impl Leg {
         self.arrival() + self.rest()
     }
 
-    /// Proven lower bound on the distance to obstacles during the motion and the turn, metres; infinite if nothing can be
-    /// hit.
+    /// Proven lower bound on the distance to obstacles during the motion, the turn and the stroke, metres; infinite if nothing
+    /// can be hit.
     #[must_use]
     pub fn clearance(&self) -> f64 {
-        self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance).min(self.timed.curve.clearance())
+        let turn = self.turn.map_or(f64::INFINITY, |(turn, _)| turn.clearance);
+        let stroke = self.stroke.map_or(f64::INFINITY, |stroke| stroke.clearance);
+        turn.min(stroke).min(self.timed.curve.clearance())
     }
 }
 

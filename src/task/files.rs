@@ -9,21 +9,20 @@ impl TaskReport {
     /// The result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none.
     ///
     /// Tables have a column with the number of each sample's step among those that are done, from 1. ROS 2 messages hold the
-    /// motion as one, recordings a message for the motion of each step.
+    /// motion as one, recordings a message for each step: its motion, and the turns of the wrist and strokes of the tool after it.
     #[must_use]
     pub fn bytes(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.json().into_bytes(),
             Format::Csv => {
                 let numbers: Vec<usize> = self.steps_of_samples().iter().map(|step| step + 1).collect();
-                csv_with_steps(self.joints(), self.trajectory()?, &numbers).into_bytes()
+                csv_with_steps(self.joints(), self.trajectory()?, self.has_accelerations(), &numbers).into_bytes()
             }
-            Format::Yaml => ros_yaml(self.joints(), self.trajectory()?).into_bytes(),
+            Format::Yaml => ros_yaml(&self.messages()?.0).into_bytes(),
             #[cfg(feature = "mcap")]
             Format::Mcap => {
-                self.trajectory()?;
-                let begins = self.steps().iter().map(|step| step.begin);
-                mcap(self.joints(), &self.motions().zip(begins).collect::<Vec<_>>())
+                let (_, steps) = self.messages()?;
+                mcap(&steps.iter().map(|(motion, begin)| (motion, *begin)).collect::<Vec<_>>())
             }
         })
     }
@@ -36,9 +35,11 @@ impl TaskReport {
             Format::Csv => self
                 .motions()
                 .zip(1..)
-                .map(|(motion, number)| csv_with_steps(self.joints(), motion, &vec![number; motion.time.len()]))
+                .map(|(motion, number)| {
+                    csv_with_steps(self.joints(), motion, self.has_accelerations(), &vec![number; motion.time.len()])
+                })
                 .collect::<Vec<_>>(),
-            Format::Yaml => self.motions().map(|motion| ros_yaml(self.joints(), motion)).collect(),
+            Format::Yaml => self.messages()?.1.iter().map(|(motion, _)| ros_yaml(motion)).collect(),
             _ => return None,
         };
         Some(text.into_iter().map(String::into_bytes).collect())

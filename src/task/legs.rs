@@ -3,11 +3,12 @@
 use super::Manner;
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
+use super::stroke::{ToolStroke, stroke};
 use crate::certify::{StuckBox, WristTurn, certify, wrist_turn};
 use crate::model::{Goal, Grip, Problem, Scene, Step, Task};
 use crate::solve::{Effort, Method, Verdict, solve};
 use crate::space::{Configuration, Path};
-use crate::trajectory::Timed;
+use crate::trajectory::{Timed, single};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -29,11 +30,20 @@ impl Refusal {
     }
 }
 
-/// A motion with the turn that follows it.
+/// A motion with the turn and the stroke that follow it.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
     pub timed: Rc<Timed>,
     pub turn: Option<(WristTurn, f64)>,
+    pub stroke: Option<ToolStroke>,
+}
+
+impl Motion {
+    /// Seconds that the arm moves, and stands still after it for more than the step's dwell.
+    pub fn seconds(&self) -> f64 {
+        let turn = self.turn.map_or(0.0, |(_, seconds)| seconds);
+        self.timed.trajectory.duration() + turn + self.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds)
+    }
 }
 
 /// What a scene depends on, bit by bit.
@@ -94,7 +104,8 @@ impl<'a> Legs<'a> {
         let plan = || planned(&from.scene(task, candidate.step.action.picked()), q, to, speed, &manner).map(Rc::new);
         let timed = self.motions.entry(key).or_insert_with(plan).clone()?;
         let turn = candidate.turn.map(|turn| self.turn(from, candidate, turn)).transpose()?;
-        Ok(Motion { timed, turn })
+        let stroke = stroke(task, from, candidate)?;
+        Ok(Motion { timed, turn, stroke })
     }
 
     /// The turn of the wrist at a candidate's target, and the seconds that it takes.
@@ -112,8 +123,8 @@ impl<'a> Legs<'a> {
         let (arm, workspace) = (&self.task.arm, self.task.obstacles(&with.poses));
         let found = wrist_turn(arm, &workspace, &held.payload(self.task), *point, candidate.to, turn);
         let way = found.ok_or_else(|| unproven("the object cannot be turned there, neither way round"))?;
-        let seconds = rest_to_rest((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
-        Ok((way, seconds))
+        let turning = single((way.to - way.from).abs(), wrist.velocity, wrist.acceleration);
+        Ok((way, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
 
     /// A lower bound on the seconds that a turn takes.
@@ -125,7 +136,7 @@ impl<'a> Legs<'a> {
 }
 
 /// Refuses a configuration in which something is hit; `when` is when the arm is there, in words.
-fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
+pub(super) fn unobstructed(scene: &Scene, q: Configuration, when: &str) -> Result<(), Refusal> {
     let hits: Vec<String> = scene.obstructions(q).iter().map(|hit| scene.explain(hit)).collect();
     if hits.is_empty() { Ok(()) } else { Err(Refusal::new(format!("{when} {}", hits.join("; ")), true)) }
 }

@@ -14,6 +14,7 @@ mod answer;
 mod failed_step;
 mod files;
 mod impossible;
+mod joints;
 mod legs;
 mod least_time;
 mod order;
@@ -24,15 +25,18 @@ mod search;
 mod sequence;
 mod state;
 mod step_report;
+mod stroke;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskVerdict};
 pub use failed_step::{FailedStep, PostureReport};
 pub use impossible::{Impossible, Unreached};
+pub use joints::MessageError;
 pub use least_time::rest_to_rest;
 pub use report::{Choice, TaskReport};
 pub use search::plan;
 pub use sequence::Sequence;
-pub use step_report::{ActionName, EventName, EventReport, StepReport, TurnReport};
+pub use step_report::{ActionName, EventName, EventReport, StepReport, StrokeReport, TurnReport};
+pub use stroke::ToolStroke;
 
 use crate::solve::{Effort, Method};
 use crate::trajectory::Drive;

@@ -3,6 +3,7 @@
 use super::least_time::least_time;
 use super::postures::{goal_postures, postures};
 use super::state::Progress;
+use super::stroke::least_rest;
 use crate::geometry::{Point, Pose};
 use crate::model::{Action, Arm, Holding, Item, Object, Step, Task};
 use crate::space::Configuration;
@@ -14,6 +15,7 @@ pub(super) struct Stop {
     /// All postures at the target; none if they are not known before the steps before are, or are infinitely many.
     postures: Option<Vec<Configuration>>,
     speed: f64,
+    /// Seconds that the arm stands still there, at the least.
     dwell: f64,
 }
 
@@ -218,10 +220,14 @@ impl From<&Object> for Lies {
 pub(super) fn stops(task: &Task) -> Vec<Stops> {
     let mut lies: Vec<Lies> = task.objects.iter().map(Lies::from).collect();
     let mut held = None;
-    let mut stop = |step: &Step, lies: &mut [Lies]| Stop {
-        postures: targets(task, step, lies, &mut held),
-        speed: step.speed,
-        dwell: step.dwell,
+    let mut stop = |step: &Step, lies: &mut [Lies]| {
+        let object = match step.action {
+            Action::Pick { object, .. } => Some(object),
+            Action::Place { .. } => held.map(|(object, _)| object),
+            Action::Move(_) => None,
+        };
+        let dwell = least_rest(task, step, object);
+        Stop { postures: targets(task, step, lies, &mut held), speed: step.speed, dwell }
     };
     let of = |item: &Item| match item {
         Item::Step(step) => Stops::One(stop(step, &mut lies)),

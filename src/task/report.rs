@@ -3,10 +3,11 @@
 use super::answer::{TaskAnswer, TaskVerdict};
 use super::failed_step::FailedStep;
 use super::impossible::Impossible;
+use super::joints::{MessageError, Messages};
 use super::sequence::Sequence;
 use super::step_report::{EventReport, StepReport, finite};
-use crate::model::{Joint, Task};
-use crate::trajectory::{SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
+use crate::model::{Joint, RobotJoints, Task};
+use crate::trajectory::{JointMotion, SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
 use serde::Serialize;
 use std::rc::Rc;
 
@@ -95,6 +96,12 @@ pub struct TaskReport {
     /// The motions of the steps, for files of their own.
     #[serde(skip)]
     timed: Vec<Rc<Timed>>,
+    /// The same as messages have it: at first of the two planned joints.
+    #[serde(skip)]
+    messages: Option<Messages>,
+    /// Whether tables and messages have accelerations.
+    #[serde(skip)]
+    accelerations: bool,
 }
 
 impl TaskReport {
@@ -119,6 +126,11 @@ impl TaskReport {
         let lower_bound = if is_whole { answer.lower_bound.min(duration) } else { answer.lower_bound };
         let gap = if duration == lower_bound { 0.0 } else { duration / lower_bound - 1.0 };
         let joints: &[Joint; 2] = &task.arm.joints;
+        let planned = RobotJoints::planned(&joints.each_ref().map(|joint| joint.name.clone()));
+        let messages = sequence.as_ref().filter(|_| is_whole).and_then(|sequence| {
+            // Without a wrist there is nothing that could fail.
+            Messages::new(&planned, task, &answer.legs, sequence).ok()
+        });
         Self {
             status,
             name: Some(task.workspace.name.clone()).filter(|name| !name.is_empty()),
@@ -145,7 +157,44 @@ impl TaskReport {
                 .filter(|_| is_whole)
                 .map(|sequence| SteppedTrajectory { step: sequence.steps(), trajectory: sequence.trajectory }),
             timed: answer.legs.iter().map(|leg| leg.timed.clone()).collect(),
+            messages,
+            accelerations: false,
         }
+    }
+
+    /// Lets messages name these joints, and tables and messages have accelerations or not.
+    ///
+    /// # Errors
+    /// A wrist that cannot keep level what is carried; accelerations that jump, of the arm or of the tool.
+    pub fn name_joints(
+        &mut self,
+        robot: &RobotJoints,
+        task: &Task,
+        answer: &TaskAnswer,
+        accelerations: bool,
+    ) -> Result<(), MessageError> {
+        self.accelerations = accelerations;
+        let (Some(trajectory), Some(sequence)) = (self.trajectory(), Sequence::of(&answer.legs)) else { return Ok(()) };
+        let messages = Messages::new(robot, task, &answer.legs, &sequence)?;
+        if accelerations {
+            trajectory.check_accelerations()?;
+            messages.check_accelerations(robot)?;
+        }
+        self.messages = Some(messages);
+        Ok(())
+    }
+
+    /// What messages hold of a task that is done: the whole motion, and that of each step with the time at which it begins.
+    pub(super) fn messages(&self) -> Option<(JointMotion, Vec<(JointMotion, f64)>)> {
+        let Messages { whole, steps } = self.messages.clone()?;
+        let of = |motion: JointMotion| if self.accelerations { motion } else { motion.without_accelerations() };
+        Some((of(whole), steps.into_iter().map(|(begin, motion)| (of(motion), begin)).collect()))
+    }
+
+    /// Whether tables and messages have accelerations.
+    #[must_use]
+    pub fn has_accelerations(&self) -> bool {
+        self.accelerations
     }
 
     /// How the run ended.

@@ -8,6 +8,7 @@ use super::legs::{Legs, Motion, Refusal};
 use super::order;
 use super::outlook::Outlook;
 use super::state::{Candidate, State};
+use super::stroke::least_rest;
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
 use crate::model::Task;
@@ -178,8 +179,7 @@ impl<'a> Search<'a> {
         let Stage::Reached(from, _) = &self.nodes[parent].stage else { return };
         match self.legs.motion(from, &candidate) {
             Ok(motion) => {
-                let turn = motion.turn.map_or(0.0, |(_, seconds)| seconds);
-                let seconds = motion.timed.trajectory.duration() + turn + candidate.step.dwell;
+                let seconds = motion.seconds() + candidate.step.dwell;
                 let state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
                 let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
@@ -208,7 +208,8 @@ impl<'a> Search<'a> {
             }
             for way in candidates.ways {
                 let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
-                let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn + way.step.dwell;
+                let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn;
+                let least = least + least_rest(self.task, way.step, way.event.map(|event| event.object()));
                 let stage = Stage::Pending(way);
                 self.push(Node { parent: Some(index), depth: depth + 1, seconds: seconds + least, stage });
             }
@@ -232,6 +233,7 @@ impl<'a> Search<'a> {
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,
+                    stroke: motion.stroke,
                     event: candidate.event,
                     begin: *seconds,
                 });

@@ -2,6 +2,7 @@
 
 use super::answer::{Event, Leg};
 use super::sequence::Sequence;
+use super::stroke::ToolStroke;
 use crate::certify::WristTurn;
 use crate::model::{Action, Task};
 use crate::trajectory::Blends;
@@ -42,6 +43,19 @@ pub struct TurnReport {
     pub clearance: Option<f64>,
 }
 
+/// The tool goes down, and up again after the gripper's work, while the arm stands still.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StrokeReport {
+    /// The joint's value while the tool is raised, metres.
+    pub raised: f64,
+    /// The same while it is lowered.
+    pub lowered: f64,
+    /// How long either way takes.
+    pub seconds: f64,
+    /// Proven lower bound on the distance to obstacles, metres; none where nothing can be hit.
+    pub clearance: Option<f64>,
+}
+
 /// A step as it is done: a motion from rest to rest, and standing still.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
@@ -74,6 +88,9 @@ pub struct StepReport {
     pub blends: Blends,
     /// The turn of the wrist after the motion.
     pub turn: Option<TurnReport>,
+    /// How the tool is lowered at its end, where the world has a stroke.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stroke: Option<StrokeReport>,
     /// The motion's first sample in the whole trajectory, from 0; none without a whole trajectory.
     pub first_sample: Option<usize>,
     /// Its last one, at which the arm stands.
@@ -105,6 +122,12 @@ impl StepReport {
             turn: leg.turn.map(|(WristTurn { from, to, clearance }, seconds)| TurnReport {
                 from,
                 to,
+                seconds,
+                clearance: finite(clearance),
+            }),
+            stroke: leg.stroke.map(|ToolStroke { raised, lowered, seconds, clearance }| StrokeReport {
+                raised,
+                lowered,
                 seconds,
                 clearance: finite(clearance),
             }),
@@ -164,12 +187,12 @@ impl EventReport {
         let happens = leg.event?;
         let [_, arrival, end] = sequence.times(index);
         let tip = task.arm.tip_at(leg.timed.curve.curve().path().goal());
-        let turn = leg.turn.map_or(0.0, |(_, seconds)| seconds);
-        let (event, time, pose) = match happens {
-            Event::Grasp { .. } => (EventName::Grasp, arrival, None),
+        let time = (arrival + leg.event_after()?).min(end);
+        let (event, pose) = match happens {
+            Event::Grasp { .. } => (EventName::Grasp, None),
             Event::Release { pose, .. } => {
                 let (at, angle) = (pose.translation.vector, pose.rotation.angle());
-                (EventName::Release, (arrival + turn).min(end), Some(PoseReport { at: [at.x, at.y], angle }))
+                (EventName::Release, Some(PoseReport { at: [at.x, at.y], angle }))
             }
         };
         Some(Self {

@@ -12,9 +12,10 @@
 //!
 //! and all of these are linear in `z0` and `z1`. `q(t)` is a polynomial of the fourth degree on each span.
 
+use super::clock::reserve;
 use super::limits::Limits;
 use super::profile::{Phase, State};
-use super::sample::SHORTEST_INTERVAL;
+use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
 use super::tip::{Part, TIP_STEP};
 use crate::space::{Blend, Configuration, HAIR};
 
@@ -33,7 +34,7 @@ const ACCELERATION_STEP: f64 = 0.1;
 const SPEED_STEP: f64 = 0.1;
 
 /// Share of the limits that is left unused on a blend, so that the cubic through positions and velocities of two samples,
-/// by which many controllers and checks read a trajectory, keeps them too.
+/// by which many controllers and checks read a trajectory, keeps them too. A little more is left for [`reserve`].
 const RESERVE: f64 = 1e-3;
 
 /// A blend on its way through time.
@@ -43,6 +44,8 @@ pub(super) struct Corner {
     radius: f64,
     directions: [Configuration; 2],
     spans: usize,
+    /// Bound on the speed of the parameter.
+    fastest: f64,
 }
 
 /// Seconds that a blend of so many spans has to last: each of them the least interval between samples, though it is
@@ -55,11 +58,17 @@ impl Corner {
     /// Prepares a blend; none if it is so small that it would be passed in hardly more than the interval between samples.
     pub(super) fn new(blend: Blend, limits: &Limits) -> Option<Self> {
         let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS };
+        let corner = Self { blend, radius: blend.radius(), directions, spans: SPANS, fastest: f64::INFINITY };
         let bend = corner.second_derivative();
         let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min).sqrt();
-        let speed = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
-        (corner.length() / speed >= shortest(SPANS)).then_some(corner)
+        let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
+        (corner.length() / fastest >= shortest(SPANS)).then_some(Self { fastest, ..corner })
+    }
+
+    /// Share of the limits that is left unused.
+    fn reserve(&self) -> f64 {
+        let span = self.length() / self.spans as f64 / self.fastest;
+        RESERVE + reserve(span.clamp(SHORTEST_INTERVAL, USUAL_INTERVAL))
     }
 
     /// The same with twice the spans, if they are too coarse for these squared speeds at their ends.
@@ -106,12 +115,12 @@ impl Corner {
     pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
         let step = self.length() / self.spans as f64;
         let (bend, share) = (self.second_derivative(), |i: usize| i as f64 / self.spans as f64);
+        let left = 1.0 - self.reserve();
         let span = |i: usize| {
             let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
             let mut rows = Vec::with_capacity(16);
             for k in 0..2 {
-                let (acceleration, velocity) =
-                    ((1.0 - RESERVE) * limits.acceleration[k], ((1.0 - RESERVE) * limits.velocity[k]).powi(2));
+                let (acceleration, velocity) = (left * limits.acceleration[k], (left * limits.velocity[k]).powi(2));
                 let [p, q] = ends.map(|end| end[k]);
                 // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, either way.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
@@ -124,7 +133,7 @@ impl Corner {
                 rows.extend(bernstein.map(|row| row.map(|c| c / velocity)));
             }
             if let Some(tip) = limits.tip {
-                let squared = ((1.0 - RESERVE) * tip.allowed(&self.part(i))).powi(2);
+                let squared = (left * tip.allowed(&self.part(i))).powi(2);
                 rows.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
             Bounds::new(rows)

@@ -4,26 +4,26 @@ use super::Trajectory;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// The trajectory as CSV: a header `time,A,B,A_velocity,B_velocity,A_acceleration,B_acceleration` for joints `A` and `B`,
-/// then a line a sample.
+/// The trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, and `A_acceleration,B_acceleration`
+/// if asked for, then a line a sample.
 ///
 /// Fields are quoted as RFC 4180 says; lines end in a single line feed, which every reader takes and text tools prefer.
 /// Numbers have as many digits as it takes to read the same `f64` back.
 #[must_use]
-pub fn csv(joints: &[String; 2], trajectory: &Trajectory) -> String {
-    table(joints, trajectory, None)
+pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool) -> String {
+    table(joints, trajectory, accelerations, None)
 }
 
 /// The same with one more column, `step`: the number of the step that each sample belongs to. There are as many numbers as
 /// samples.
 #[must_use]
-pub fn csv_with_steps(joints: &[String; 2], trajectory: &Trajectory, steps: &[usize]) -> String {
-    table(joints, trajectory, Some(steps))
+pub fn csv_with_steps(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: &[usize]) -> String {
+    table(joints, trajectory, accelerations, Some(steps))
 }
 
-fn table(joints: &[String; 2], trajectory: &Trajectory, steps: Option<&[usize]>) -> String {
+fn table(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
-    for suffix in ["", "_velocity", "_acceleration"] {
+    for suffix in ["", "_velocity", "_acceleration"].into_iter().take(if accelerations { 3 } else { 2 }) {
         for joint in joints {
             text.push(',');
             text.push_str(&quoted(&format!("{joint}{suffix}")));
@@ -35,7 +35,10 @@ fn table(joints: &[String; 2], trajectory: &Trajectory, steps: Option<&[usize]>)
         let ([p1, p2], [v1, v2], [a1, a2]) =
             (trajectory.position[k], trajectory.velocity[k], trajectory.acceleration[k]);
         // Debug formatting is Rust's shortest round-trip one, with an exponent where digits would be many.
-        write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?},{a1:?},{a2:?}").expect("a string takes all");
+        write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?}").expect("a string takes all");
+        if accelerations {
+            write!(text, ",{a1:?},{a2:?}").expect("a string takes all");
+        }
         if let Some(step) = step.next() {
             write!(text, ",{step}").expect("a string takes all");
         }

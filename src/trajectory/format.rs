@@ -2,7 +2,7 @@
 
 #[cfg(feature = "mcap")]
 use super::mcap::mcap;
-use super::{Report, csv, ros_yaml};
+use super::{JointMotion, Report, csv, ros_yaml};
 use std::path::Path;
 use thiserror::Error;
 
@@ -63,12 +63,13 @@ impl Format {
     /// All but MCAP are text in UTF-8.
     #[must_use]
     pub fn bytes(self, report: &Report) -> Option<Vec<u8>> {
+        let motion = || Some(JointMotion::new(&report.robot, report.trajectory.as_ref()?, report.accelerations));
         match self {
             Self::Json => Some(report.json().into_bytes()),
-            Self::Csv => Some(csv(&report.joints, report.trajectory.as_ref()?).into_bytes()),
-            Self::Yaml => Some(ros_yaml(&report.joints, report.trajectory.as_ref()?).into_bytes()),
+            Self::Csv => Some(csv(&report.joints, report.trajectory.as_ref()?, report.accelerations).into_bytes()),
+            Self::Yaml => Some(ros_yaml(&motion()?).into_bytes()),
             #[cfg(feature = "mcap")]
-            Self::Mcap => Some(mcap(&report.joints, &[(report.trajectory.as_ref()?, 0.0)])),
+            Self::Mcap => Some(mcap(&[(&motion()?, 0.0)])),
         }
     }
 }

@@ -10,6 +10,7 @@
 //! none of which becomes greater when one of the three times does. So times may always be lengthened: limits that were
 //! kept stay kept.
 
+use super::clock::whole_nanoseconds;
 use super::profile::Phase;
 use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, Trajectory};
 
@@ -29,9 +30,10 @@ struct Times {
 }
 
 /// The fastest motion over `length` from rest to rest whose speed, acceleration and jerk are limited: seven phases, or
-/// fewer where a limit is not reached. No phase is shorter than `shortest`.
+/// fewer where a limit is not reached. No phase is shorter than `shortest`, and all last whole nanoseconds.
 ///
-/// Where that floor acts, the motion is slowed down, by at most `12 shortest`. All limits stay kept. `length`, `speed`,
+/// Where that floor acts, the motion is slowed down, by at most `12 shortest`; for the sake of whole nanoseconds by at most
+/// seven. All limits stay kept. `length`, `speed`,
 /// `acceleration`, `jerk` and `shortest` are positive, `speed` and `acceleration` may be infinite.
 ///
 /// The times are those that Ruckig finds (Berscheid, Kröger, *Jerk-limited real-time trajectory generation with arbitrary
@@ -50,7 +52,7 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64
             Times { grow, hold: 0.0, cruise: 0.0 }
         }
     };
-    times.with_floor(shortest).within(length, [speed, acceleration, jerk]).phases(length)
+    times.with_floor(shortest).within(length, [speed, acceleration, jerk]).whole().phases(length)
 }
 
 /// The fastest motion over the length 1 with the jerk 1 and these limits on speed and acceleration.
@@ -94,6 +96,12 @@ impl Times {
         let [speed, acceleration, jerk] = [0, 1, 2].map(|i| self.rates(length)[i] / limits[i]);
         let longer = speed.max(acceleration.sqrt()).max(jerk.cbrt()).max(1.0);
         Self { grow: self.grow * longer, hold: self.hold * longer, cruise: self.cruise * longer }
+    }
+
+    /// Each of them lengthened to whole nanoseconds.
+    fn whole(self) -> Self {
+        let Self { grow, hold, cruise } = self;
+        Self { grow: whole_nanoseconds(grow), hold: whole_nanoseconds(hold), cruise: whole_nanoseconds(cruise) }
     }
 
     /// The phases over a length.
@@ -149,7 +157,8 @@ mod tests {
         for ([speed, acceleration], count, expected) in cases {
             let phases = rest_to_rest(1.0, speed, acceleration, 1.0, SHORTEST);
             assert_eq!(phases.len(), count, "{phases:?}");
-            assert!((duration(&phases) - expected).abs() < 1e-14, "{} {expected}", duration(&phases));
+            // Of whole nanoseconds.
+            assert!((duration(&phases) - expected).abs() < 1e-8, "{} {expected}", duration(&phases));
         }
     }
 
@@ -174,7 +183,7 @@ mod tests {
     #[test]
     fn infinite_limits_leave_the_floor_and_the_jerk() {
         let free = rest_to_rest(2.0, f64::INFINITY, f64::INFINITY, 1.0, SHORTEST);
-        assert!((duration(&free) - 4.0).abs() < 1e-14);
+        assert!((duration(&free) - 4.0).abs() < 1e-8);
         let sudden = rest_to_rest(2.0, f64::INFINITY, 8.0, f64::MAX, SHORTEST);
         assert!((duration(&sudden) - 1.0).abs() < 12.0 * SHORTEST);
     }

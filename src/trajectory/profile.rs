@@ -1,5 +1,7 @@
 //! Speed along one straight stretch.
 
+use super::clock::whole_nanoseconds;
+
 /// A time of constant jerk along a stretch, mostly of none at all; distances counted from the stretch's beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
@@ -57,20 +59,21 @@ impl Phase {
 
 /// The fastest motion over `length` from rest to rest: constant acceleration, constant speed (perhaps for no time at
 /// all), constant deceleration as long as the acceleration (bang-bang, or bang-coast-bang where the speed limit is
-/// reached). No phase is shorter than `shortest`.
+/// reached). No phase is shorter than `shortest`, and all last whole nanoseconds.
 ///
 /// Where that floor acts, the motion is slowed down, by at most `4 shortest`: ramps are stretched to the floor at a
-/// lower acceleration, and a shorter cruise is spread over the ramps. All limits stay kept. `length`, `speed`,
-/// `acceleration` and `shortest` are positive; the limits may be infinite.
+/// lower acceleration, and a shorter cruise is spread over the ramps. Each phase is stretched to the next nanosecond in the
+/// same way. All limits stay kept. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be infinite.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Vec<Phase> {
-    let ramp = (speed / acceleration).max(shortest);
+    let ramp = whole_nanoseconds((speed / acceleration).max(shortest));
     let cruise = length / speed - ramp;
     let (ramp, cruise, acceleration) = if cruise >= shortest {
-        (ramp, cruise, speed / ramp)
+        let cruise = whole_nanoseconds(cruise);
+        (ramp, cruise, length / (ramp + cruise) / ramp)
     } else {
         // Without a cruise the peak speed is length / ramp and the acceleration length / ramp^2: both limits are lower
         // bounds of the ramp.
-        let ramp = (length / acceleration).sqrt().max(length / speed).max(shortest);
+        let ramp = whole_nanoseconds((length / acceleration).sqrt().max(length / speed).max(shortest));
         (ramp, 0.0, length / ramp / ramp)
     };
     let peak = acceleration * ramp;

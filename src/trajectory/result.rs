@@ -3,7 +3,7 @@
 use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedCurve, ProofBox};
-use crate::model::Joint;
+use crate::model::{Joint, RobotJoints};
 use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -134,6 +134,12 @@ pub struct Report {
     pub interpolation: Option<&'static str>,
     /// The motion.
     pub trajectory: Option<Trajectory>,
+    /// The joints that ROS 2 messages name: at first the two planned ones.
+    #[serde(skip)]
+    pub robot: RobotJoints,
+    /// Whether tables and messages have accelerations; see [`Trajectory::check_accelerations`].
+    #[serde(skip)]
+    pub accelerations: bool,
 }
 
 impl Report {
@@ -191,6 +197,8 @@ impl Report {
             duration: None,
             interpolation: None,
             trajectory: None,
+            robot: RobotJoints::planned(&joints.each_ref().map(|j| j.name.clone())),
+            accelerations: false,
         }
     }
 

@@ -1,45 +1,34 @@
 //! Trajectories as ROS 2 messages.
 
-use super::Trajectory;
+use super::JointMotion;
+use super::clock::{PER_SECOND, nanoseconds};
 use std::fmt::Write;
 
 /// The trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML that `ros2 topic pub` takes.
 ///
-/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are rounded to nanoseconds and still
-/// increase strictly, because samples are at least [`super::SHORTEST_INTERVAL`] apart. Numbers have as many digits as it
-/// takes to read the same `f64` back.
-///
-/// A controller that joins samples by cubics, of positions and velocities, follows the motion exactly on straight pieces
-/// and within [`crate::space::HAIR`] on blends, and keeps the limits. One that joins them by quintic splines follows it
-/// exactly wherever two samples have the same acceleration; where it changes between them, the spline smooths the change.
+/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have as many digits as it
+/// takes to read the same `f64` back. How a controller joins the points: see the [module](super).
 #[must_use]
-pub fn ros_yaml(joints: &[String; 2], trajectory: &Trajectory) -> String {
+pub fn ros_yaml(motion: &JointMotion) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");
     let mut line = |line: std::fmt::Arguments| {
         text.write_fmt(line).expect("a string takes all");
         text.push('\n');
     };
-    for joint in joints {
+    for joint in &motion.joints {
         line(format_args!("- {}", quoted(joint)));
     }
     line(format_args!("points:"));
-    for (k, &time) in trajectory.time.iter().enumerate() {
+    for (k, &time) in motion.time.iter().enumerate() {
         let (seconds, nanoseconds) = split(time);
-        line(format_args!("- positions: {}", pair(trajectory.position[k])));
-        line(format_args!("  velocities: {}", pair(trajectory.velocity[k])));
-        line(format_args!("  accelerations: {}", pair(trajectory.acceleration[k])));
+        line(format_args!("- positions: {}", list(&motion.position[k])));
+        line(format_args!("  velocities: {}", list(&motion.velocity[k])));
+        if let Some(acceleration) = &motion.acceleration {
+            line(format_args!("  accelerations: {}", list(&acceleration[k])));
+        }
         line(format_args!("  time_from_start: {{sec: {seconds}, nanosec: {nanoseconds}}}"));
     }
     text
-}
-
-/// Nanoseconds in a second.
-pub(super) const PER_SECOND: u64 = 1_000_000_000;
-
-/// Seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose nanoseconds
-/// a double counts exactly.
-pub(super) fn nanoseconds(time: f64) -> u64 {
-    (time * PER_SECOND as f64).round() as u64
 }
 
 /// Whole seconds, and nanoseconds.
@@ -48,8 +37,9 @@ fn split(time: f64) -> (u64, u64) {
     (nanoseconds / PER_SECOND, nanoseconds % PER_SECOND)
 }
 
-fn pair([a, b]: [f64; 2]) -> String {
-    format!("[{}, {}]", number(a), number(b))
+fn list(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|value| number(*value)).collect();
+    format!("[{}]", numbers.join(", "))
 }
 
 /// A number that YAML 1.1 readers, PyYAML among them, take for a number: those want a point in the mantissa and a sign

@@ -1,7 +1,9 @@
 //! A path under a clock.
 
+use super::clock::{self, PER_SECOND, nanoseconds, whole_nanoseconds};
 use super::limits::Limits;
-use super::schedule::schedule;
+use super::profile::Phase;
+use super::schedule::{Passage, Track, schedule};
 use crate::certify::CertifiedCurve;
 use crate::space::{BlendedPath, Configuration};
 use serde::Serialize;
@@ -11,6 +13,10 @@ use thiserror::Error;
 /// (1 ms), so nobody misses what it suppresses; a thousand times the nanosecond in which ROS counts and, at the end of
 /// [`LONGEST_MOTION`], ten thousand times the spacing of doubles, so that times stay distinct however they are rounded.
 pub const SHORTEST_INTERVAL: f64 = 1e-6;
+
+/// Samples that nothing but the period asks for stay so far from others, seconds, where the period is longer than twice
+/// this: there rounding to doubles changes the acceleration of a cubic by less than a millionth of a radian per squared second.
+pub(super) const USUAL_INTERVAL: f64 = 1e-4;
 
 /// The longest motion that is timed, seconds: eleven days. Beyond, the limits are a mistake rather than a wish, and
 /// doubles no longer resolve [`SHORTEST_INTERVAL`] well.
@@ -25,8 +31,9 @@ pub const MOST_SAMPLES: usize = 5_000_000;
 /// pieces of the second (of the third, if the jerk has a limit), and the samples say which: the one with position `k`, velocity `k` and acceleration `k` at its
 /// beginning and position and velocity `k + 1` at its end, as [`super::INTERPOLATION`] writes it down. So the samples are
 /// the motion, up to rounding, not an approximation of it. The acceleration may jump at a sample, unless a joint's jerk has
-/// a limit: the one that is given is that of the interval that begins there. Times begin at 0 and increase strictly, by at least [`SHORTEST_INTERVAL`].
-/// Radians or metres, and seconds; joints in the order base to tip.
+/// a limit: the one that is given is that of the interval that begins there. The cubic through positions and velocities of two
+/// samples keeps the limits, too, and is the same motion on straight pieces. Times begin at 0 and increase strictly, by
+/// at least [`SHORTEST_INTERVAL`]; they are whole nanoseconds. Radians or metres, and seconds; joints in the order base to tip.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
@@ -71,29 +78,31 @@ impl Trajectory {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest. Without samples it becomes
-    /// that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
+    /// Appends a motion that begins where this one ends, after a pause of so many seconds at rest, rounded up to whole
+    /// nanoseconds. Without samples it becomes that motion. Pauses below [`SHORTEST_INTERVAL`] count as none.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
-        let begin = self.time.last().map_or(0.0, |end| if pause < SHORTEST_INTERVAL { *end } else { end + pause });
-        if pause < SHORTEST_INTERVAL {
+        let begin = self.time.last().map_or(0, |end| nanoseconds(*end + rest(pause)));
+        if rest(pause) == 0.0 {
             // One sample for both: the acceleration is that of the interval that begins.
             self.time.pop();
             self.position.pop();
             self.velocity.pop();
             self.acceleration.pop();
         }
-        self.time.extend(next.time.iter().map(|time| begin + time));
+        self.time.extend(next.time.iter().map(|time| clock::seconds(begin + nanoseconds(*time))));
         self.position.extend(&next.position);
         self.velocity.extend(&next.velocity);
         self.acceleration.extend(&next.acceleration);
     }
 
-    /// Stands still for so many seconds at the end; less than [`SHORTEST_INTERVAL`] counts as nothing.
+    /// Stands still for so many seconds at the end, rounded up to whole nanoseconds; less than [`SHORTEST_INTERVAL`] counts as
+    /// nothing.
     pub fn stand(&mut self, pause: f64) {
-        if let (Some(&end), Some(&position), true) =
-            (self.time.last(), self.position.last(), pause >= SHORTEST_INTERVAL)
-        {
-            self.push(end + pause, [position.into(), Configuration::zeros(), Configuration::zeros()]);
+        if let (Some(&end), Some(&position), true) = (self.time.last(), self.position.last(), rest(pause) > 0.0) {
+            self.push(
+                nanoseconds(end + rest(pause)),
+                [position.into(), Configuration::zeros(), Configuration::zeros()],
+            );
         }
     }
 
@@ -106,14 +115,19 @@ impl Trajectory {
         }
     }
 
-    fn push(&mut self, time: f64, [position, velocity, acceleration]: [Configuration; 3]) {
+    fn push(&mut self, nanoseconds: u64, [position, velocity, acceleration]: [Configuration; 3]) {
         // Adding 0 turns the minus zero of a joint at rest into zero.
         let row = |v: Configuration| [v[0] + 0.0, v[1] + 0.0];
-        self.time.push(time);
+        self.time.push(clock::seconds(nanoseconds));
         self.position.push([position[0], position[1]]);
         self.velocity.push(row(velocity));
         self.acceleration.push(row(acceleration));
     }
+}
+
+/// How long a pause is.
+fn rest(pause: f64) -> f64 {
+    if pause < SHORTEST_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
 
 /// A motion in time and what it follows.
@@ -135,12 +149,12 @@ pub struct Timed {
 ///
 /// Samples lie at the multiples of `period`, wherever that second derivative changes, and on blends as densely as it
 /// takes for the cubic through positions and velocities to keep the limits, too, and to stay within
-/// [`crate::space::HAIR`] of the blend. Multiples of the period closer than [`SHORTEST_INTERVAL`] to another sample are
-/// left out. A path that stays where it is gives one sample.
+/// [`crate::space::HAIR`] of the blend; all of them at whole nanoseconds. Multiples of the period closer than a tenth of a
+/// millisecond (or half the period) to another sample are left out. A path that stays where it is gives one sample.
 ///
 /// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
 /// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`, up to `4` [`SHORTEST_INTERVAL`] longer where a phase would be
-/// shorter than that. Linear in the number of samples.
+/// shorter than that; and each phase is lengthened to whole nanoseconds. Linear in the number of samples.
 ///
 /// If any joint's jerk has a limit, the motion stops at every corner, blended or not, and each straight piece on which such
 /// a joint moves takes the shortest time that speed, acceleration and jerk along it allow from rest to rest, with one bound
@@ -165,8 +179,11 @@ pub(super) fn time_curve(
     if !(period.is_finite() && period >= SHORTEST_INTERVAL) {
         return Err(TimingError::Period(period));
     }
-    let (used, passages) = schedule(curve, limits);
-    let phases = || passages.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)));
+    let (used, runs) = schedule(curve, limits);
+    let phases = || {
+        let passages = runs.iter().flatten();
+        passages.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
+    };
     let duration = phases().map(|(_, phase)| phase.duration).fold(0.0, |sum, duration| sum + duration);
     if duration.is_nan() || duration > LONGEST_MOTION {
         return Err(TimingError::TooLong(duration));
@@ -178,27 +195,48 @@ pub(super) fn time_curve(
     }
 
     let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
-    let mut begin = 0.0;
-    for (track, phase) in phases() {
-        let end = begin + phase.duration;
-        let mut before = begin;
-        trajectory.push(begin, track.at(phase.at(0.0)));
-        let interval = track.interval(phase, limits);
-        let first = (begin / period) as u64;
-        let multiples = (first..).map(|k| k as f64 * period).skip_while(|&t| t - begin < SHORTEST_INTERVAL);
-        for next in multiples.take_while(|&t| end - t >= SHORTEST_INTERVAL).chain([end]) {
-            let parts = ((next - before) / interval).ceil().max(1.0);
-            for part in 1..parts as u64 {
-                let time = before + (next - before) * (part as f64 / parts);
-                trajectory.push(time, track.at(phase.at(time - begin)));
-            }
-            if next < end {
-                trajectory.push(next, track.at(phase.at(next - begin)));
-            }
-            before = next;
-        }
-        begin = end;
-    }
-    trajectory.push(begin, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
+    let end = runs.iter().fold(0, |begin, run| sample(run, begin, limits, period, &mut trajectory));
+    trajectory.push(end, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
     Ok((used, trajectory))
+}
+
+/// Appends the samples of a run from rest to rest that begins at a nanosecond, but for the last; and tells when it ends.
+///
+/// Phases begin and end between nanoseconds. The sample of each is at the nearest one, where the motion is then, with the
+/// acceleration of the interval that begins there.
+fn sample(run: &[Passage], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
+    let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
+    let mut since = 0.0;
+    let mut before: Option<(&Track, &Phase)> = None;
+    for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
+        let (first, last) = (begin + nanoseconds(since), begin + nanoseconds(since + phase.duration));
+        // Seconds from the beginning of the phase.
+        let into = |at: u64| clock::seconds(at - begin) - since;
+        let state = |at: u64| match before {
+            Some((track, phase)) if into(at) < 0.0 => track.at(phase.at(phase.duration + into(at))),
+            _ => track.at(phase.at(into(at))),
+        };
+        let [position, velocity, _] = state(first);
+        let [.., acceleration] = track.at(phase.at(0.0));
+        trajectory.push(first, [position, velocity, acceleration]);
+        let interval = track.interval(phase, limits);
+        let mut left = first;
+        let count = (clock::seconds(first) / period) as u64;
+        let multiples = (count..).map(|k| nanoseconds(k as f64 * period)).skip_while(|&at| at < first + near);
+        for next in multiples.take_while(|&at| at + near <= last).chain([last]) {
+            let gap = (next - left) as f64;
+            let parts = (gap / PER_SECOND as f64 / interval).ceil().max(1.0);
+            for part in 1..parts as u64 {
+                let at = left + (gap * (part as f64 / parts)) as u64;
+                trajectory.push(at, state(at));
+            }
+            if next < last {
+                trajectory.push(next, state(next));
+            }
+            left = next;
+        }
+        since += phase.duration;
+        before = Some((track, phase));
+    }
+    begin + nanoseconds(whole_nanoseconds(since))
 }

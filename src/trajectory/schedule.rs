@@ -1,16 +1,21 @@
 //! When a motion is where: the fastest passage along a path with blends.
 
+use super::clock::reserve;
 use super::corner::{Bounds, Corner};
 use super::jerk;
 use super::limits::Limits;
 use super::profile::{Phase, State, passing, rest_to_rest};
-use super::sample::SHORTEST_INTERVAL;
+use super::sample::{SHORTEST_INTERVAL, USUAL_INTERVAL};
 use super::tip::{Part, TIP_STEP};
 use crate::space::{Blend, BlendedPath, Configuration};
 use std::ops::Range;
 
 /// Parts of a straight stretch at the most.
 const MOST_PARTS: f64 = 1024.0;
+
+/// A straight stretch that is passed is given no phase that is shorter than this share of the least time it takes: what it
+/// would gain is lost in what [`reserve`] keeps of the limits for it.
+const SHORTEST_SHARE: f64 = 1.0 / 32.0;
 
 /// A stretch of a path with the distance along it.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +70,17 @@ impl Line {
         (0..count as u32).map(|i| Self::new(end(f64::from(i)), end(f64::from(i) + 1.0), limits)).collect()
     }
 
+    /// No phase in which it is passed is shorter, seconds.
+    fn shortest(&self) -> f64 {
+        (self.length / self.speed * SHORTEST_SHARE).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL)
+    }
+
+    /// The same where it is not passed from rest to rest, so that its phases end between two nanoseconds.
+    fn passed(self) -> Self {
+        let left = 1.0 - reserve(self.shortest());
+        Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
+    }
+
     fn at(&self, state: State) -> [Configuration; 3] {
         let State { distance, speed, acceleration } = state;
         let part = distance / self.length;
@@ -99,10 +115,10 @@ impl Track {
 /// A track and the phases in which it is passed.
 pub(super) type Passage = (Track, Vec<Phase>);
 
-/// The passages along a path, in order, and the blends in use: waypoints whose blend is of no use are left out of them,
-/// and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
+/// The passages along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
+/// left out of them, and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
 /// begins, the acceleration jumps.
-pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Passage>) {
+pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Vec<Passage>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
         blend.and_then(|blend: Blend| Corner::new(blend, limits))
@@ -114,20 +130,21 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
             used = used.with(waypoint, 0.0);
         }
     }
-    let mut passages = Vec::new();
+    let mut runs = Vec::new();
     let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
     for run in stops.windows(2) {
         let stopping = stopping(&used, run[0]..run[1], limits);
         let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits)).flatten();
-        match blended.filter(|blended| duration(blended) <= duration(&stopping)) {
-            Some(blended) => passages.extend(blended),
+        let took: f64 = stopping.iter().map(|passages| duration(passages)).sum();
+        match blended.filter(|blended| duration(blended) <= took) {
+            Some(blended) => runs.push(blended),
             None => {
                 used = (run[0] + 1..run[1]).fold(used, |used, waypoint| used.with(waypoint, 0.0));
-                passages.extend(stopping);
+                runs.extend(stopping);
             }
         }
     }
-    (used, passages)
+    (used, runs)
 }
 
 /// Seconds.
@@ -136,7 +153,7 @@ fn duration(passages: &[Passage]) -> f64 {
 }
 
 /// From rest to rest on each leg from one waypoint to another.
-fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Passage> {
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Vec<Passage>> {
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
     let passages = |leg: &[Configuration]| {
         let whole = || {
@@ -155,7 +172,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Ve
         let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
         driven.unwrap_or_else(whole)
     };
-    legs.flat_map(passages).collect()
+    legs.map(passages).collect()
 }
 
 /// A part of a run over which the squared speed is linear, or on a line as fast as can be.
@@ -189,7 +206,12 @@ fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Opt
 
 /// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
 /// these are fine enough. None if a phase would be too short to be sampled.
-fn driven(mut tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
+fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
+    let passed = |track| match track {
+        Track::Line(line) => Track::Line(line.passed()),
+        corner @ Track::Corner(_) => corner,
+    };
+    let mut tracks: Vec<Track> = tracks.into_iter().map(passed).collect();
     let squared = loop {
         let squared = squared_speeds(&tracks, limits);
         let mut refined = false;
@@ -208,7 +230,7 @@ fn driven(mut tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
         let phases = match &track {
             Track::Line(line) => {
                 let ends = [squared[0].sqrt(), squared[1].sqrt()];
-                passing(line.length, ends, line.speed, line.acceleration, SHORTEST_INTERVAL)?
+                passing(line.length, ends, line.speed, line.acceleration, line.shortest())?
             }
             Track::Corner(corner) => corner.phases(&squared),
         };

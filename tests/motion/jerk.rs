@@ -46,7 +46,8 @@ fn shortest(points: &[Configuration], joints: &[Joint; 2]) -> (f64, f64) {
         // Without a limit its formulas hold, too: nothing grows.
         let (whole, phase) = closed_form(leg.norm(), v, a, j);
         sum += whole;
-        floor += if phase >= SHORTEST_INTERVAL { 0.0 } else { 12.0 * SHORTEST_INTERVAL };
+        // Seven phases of whole nanoseconds.
+        floor += if phase >= SHORTEST_INTERVAL { 7e-9 } else { 12.0 * SHORTEST_INTERVAL };
     }
     (sum, floor)
 }
@@ -111,10 +112,10 @@ fn seven_phases_on_each_leg_of_a_right_angle() {
     check(&scene.arm.joints, &timed);
     // L / v + v / a + a / j, twice; samples at the ends of the phases and nowhere else, but for the second at 1 s.
     let trajectory = &timed.trajectory;
-    assert!((trajectory.duration() - (1.0 + 0.25 + 0.1) - (1.0 + 0.25 + 0.2)).abs() < 1e-12);
+    assert!((trajectory.duration() - (1.0 + 0.25 + 0.1) - (1.0 + 0.25 + 0.2)).abs() < 1e-8);
     let expected = [0.0, 0.1, 0.25, 0.35, 1.0, 1.1, 1.25, 1.35, 1.55, 1.6, 1.8, 2.0, 2.35, 2.55, 2.6, 2.8];
     assert_eq!(trajectory.time.len(), expected.len(), "{:?}", trajectory.time);
-    assert!(trajectory.time.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-12), "{:?}", trajectory.time);
+    assert!(trajectory.time.iter().zip(expected).all(|(t, e)| (t - e).abs() < 1e-8), "{:?}", trajectory.time);
 }
 
 #[test]
@@ -129,7 +130,7 @@ fn a_joint_without_a_limit_may_jump_where_it_moves_alone() {
     assert_eq!((alone.acceleration[0], alone.duration()), ([4.0, 0.0], 1.25));
     // In step with the other it grows as gently as that.
     let both = along(&[[0.0, 0.0], [1.0, 1.0]]);
-    assert!((both.duration() - 1.45).abs() < 1e-12 && both.acceleration[0] == [0.0; 2]);
+    assert!((both.duration() - 1.45).abs() < 1e-8 && both.acceleration[0] == [0.0; 2]);
 }
 
 #[test]
@@ -139,7 +140,7 @@ fn less_speed_takes_that_much_longer() {
     let [fast, slow] = [limits, limits.scaled(0.25)].map(|limits| {
         time(curve(&scene, &[[0.0, 0.0], [1.0, 0.4], [0.7, 1.0]], 0.3), &limits, 0.01).unwrap().trajectory
     });
-    assert!((slow.duration() - 4.0 * fast.duration()).abs() < 1e-9);
+    assert!((slow.duration() - 4.0 * fast.duration()).abs() < 1e-7);
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod jerk;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod optimum;
+mod played;
 mod sampled;
 mod trajectory;
 

@@ -1,7 +1,7 @@
 //! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer: it knows
 //! where a value lies from the standard's rule alone. `tests/python/read_mcap.py` reads the same with other people's code.
 
-use cplan::trajectory::{Trajectory, mcap};
+use cplan::trajectory::{JointMotion, mcap};
 use mcap_reader::read::{LinearReader, MessageStream, Summary};
 use mcap_reader::records::Record;
 use proptest::prelude::*;
@@ -63,25 +63,25 @@ impl<'a> Decoder<'a> {
 }
 
 #[derive(Debug, PartialEq)]
-struct State {
-    log: u64,
-    stamp: u64,
-    joints: Vec<String>,
-    position: Vec<f64>,
-    velocity: Vec<f64>,
+pub struct State {
+    pub log: u64,
+    pub stamp: u64,
+    pub joints: Vec<String>,
+    pub position: Vec<f64>,
+    pub velocity: Vec<f64>,
 }
 
 #[derive(Debug, PartialEq)]
-struct Motion {
-    log: u64,
-    joints: Vec<String>,
-    since: Vec<u64>,
+pub struct Motion {
+    pub log: u64,
+    pub joints: Vec<String>,
+    pub since: Vec<u64>,
     /// Positions, velocities and accelerations.
-    points: Vec<[Vec<f64>; 3]>,
+    pub points: Vec<[Vec<f64>; 3]>,
 }
 
 /// Everything in a file, after checks of what is the same in all.
-fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
+pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     let (mut states, mut motions) = (Vec::new(), Vec::new());
     for message in MessageStream::new(file).unwrap() {
         let message = message.unwrap();
@@ -117,17 +117,19 @@ fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
     (states, motions)
 }
 
-/// Samples after each other by these steps, of these values.
-fn trajectory(steps: &[f64], values: &[[f64; 6]]) -> Trajectory {
+/// Samples after each other by these steps, of these values, with accelerations.
+fn trajectory(joints: &[String], steps: &[f64], values: &[[f64; 6]]) -> JointMotion {
     let time = steps.iter().scan(-steps[0], |t, step| {
         *t += step;
         Some(*t)
     });
-    Trajectory {
+    let rows = |of: usize| values.iter().map(|v| v[of..of + 2].to_vec()).collect();
+    JointMotion {
+        joints: joints.to_vec(),
         time: time.collect(),
-        position: values.iter().map(|v| [v[0], v[1]]).collect(),
-        velocity: values.iter().map(|v| [v[2], v[3]]).collect(),
-        acceleration: values.iter().map(|v| [v[4], v[5]]).collect(),
+        position: rows(0),
+        velocity: rows(2),
+        acceleration: Some(rows(4)),
     }
 }
 
@@ -137,8 +139,8 @@ fn names() -> [String; 2] {
 
 #[test]
 fn the_file_says_what_it_is() {
-    let motion = trajectory(&[0.0, 0.5], &[[0.0; 6]; 2]);
-    let file = mcap(&names(), &[(&motion, 0.0)]);
+    let motion = trajectory(&names(), &[0.0, 0.5], &[[0.0; 6]; 2]);
+    let file = mcap(&[(&motion, 0.0)]);
     let Some(Ok(Record::Header(header))) = LinearReader::new(&file).unwrap().next() else { panic!("no header") };
     assert_eq!(header.profile, "ros2");
     assert_eq!(header.library, format!("cplan {}", env!("CARGO_PKG_VERSION")));
@@ -153,9 +155,9 @@ fn the_file_says_what_it_is() {
 
 #[test]
 fn several_motions_follow_each_other() {
-    let there = trajectory(&[0.0, 0.25, 0.25], &[[0.0; 6], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0; 6]]);
-    let back = trajectory(&[0.0, 1.0], &[[2.0; 6], [0.0; 6]]);
-    let (states, motions) = read(&mcap(&names(), &[(&there, 0.0), (&back, 2.5)]));
+    let there = trajectory(&names(), &[0.0, 0.25, 0.25], &[[0.0; 6], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0; 6]]);
+    let back = trajectory(&names(), &[0.0, 1.0], &[[2.0; 6], [0.0; 6]]);
+    let (states, motions) = read(&mcap(&[(&there, 0.0), (&back, 2.5)]));
     let logs: Vec<u64> = states.iter().map(|state| state.log).collect();
     assert_eq!(logs, [0, 250_000_000, 500_000_000, 2_500_000_000, 3_500_000_000]);
     assert!(states.iter().all(|state| state.stamp == state.log && state.joints == names()));
@@ -165,12 +167,22 @@ fn several_motions_follow_each_other() {
 }
 
 #[test]
+fn motions_without_a_pause_between_them_share_a_state() {
+    let there = trajectory(&names(), &[0.0, 0.5], &[[0.0; 6], [2.0; 6]]);
+    let cubic = JointMotion { acceleration: None, ..trajectory(&names(), &[0.0, 1.0], &[[2.0; 6], [0.0; 6]]) };
+    let (states, motions) = read(&mcap(&[(&there, 0.0), (&cubic, 0.5)]));
+    let logs: Vec<u64> = states.iter().map(|state| state.log).collect();
+    assert_eq!(logs, [0, 500_000_000, 1_500_000_000]);
+    assert_eq!(motions[1].points[0], [vec![2.0; 2], vec![2.0; 2], vec![]]);
+}
+
+#[test]
 fn a_file_of_many_chunks() {
     // Some 250 bytes a sample, and a chunk is a megabyte.
     let many = 20_000;
     let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();
-    let motion = trajectory(&vec![1e-3; many], &values);
-    let file = mcap(&names(), &[(&motion, 0.0)]);
+    let motion = trajectory(&names(), &vec![1e-3; many], &values);
+    let file = mcap(&[(&motion, 0.0)]);
     assert!(Summary::read(&file).unwrap().expect("a summary").chunk_indexes.len() > 2);
     let (states, motions) = read(&file);
     assert_eq!((states.len(), motions.len(), motions[0].points.len()), (many, 1, many));
@@ -187,9 +199,9 @@ proptest! {
         joints in prop::array::uniform2("[^\0]{0,20}"),
     ) {
         let (steps, values): (Vec<f64>, Vec<[f64; 6]>) = rows.into_iter().unzip();
-        let motion = trajectory(&steps, &values);
-        let file = mcap(&joints, &[(&motion, 0.0)]);
-        prop_assert_eq!(&file, &mcap(&joints, &[(&motion, 0.0)]));
+        let motion = trajectory(&joints, &steps, &values);
+        let file = mcap(&[(&motion, 0.0)]);
+        prop_assert_eq!(&file, &mcap(&[(&motion, 0.0)]));
         let (states, motions) = read(&file);
         prop_assert_eq!((states.len(), motions.len()), (values.len(), 1));
         for (k, state) in states.iter().enumerate() {
@@ -198,7 +210,8 @@ proptest! {
             prop_assert_eq!(&state.velocity, &motion.velocity[k]);
             prop_assert!((state.log as f64 * 1e-9 - motion.time[k]).abs() <= 0.6e-9);
             prop_assert_eq!([state.stamp, motions[0].since[k]], [state.log; 2]);
-            let expected = [motion.position[k].to_vec(), motion.velocity[k].to_vec(), motion.acceleration[k].to_vec()];
+            let acceleration = motion.acceleration.as_ref().unwrap()[k].clone();
+            let expected = [motion.position[k].clone(), motion.velocity[k].clone(), acceleration];
             prop_assert_eq!(&motions[0].points[k], &expected);
         }
         prop_assert!(states.windows(2).all(|pair| pair[0].log < pair[1].log));

@@ -72,7 +72,7 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
         if free { vec![Item::AnyOrder(pairs)] } else { pairs.into_iter().flatten().map(Item::Step).collect() };
     let home = q(0.0, 0.3);
     items.push(Item::Step(step(Action::Move(Goal::Joints(home)), 2 * spots.len() + 1)));
-    Task { arm, workspace, objects, start: home, items, wrist: None }
+    Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None }
 }
 
 /// All postures within the limits that put the tip somewhere.

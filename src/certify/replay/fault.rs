@@ -40,7 +40,7 @@ pub enum Fault {
     Rest {
         /// How long it does, seconds.
         stood: f64,
-        /// How long it was to: for the step's dwell and the turn of the wrist.
+        /// How long it was to: for the step's dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
     /// The wrist turns from an orientation that the object does not have.

@@ -14,7 +14,7 @@ use super::{Excess, Passage, TurnContact, WristTurn, limits_kept, passage};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
 use crate::space::{Configuration, Recording};
 use order::{Matched, matched};
-use state::State;
+use state::{State, stroke_seconds};
 use std::f64::consts::TAU;
 
 /// Where something is and where it is asked to be may differ by this, metres or radians: a thousand times what inverse
@@ -80,7 +80,8 @@ pub struct Replay<'a> {
 ///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
 /// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
 ///   begin at the object's orientation, take as long as the wrist needs, and are free all the way ([`super::given_turn`]);
-///   that the arm stands still for as long as was asked for, and the turn.
+///   that the arm stands still for as long as was asked for, the turn, and the stroke of the tool, which is free, too, at all
+///   the heights that it takes.
 ///
 /// `O(n)` for `n` samples but for the motions.
 #[must_use]
@@ -122,7 +123,7 @@ impl<'a> Iterator for Replay<'a> {
         let mut broken = limits_kept(&task.arm.joints, &motion);
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
-        let turn;
+        let (turn, lowered);
         match &step.action {
             Action::Pick { object: picked, grasp, .. } => {
                 object = Some(*picked);
@@ -132,24 +133,41 @@ impl<'a> Iterator for Replay<'a> {
                     _ => None,
                 });
                 faults.extend(self.state.grasp(task, to, step, *grasp, following.unwrap_or_default()));
+                lowered = self.state.lowered(task);
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
             }
             Action::Place { at, angle, .. } => {
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
+                lowered = self.state.lowered(task);
                 faults.extend(self.state.release(task, to, *at, *angle));
             }
             Action::Move(goal) => {
-                object = None;
+                (object, lowered) = (None, None);
                 faults.extend(missed(task, to, goal));
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
                 self.state.moved();
             }
         }
-        let asked = step.dwell + recorded.turn.map_or(0.0, |turn| turn.seconds);
+        let asked = step.dwell
+            + recorded.turn.map_or(0.0, |turn| turn.seconds)
+            + object.map_or(0.0, |object| stroke_seconds(task, object));
+        let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
+        if let (Some(below), Some(standing)) = (lowered, standing()) {
+            let found = super::passage(&below, &standing, task.workspace.clearance);
+            match (&mut passage, found) {
+                (Passage::Free { clearance, .. }, Passage::Free { clearance: least, .. }) => {
+                    *clearance = clearance.min(least);
+                }
+                (Passage::Free { .. }, found) => {
+                    (scene, passage) = (below, shifted(found, *recorded.samples.end()));
+                }
+                _ => {}
+            }
+        }
         // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
         if self.next == self.matched.len()
             && matches!(passage, Passage::Free { .. })
-            && let Some(standing) = self.recording.part(*recorded.samples.end()..=*recorded.samples.end())
+            && let Some(standing) = standing()
         {
             let after = self.state.scene(task, released);
             let found = super::passage(&after, &standing, task.workspace.clearance);

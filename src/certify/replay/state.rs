@@ -81,6 +81,16 @@ impl State {
         faults
     }
 
+    /// The scene with the tool, and what it holds, at all heights between which a stroke moves them; none without a stroke.
+    pub fn lowered(&self, task: &Task) -> Option<Scene> {
+        let (stroke, (object, payload)) = task.stroke.as_ref().zip(self.held.as_ref())?;
+        let object = &task.objects[*object];
+        let spared: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
+        let payload = Payload { heights: object.handled_heights(), ..payload.clone() };
+        let arm = stroke.swept(&task.arm, stroke.depth(object));
+        Some(Scene::handling(arm, task.obstacles(&self.poses), Some(payload), &spared))
+    }
+
     /// Goes on after a motion without an event.
     pub fn moved(&mut self) {
         self.released = None;
@@ -123,13 +133,21 @@ impl State {
     }
 }
 
-/// Least seconds for an angle from rest to rest: up to the top speed, along at it, and down; or, where there is no room
+/// Least seconds in which the tool goes down to an object and up again.
+pub(super) fn stroke_seconds(task: &Task, object: usize) -> f64 {
+    task.stroke.as_ref().map_or(0.0, |stroke| {
+        let depth = stroke.depth(&task.objects[object]).abs();
+        2.0 * least_seconds(depth, stroke.velocity, stroke.acceleration)
+    })
+}
+
+/// Least seconds for a way from rest to rest: up to the top speed, along at it, and down; or, where there is no room
 /// for that, up and down.
-fn least_seconds(angle: f64, velocity: f64, acceleration: f64) -> f64 {
+fn least_seconds(way: f64, velocity: f64, acceleration: f64) -> f64 {
     let ramps = velocity * velocity / acceleration;
-    if angle > ramps {
-        2.0 * velocity / acceleration + (angle - ramps) / velocity
+    if way > ramps {
+        2.0 * velocity / acceleration + (way - ramps) / velocity
     } else {
-        2.0 * (angle / acceleration).sqrt()
+        2.0 * (way / acceleration).sqrt()
     }
 }

@@ -6,7 +6,7 @@ use crate::cli::output::{self, PictureFormat};
 use crate::cli::{task, task_summary};
 use crate::input::{LoadedScene, Overrides};
 use crate::task::{Manner, TaskReport};
-use crate::trajectory::Format;
+use crate::trajectory::{Format, Report};
 use std::path::Path;
 
 /// What a file holds, by the extension of its name.
@@ -34,7 +34,9 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
         options.override_limits(&mut loaded.task.arm.joints);
         let manner = Manner { method: options.method(), effort, drive: options.drive() };
         let answer = crate::task::plan(&loaded.task, &manner, &mut |_| ());
-        let report = TaskReport::new(options.method().name(), &loaded.task, &answer);
+        let mut report = TaskReport::new(options.method().name(), &loaded.task, &answer);
+        let named = report.name_joints(&loaded.robot.joints, &loaded.task, &answer, false);
+        named.map_err(|error| in_words(&error))?;
         return match kind {
             Kind::Result(format) => report.bytes(format).ok_or_else(nothing),
             Kind::Picture(format) => {
@@ -49,7 +51,11 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
     let found = Found::in_full(&loaded.problem, options, &effort);
     let planned = found.planned()?;
     match kind {
-        Kind::Result(format) => format.bytes(planned.report).ok_or_else(nothing),
+        Kind::Result(format) => {
+            let mut report: Report = planned.report.clone();
+            report.robot = loaded.robot.joints.clone();
+            format.bytes(&report).ok_or_else(nothing)
+        }
         Kind::Picture(format) => planned.bytes(format).map_err(|error| in_words(&error)),
     }
 }

@@ -102,7 +102,7 @@ impl Chooser<'_> {
     }
 
     /// A movable joint that the world file names.
-    fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Defect> {
+    pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Defect> {
         let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
         let cure = || format!("the movable joints are {}", movable());
         let Some(index) = self.joint(name.get_ref()) else {

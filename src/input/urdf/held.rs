@@ -33,6 +33,19 @@ impl Chooser<'_> {
         Err(self.mimic_defect(joint, "follows itself: the mimics form a cycle"))
     }
 
+    /// The joint that a joint follows, and the factor and the offset that make its value of that joint's: itself, 1 and 0
+    /// unless it mimics another.
+    pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Defect> {
+        let leader = self.leader(joint)?;
+        let mut value = Affine { factor: 1.0, offset: 0.0 };
+        let mut at = joint;
+        while let Some(mimic) = &self.all()[at].mimic {
+            value = value.after(mimic);
+            at = self.followed(at, mimic)?;
+        }
+        Ok((leader, value.factor, value.offset))
+    }
+
     /// The value of every joint, and what to say about those that matter.
     pub(super) fn values(&self, chosen: [usize; 2]) -> Result<Held, InputError> {
         for name in self.world.robot.fixed.keys() {
@@ -60,18 +73,12 @@ impl Chooser<'_> {
             if joint.mimic.is_none() {
                 continue;
             }
-            let mut value = Affine { factor: 1.0, offset: 0.0 };
-            let leader = self.leader(j)?;
-            let mut at = j;
-            while let Some(mimic) = &self.all()[at].mimic {
-                value = value.after(mimic);
-                at = self.followed(at, mimic)?;
-            }
+            let (leader, factor, offset) = self.rule(j)?;
             if let Some(name) = self.world.robot.fixed.keys().find(|n| *n.get_ref() == joint.name) {
                 let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
                 return Err(self.in_world(name, message).cure("give the value of the joint that it mimics").into());
             }
-            values[j] = value.factor * values[leader] + value.offset;
+            values[j] = factor * values[leader] + offset;
             if self.tree.carries(chosen[0], self.tree.child[j]) {
                 let leader = &self.all()[leader].name;
                 held.push(j);

@@ -23,6 +23,7 @@ mod reduction;
 mod remedy;
 mod solid;
 mod survey;
+mod tool;
 mod tree;
 
 pub(super) use limits::DEFAULT_TIME_TO_TOP_SPEED;
@@ -50,5 +51,7 @@ pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), 
     let plane = reduction.plane()?;
     let bounds = reduction.bounds()?;
     let outlines = reduction.outlines(&plane)?;
-    Ok(reduction.arm(plane, bounds, outlines))
+    let joints = reduction.robot_joints(&plane)?;
+    let (arm, report) = reduction.arm(plane, bounds, outlines);
+    Ok((arm, RobotReport { joints, ..report }))
 }

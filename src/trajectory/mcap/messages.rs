@@ -1,7 +1,7 @@
 //! The two ROS 2 messages that hold a motion: what they are made of, and their bytes.
 
-use super::super::Trajectory;
-use super::super::ros::{PER_SECOND, nanoseconds};
+use super::super::JointMotion;
+use super::super::clock::{PER_SECOND, nanoseconds};
 use super::cdr::Cdr;
 
 /// A message type.
@@ -50,27 +50,27 @@ impl Type {
 
 /// The bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds. Efforts are not known, and left out.
 #[must_use]
-pub fn joint_state(joints: &[String; 2], time: u64, position: [f64; 2], velocity: [f64; 2]) -> Vec<u8> {
+pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f64]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, time);
     cdr.strings(joints);
-    cdr.f64s(&position);
-    cdr.f64s(&velocity);
+    cdr.f64s(position);
+    cdr.f64s(velocity);
     cdr.f64s(&[]);
     cdr.into_bytes()
 }
 
 /// The bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`] the stamp is 0, which means "begin now".
 #[must_use]
-pub fn joint_trajectory(joints: &[String; 2], trajectory: &Trajectory) -> Vec<u8> {
+pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, 0);
-    cdr.strings(joints);
-    cdr.length(trajectory.time.len());
-    for (k, &time) in trajectory.time.iter().enumerate() {
-        cdr.f64s(&trajectory.position[k]);
-        cdr.f64s(&trajectory.velocity[k]);
-        cdr.f64s(&trajectory.acceleration[k]);
+    cdr.strings(&motion.joints);
+    cdr.length(motion.time.len());
+    for (k, &time) in motion.time.iter().enumerate() {
+        cdr.f64s(&motion.position[k]);
+        cdr.f64s(&motion.velocity[k]);
+        cdr.f64s(motion.acceleration.as_ref().map_or(&[], |acceleration| &acceleration[k]));
         cdr.f64s(&[]);
         since(&mut cdr, nanoseconds(time));
     }
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_state_by_hand() {
-        let bytes = joint_state(&names(), 1_500_000_000, [1.0, -2.0], [0.5, 0.0]);
+        let bytes = joint_state(&names(), 1_500_000_000, &[1.0, -2.0], &[0.5, 0.0]);
         let expected = hex("00 01 00 00  01 00 00 00  00 65 cd 1d  01 00 00 00 00  00 00 00 \
              02 00 00 00  02 00 00 00 61 00  00 00  03 00 00 00 62 63 00  00 \
              02 00 00 00  00 00 00 00 00 00 f0 3f  00 00 00 00 00 00 00 c0 \
@@ -116,11 +116,12 @@ mod tests {
 
     #[test]
     fn a_trajectory_by_hand() {
-        let trajectory = Trajectory {
+        let motion = JointMotion {
+            joints: names().to_vec(),
             time: vec![0.0, 2.000_000_001],
-            position: vec![[1.0, 0.0], [2.0, 0.0]],
-            velocity: vec![[0.0, 0.0]; 2],
-            acceleration: vec![[0.0, -2.0], [0.0, 0.0]],
+            position: vec![vec![1.0, 0.0], vec![2.0, 0.0]],
+            velocity: vec![vec![0.0, 0.0]; 2],
+            acceleration: Some(vec![vec![0.0, -2.0], vec![0.0, 0.0]]),
         };
         let zero = "00 00 00 00 00 00 00 00";
         // A length at a multiple of 8, as the first point's at 40, leaves four bytes free before its values; that of the
@@ -137,7 +138,7 @@ mod tests {
              02 00 00 00  00 00 00 00  {zero}  {zero} \
              00 00 00 00  02 00 00 00  01 00 00 00"
         ));
-        assert_eq!(joint_trajectory(&names(), &trajectory), expected);
+        assert_eq!(joint_trajectory(&motion), expected);
     }
 
     #[test]

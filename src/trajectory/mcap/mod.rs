@@ -3,8 +3,8 @@
 mod cdr;
 mod messages;
 
-use super::Trajectory;
-use super::ros::nanoseconds;
+use super::JointMotion;
+use super::clock::nanoseconds;
 use ::mcap::records::MessageHeader;
 use ::mcap::{McapResult, WriteOptions, Writer};
 use messages::{JOINT_STATE, JOINT_TRAJECTORY, Type};
@@ -16,15 +16,16 @@ use std::io::Cursor;
 /// when it begins. The definitions of both are in the file. Chunks are not compressed.
 ///
 /// Each motion comes with the time at which it begins, seconds from the beginning of the recording; the caller puts them
-/// in order. Times are rounded to nanoseconds: those of the log, the stamps of states and `time_from_start` agree to the
-/// nanosecond. Positions, velocities and accelerations are the trajectory's own `f64`. The same motions give the same bytes.
+/// in order. A motion that begins when the one before ends has no state of its own for that moment. Times of the log, the
+/// stamps of states and `time_from_start` are the same nanoseconds, values the motion's own `f64`. The same motions give the
+/// same bytes.
 /// Linear in the number of samples, some 250 bytes each.
 #[must_use]
-pub fn mcap(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> Vec<u8> {
-    write(joints, motions).expect("two channels with a schema each, and a buffer that takes all")
+pub fn mcap(motions: &[(&JointMotion, f64)]) -> Vec<u8> {
+    write(motions).expect("two channels with a schema each, and a buffer that takes all")
 }
 
-fn write(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> McapResult<Vec<u8>> {
+fn write(motions: &[(&JointMotion, f64)]) -> McapResult<Vec<u8>> {
     let options = WriteOptions::new()
         .profile("ros2")
         .library(concat!("cplan ", env!("CARGO_PKG_VERSION")))
@@ -33,13 +34,17 @@ fn write(joints: &[String; 2], motions: &[(&Trajectory, f64)]) -> McapResult<Vec
     let mut file = Recording { writer: options.create(Cursor::new(Vec::new()))? };
     let states = file.channel("/joint_states", &JOINT_STATE)?;
     let trajectories = file.channel("/joint_trajectory", &JOINT_TRAJECTORY)?;
-    for &(trajectory, begin) in motions {
+    let mut last = None;
+    for &(motion, begin) in motions {
         let begin = nanoseconds(begin);
-        file.message(trajectories, begin, &messages::joint_trajectory(joints, trajectory))?;
-        for (k, &time) in trajectory.time.iter().enumerate() {
+        file.message(trajectories, begin, &messages::joint_trajectory(motion))?;
+        for (k, &time) in motion.time.iter().enumerate() {
             let time = begin.saturating_add(nanoseconds(time));
-            let (position, velocity) = (trajectory.position[k], trajectory.velocity[k]);
-            file.message(states, time, &messages::joint_state(joints, time, position, velocity))?;
+            if last.replace(time) == Some(time) {
+                continue;
+            }
+            let (position, velocity) = (&motion.position[k], &motion.velocity[k]);
+            file.message(states, time, &messages::joint_state(&motion.joints, time, position, velocity))?;
         }
     }
     file.writer.finish()?;

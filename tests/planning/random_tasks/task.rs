@@ -83,6 +83,7 @@ pub fn task(seed: u64) -> Task {
         start: Configuration::zeros(),
         items: Vec::new(),
         wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0 }),
+        stroke: None,
     };
     let scene = Scene::new(task.arm.clone(), task.obstacles(&all));
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();

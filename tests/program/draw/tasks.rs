@@ -71,6 +71,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
         start: Configuration::new(START[0], START[1]),
         items,
         wrist: Some(Wrist { velocity: 3.0, acceleration: 10.0 }),
+        stroke: None,
     }
 }
 

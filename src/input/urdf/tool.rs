@@ -1,0 +1,116 @@
+//! The joints of the tool: one that lowers it, and a wrist.
+
+use super::DEFAULT_TIME_TO_TOP_SPEED;
+use super::chain::{Chooser, is_movable};
+use super::limits::Limits;
+use super::reduction::Reduction;
+use super::tree;
+use crate::input::error::Defect;
+use crate::input::stroke::StrokeTable;
+use crate::input::world::{Number, Reader};
+use crate::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoint};
+use toml::Spanned;
+use urdf_rs::JointType;
+
+/// How far an axis may be from the plane's normal: the cosine falls short of 1 by no more than rounding.
+const PARALLEL: f64 = 1e-9;
+
+impl Reduction<'_> {
+    /// The movable joints in the order of the file, and which of them the tool moves by.
+    ///
+    /// # Errors
+    /// A stroke or a wrist by a joint that cannot do it; mimics of joints that do not exist, or of themselves.
+    pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Defect> {
+        let chooser = Chooser { document: self.document, tree: self.tree, world: self.world };
+        let robot = &self.world.robot;
+        let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
+        let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, "wrist", plane)).transpose()?;
+        let driver = |leader: usize| {
+            let is = |joint: Option<&ToolJoint>| joint.is_some_and(|joint| joint.name == chooser.all()[leader].name);
+            match self.chain.joints.iter().position(|chosen| *chosen == leader) {
+                Some(k) => Driver::Planned(k),
+                None if is(stroke.as_ref().map(|stroke| &stroke.joint)) => Driver::Stroke,
+                None if is(wrist.as_ref()) => Driver::Wrist,
+                None => Driver::Held(self.chain.values[leader]),
+            }
+        };
+        let joints = chooser.all().iter().enumerate().filter(|(_, joint)| is_movable(joint));
+        let joints = joints.map(|(index, joint)| {
+            let (leader, factor, offset) = chooser.rule(index)?;
+            Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset })
+        });
+        Ok(RobotJoints { joints: joints.collect::<Result<_, Defect>>()?, stroke, wrist })
+    }
+
+    fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Defect> {
+        let joint = self.tool_joint(chooser, &table.joint, "stroke", plane)?;
+        let source = &self.world.source;
+        let reader = Reader { source };
+        let given = |number: &Option<Number>, what: &str, allowed: fn(f64) -> bool, how: &str| match number {
+            None => Ok(None),
+            Some(number) => match reader.finite(number, &format!("[robot] stroke, {what}"))? {
+                value if allowed(value) => Ok(Some(value)),
+                value => {
+                    let message = format!("[robot] stroke: {what} must be {how}, is {value}");
+                    Err(source
+                        .defect_at(number.span(), message)
+                        .cure("stroke = { joint = \"NAME\", travel = 0.1 }, in metres"))
+                }
+            },
+        };
+        let travel = given(&table.travel, "travel", |x| x != 0.0, "other than 0")?;
+        let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
+        let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
+        let index = chooser.named(&table.joint, "stroke")?;
+        let (velocity, own) = match velocity {
+            Some(velocity) => (velocity, velocity / DEFAULT_TIME_TO_TOP_SPEED),
+            None => {
+                let rates = Limits { document: self.document, world: self.world }.rates(index)?;
+                (rates.velocity, rates.acceleration)
+            }
+        };
+        let below = |link: &usize| self.tree.carries(index, *link);
+        let bodies = (0..self.tree.links.len()).filter(below).map(|link| self.tree.links[link].clone()).collect();
+        Ok(Stroke { joint, travel, velocity, acceleration: acceleration.unwrap_or(own), bodies })
+    }
+
+    /// A joint that moves the tool along the plane's normal or about it.
+    fn tool_joint(
+        &self,
+        chooser: &Chooser,
+        name: &Spanned<String>,
+        table: &str,
+        plane: &Plane,
+    ) -> Result<ToolJoint, Defect> {
+        let index = chooser.named(name, table)?;
+        let joint = &chooser.all()[index];
+        let defect = |why: &str, cure: &str| {
+            let message = format!("[robot] {table}: joint \"{}\" {why}", joint.name);
+            Err(chooser.in_world(name, message).cure(cure))
+        };
+        if self.chain.joints.contains(&index) {
+            return defect("is one of the two that move", "name another joint, of the tool");
+        }
+        if let Some(mimic) = &joint.mimic {
+            return defect(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
+        }
+        match (table, joint.joint_type == JointType::Prismatic) {
+            ("stroke", false) => return defect("turns", "a stroke needs a joint that slides"),
+            ("wrist", true) => return defect("slides", "a wrist needs a joint that turns"),
+            _ => {}
+        }
+        let [_, second] = self.chain.joints;
+        if !self.tree.carries(second, self.tree.child[index]) {
+            let second = &chooser.all()[second].name;
+            return defect(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
+        }
+        let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
+        let along = direction.dot(&plane.normal);
+        if along.abs() < 1.0 - PARALLEL {
+            let why = "is not parallel to the normal of the plane that the arm moves in";
+            return defect(why, "name a joint of the tool whose axis is");
+        }
+        let axis = Limits { document: self.document, world: self.world }.planned_range(index)?;
+        Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), axis })
+    }
+}

@@ -1,0 +1,57 @@
+//! A tool that is lowered at picks and places, and a wrist that turns it.
+
+use super::{Arm, Heights, Object};
+use crate::space::Axis;
+
+/// A joint of the tool: it moves along the plane's normal, or about it, and so changes nothing in the plane but what it carries.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToolJoint {
+    /// Name in the URDF.
+    pub name: String,
+    /// Its value while nothing asks for another one, radians or metres.
+    pub rest: f64,
+    /// 1 if greater values are along the plane's normal (or counter-clockwise in the plane), else -1.
+    pub sign: f64,
+    /// The values that it can take.
+    pub axis: Axis,
+}
+
+/// How a tool is lowered and raised at picks and places, while the arm stands still.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// The joint that does it; raised at rest.
+    pub joint: ToolJoint,
+    /// How far it is lowered against the plane's normal, metres; none: as far as the object is lifted.
+    pub travel: Option<f64>,
+    /// Top speed, m/s, positive.
+    pub velocity: f64,
+    /// Greatest acceleration, m/s2, positive.
+    pub acceleration: f64,
+    /// The URDF links that it moves.
+    pub bodies: Vec<String>,
+}
+
+impl Stroke {
+    /// How far the tool is lowered for an object, metres.
+    #[must_use]
+    pub fn depth(&self, object: &Object) -> f64 {
+        self.travel.unwrap_or(object.lift)
+    }
+
+    /// The joint's value with the tool lowered by so much.
+    #[must_use]
+    pub fn lowered(&self, depth: f64) -> f64 {
+        self.joint.rest - self.joint.sign * depth
+    }
+
+    /// The arm with all that the stroke moves at all the heights that it takes there.
+    #[must_use]
+    pub fn swept(&self, arm: &Arm, depth: f64) -> Arm {
+        let mut arm = arm.clone();
+        for part in arm.links[1].parts.iter_mut().filter(|part| self.bodies.contains(&part.body)) {
+            let Heights { lower, upper } = part.heights;
+            part.heights = Heights { lower: lower.min(lower - depth), upper: upper.max(upper - depth) };
+        }
+        arm
+    }
+}

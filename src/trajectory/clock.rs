@@ -1,0 +1,58 @@
+//! The clock of a motion: whole nanoseconds, in which ROS counts.
+//!
+//! Samples lie on this grid, and positions and velocities are those of that very nanosecond, so that no format rounds a
+//! time: of a cubic between samples `h` seconds apart, half a nanosecond would change the acceleration by `3e-9 v / h^2`.
+
+/// Nanoseconds in a second.
+pub(super) const PER_SECOND: u64 = 1_000_000_000;
+
+/// Doublings of a unit in the last place that rounding up overlooks: what computing a time costs.
+const SLACK: f64 = 8.0 * f64::EPSILON;
+
+/// Seconds as nanoseconds, rounded to the nearest. Exact for all times below [`super::LONGEST_MOTION`], whose nanoseconds
+/// a double counts exactly.
+pub(crate) fn nanoseconds(time: f64) -> u64 {
+    (time * PER_SECOND as f64).round() as u64
+}
+
+/// Nanoseconds as seconds: the nearest double, so that it has no more than nine decimals when it is written down.
+pub(crate) fn seconds(nanoseconds: u64) -> f64 {
+    nanoseconds as f64 / PER_SECOND as f64
+}
+
+/// A duration rounded up to whole nanoseconds; times that exceed them by no more than rounding are left as they are.
+#[must_use]
+pub fn whole_nanoseconds(duration: f64) -> f64 {
+    (duration * PER_SECOND as f64 * (1.0 - SLACK)).ceil() / PER_SECOND as f64
+}
+
+/// Share of an acceleration limit that has to stay unused next to a sample that is on the grid while the acceleration jumps
+/// half a nanosecond beside it, where samples are at least `interval` seconds apart.
+///
+/// The jump is at most twice the limit, and so the velocity of a sample at most one nanosecond times the limit off that of
+/// the polynomial on its other side. The cubic makes an acceleration of `(4 e0 + 2 e1) / h` of such differences at both ends,
+/// the polynomial of [`super::INTERPOLATION`] one of `6 (e0 + e1) / h`.
+pub(super) fn reserve(interval: f64) -> f64 {
+    12.0 / PER_SECOND as f64 / interval
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_are_rounded_up_to_the_grid() {
+        for (duration, expected) in [(0.5, 0.5), (1e-6, 1e-6), (0.1 + 0.2, 0.3), (1.0 / 3.0, 0.333_333_334), (0.0, 0.0)]
+        {
+            assert_eq!(whole_nanoseconds(duration), expected);
+        }
+        assert!(whole_nanoseconds(f64::INFINITY).is_infinite());
+    }
+
+    #[test]
+    fn nanoseconds_there_and_back() {
+        for n in [0, 1, 123_456_789, 999_999_999_999_999] {
+            assert_eq!(nanoseconds(seconds(n)), n);
+        }
+    }
+}

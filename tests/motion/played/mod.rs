@@ -1,0 +1,170 @@
+//! What a controller makes of our files, by its own formula: the certified motion, within all limits, still where it stands.
+
+mod controller;
+mod files;
+mod joints;
+mod strokes;
+mod worlds;
+
+use controller::{Message, played, seconds};
+use cplan::model::Joint;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Share of a limit by which a played motion may exceed it, as in `cplan verify`: rounding of doubles over a millisecond.
+const OVER: f64 = 1e-6;
+
+/// By how much a played motion may be off the one in the result, radians or metres: the hair about blends that the
+/// certificate covers, for radii of at most one, and rounding.
+const OFF: f64 = 1e-6;
+
+/// A run of the program and its files.
+pub struct Run {
+    pub code: i32,
+    pub errors: String,
+    folder: tempfile::TempDir,
+}
+
+pub fn root(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+impl Run {
+    /// Plans and writes `plan.json`, `.csv`, `.yaml` and `.mcap`.
+    pub fn of(robot: &Path, world: &Path, options: &[&str]) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
+        command.current_dir(folder.path()).args([robot, world]).arg("--quiet").args(options);
+        for format in ["json", "csv", "yaml", "mcap"] {
+            if format != "mcap" || cfg!(feature = "mcap") {
+                command.args(["--output", &format!("plan.{format}")]);
+            }
+        }
+        let output = command.output().unwrap();
+        let code = output.status.code().expect("no signal");
+        Self { code, errors: String::from_utf8(output.stderr).unwrap(), folder }
+    }
+
+    pub fn bytes(&self, format: &str) -> Vec<u8> {
+        std::fs::read(self.folder.path().join(format!("plan.{format}"))).unwrap()
+    }
+
+    pub fn text(&self, format: &str) -> String {
+        String::from_utf8(self.bytes(format)).unwrap()
+    }
+
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.text("json")).unwrap()
+    }
+
+    /// The exit code of `verify` on one of the files, and what it says.
+    pub fn verified(&self, robot: &Path, world: &Path, format: &str) -> (i32, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
+        command.current_dir(self.folder.path()).arg("verify").args([robot, world]).arg(format!("plan.{format}"));
+        let output = command.output().unwrap();
+        (output.status.code().unwrap(), String::from_utf8(output.stdout).unwrap())
+    }
+}
+
+/// The motion of a result as its `interpolation` says.
+pub struct Certified {
+    time: Vec<f64>,
+    position: Vec<[f64; 2]>,
+    velocity: Vec<[f64; 2]>,
+    acceleration: Vec<[f64; 2]>,
+}
+
+impl Certified {
+    pub fn of(result: &Value) -> Self {
+        let trajectory = &result["trajectory"];
+        let rows = |name: &str| serde_json::from_value(trajectory[name].clone()).unwrap();
+        Self {
+            time: serde_json::from_value(trajectory["time"].clone()).unwrap(),
+            position: rows("position"),
+            velocity: rows("velocity"),
+            acceleration: rows("acceleration"),
+        }
+    }
+
+    /// Whether both joints stand still from sample `k` to the next.
+    fn stands(&self, k: usize) -> bool {
+        self.position[k] == self.position[k + 1] && [self.velocity[k], self.velocity[k + 1]] == [[0.0; 2]; 2]
+    }
+
+    /// The sample at or before a time.
+    fn before(&self, time: f64) -> usize {
+        self.time.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(self.time.len().saturating_sub(2))
+    }
+
+    fn at(&self, time: f64, joint: usize) -> f64 {
+        if self.time.len() < 2 {
+            return self.position[0][joint];
+        }
+        let k = self.before(time);
+        let row = |rows: &[[f64; 2]], k: usize| rows[k][joint];
+        let (p, v, a) = (row(&self.position, k), row(&self.velocity, k), row(&self.acceleration, k));
+        let (h, t) = (self.time[k + 1] - self.time[k], time - self.time[k]);
+        let e = row(&self.position, k + 1) - p - v * h - a * h * h / 2.0;
+        let f = row(&self.velocity, k + 1) - v - a * h;
+        let (c, d) = ((4.0 * e - f * h) / h.powi(3), (f * h - 3.0 * e) / h.powi(4));
+        p + v * t + a * t * t / 2.0 + c * t.powi(3) + d * t.powi(4)
+    }
+}
+
+/// What a played motion came to: shares of the limits, and how far it is off the certified one.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Extremes {
+    pub velocity: f64,
+    pub acceleration: f64,
+    pub off: f64,
+    pub dwells: usize,
+}
+
+/// Plays a message that begins at a time of the certified motion, densely, and asserts all that a certificate promises.
+pub fn judge(what: &str, message: &Message, begin: u64, certified: &Certified, joints: &[Joint; 2]) -> Extremes {
+    let mut found = Extremes::default();
+    for (k, joint) in joints.iter().enumerate() {
+        let named = message.joints.iter().position(|name| *name == joint.name).expect("the joint is named");
+        for i in 0..message.since.len().saturating_sub(1) {
+            assert!(message.since[i] < message.since[i + 1], "{what}: time stands still at point {i}");
+            let duration = seconds(message.since[i], message.since[i + 1]);
+            let time = seconds(0, begin + message.since[i]);
+            let stands =
+                certified.stands(certified.before(time)) && certified.stands(certified.before(time + 0.999 * duration));
+            let first = message.points[i][0][named];
+            for share in 0..=16 {
+                let t = duration * f64::from(share) / 16.0;
+                let [p, v, a] = played(message, i, named, t);
+                let at = format!("{what}: {} at {:.6} s", joint.name, time + t);
+                assert!(v.abs() <= joint.velocity * (1.0 + OVER), "{at}: speed {v}, limit {}", joint.velocity);
+                assert!(
+                    a.abs() <= joint.acceleration * (1.0 + OVER),
+                    "{at}: acceleration {a}, limit {}",
+                    joint.acceleration
+                );
+                let (lower, upper) = match joint.axis {
+                    cplan::space::Axis::Interval { lower, upper } => (lower, upper),
+                    cplan::space::Axis::Circle => (f64::NEG_INFINITY, f64::INFINITY),
+                };
+                assert!(p >= lower - 1e-9 && p <= upper + 1e-9, "{at}: position {p}");
+                let off = (p - certified.at(time + t, k)).abs();
+                assert!(off <= OFF, "{at}: {off} off the certified motion");
+                if stands {
+                    assert!(p == first && v.abs() < 1e-12, "{at}: moves while it should stand, {p} {first} {v}");
+                }
+                found.velocity = found.velocity.max(v.abs() / joint.velocity);
+                found.acceleration = found.acceleration.max(a.abs() / joint.acceleration);
+                found.off = found.off.max(off);
+            }
+            found.dwells += usize::from(stands && k == 0);
+        }
+        let (Some(points), Some(last)) = (message.points.first(), message.points.last()) else {
+            panic!("{what}: empty")
+        };
+        for point in [points, last] {
+            assert_eq!(point[1][named], 0.0, "{what}: {} does not begin and end at rest", joint.name);
+        }
+    }
+    found
+}

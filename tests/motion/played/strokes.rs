@@ -1,0 +1,203 @@
+//! Tools that are lowered at picks and places, and wrists that turn: in the time, the certificate and the files.
+
+use super::controller::{Message, played, seconds};
+use super::{Run, files, root};
+use serde_json::Value;
+
+/// A SCARA with its quill and its wrist, and a part to be turned.
+const CELL: &str = r#"name = "cell"
+[robot]
+joints = ["axis_1", "axis_2"]
+tip = "flange"
+payload = "level"
+wrist = { joint = "axis_4", velocity = 30.0, acceleration = 200.0 }
+STROKE
+[start]
+joints = [0.0, 1.2]
+[[object]]
+name = "part"
+polygon = [[-0.012, -0.006], [0.012, -0.006], [0.012, 0.006], [-0.012, 0.006]]
+at = [0.14, 0.36]
+height = [0.0, 0.01]
+lift = 0.12
+[[step]]
+pick = "part"
+dwell = 0.1
+[[step]]
+place = { at = [0.35, -0.17], angle = 1.0 }
+dwell = 0.2
+[[step]]
+move = { joints = [0.0, 1.2] }
+"#;
+
+const STROKE: &str = "stroke = { joint = \"axis_3\", velocity = 1.0, acceleration = 5.0 }";
+
+fn planned(world: &str, options: &[&str]) -> (Run, Option<(i32, String)>) {
+    let folder = tempfile::tempdir().unwrap();
+    let (robot, file) = (root("robots/scara.urdf"), folder.path().join("world.toml"));
+    std::fs::write(&file, world).unwrap();
+    let run = Run::of(&robot, &file, options);
+    let verified = (run.code == 0).then(|| run.verified(&robot, &file, "json"));
+    (run, verified)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Where a joint is at a time of a message, by the controller's formula: position and velocity.
+fn at(message: &Message, joint: &str, time: f64) -> [f64; 2] {
+    let named = message.joints.iter().position(|name| name == joint).unwrap();
+    let k = message.since.partition_point(|since| seconds(0, *since) <= time).max(1) - 1;
+    let k = k.min(message.since.len() - 2);
+    let [position, velocity, _] = played(message, k, named, time - seconds(0, message.since[k]));
+    [position, velocity]
+}
+
+#[test]
+fn a_stroke_takes_its_time_in_the_task_and_in_its_bound() {
+    let (with, verified) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    assert_eq!(verified.expect("done").0, 0);
+    let (without, _) = planned(&CELL.replace("STROKE", ""), &[]);
+    let (with, without) = (with.json(), without.json());
+    // Two ways down and two up: 0.12 m at 5 m/s2, whose top speed of 1 m/s is not reached.
+    let way = 2.0 * (0.12_f64 / 5.0).sqrt();
+    for key in ["duration", "lower_bound"] {
+        let more = number(&with[key]) - number(&without[key]);
+        assert!((more - 4.0 * way).abs() < 1e-6, "{key}: {more}");
+    }
+    assert!(number(&with["lower_bound"]) <= number(&with["duration"]));
+    for (step, wait) in [(0, 0.1), (1, 0.2)] {
+        let (step, event) = (&with["steps"][step], &with["events"][step]);
+        let stroke = &step["stroke"];
+        assert_eq!((number(&stroke["raised"]), number(&stroke["lowered"])), (0.0, -0.12));
+        assert!((number(&stroke["seconds"]) - way).abs() < 1e-8);
+        let turn = step["turn"].get("seconds").map_or(0.0, number);
+        let [arrival, end] = ["arrival", "end"].map(|key| number(&step[key]));
+        assert!((end - arrival - wait - turn - 2.0 * way).abs() < 1e-8);
+        // The gripper works while the tool is down; what turns at a place does so before.
+        let before = if event["event"] == "release" { turn } else { 0.0 };
+        assert!((number(&event["time"]) - arrival - before - way).abs() < 1e-8, "{event}");
+    }
+    assert!(with["steps"][2].get("stroke").is_none());
+}
+
+#[test]
+fn the_quill_goes_down_at_picks_and_places_and_nowhere_else() {
+    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    let (message, result) = (files::yaml(&run.text("yaml")), run.json());
+    assert_eq!(message.joints, ["axis_1", "axis_2", "axis_3", "axis_4"]);
+    for event in result["events"].as_array().unwrap() {
+        let [depth, speed] = at(&message, "axis_3", number(&event["time"]) + 1e-9);
+        assert!((depth + 0.12).abs() < 1e-9 && speed.abs() < 1e-6, "{event}: {depth}, {speed}");
+    }
+    for step in result["steps"].as_array().unwrap() {
+        let [begin, arrival] = ["begin", "arrival"].map(|key| number(&step[key]));
+        for i in 0..=200 {
+            let time = begin + (arrival - begin) * f64::from(i) / 200.0;
+            let [depth, speed] = at(&message, "axis_3", time);
+            assert!(depth.abs() < 1e-12 && speed.abs() < 1e-6, "the quill is at {depth} while the arm moves");
+        }
+    }
+    let quill = message.joints.iter().position(|name| name == "axis_3").unwrap();
+    let (mut deepest, mut fastest, mut strongest) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for k in 0..message.since.len() - 1 {
+        let duration = seconds(message.since[k], message.since[k + 1]);
+        for share in 0..=16 {
+            let [z, v, a] = played(&message, k, quill, duration * f64::from(share) / 16.0);
+            (deepest, fastest, strongest) = (deepest.min(z), fastest.max(v.abs()), strongest.max(a.abs()));
+        }
+    }
+    assert!(
+        (deepest + 0.12).abs() < 1e-9 && fastest <= 1.0 + 1e-9 && (strongest - 5.0).abs() < 1e-4,
+        "{deepest} {fastest} {strongest}"
+    );
+    #[cfg(feature = "mcap")]
+    {
+        // One message a step, each from rest to rest with its own stroke.
+        let messages = files::mcap(&run.bytes("mcap"));
+        assert_eq!(messages.len(), 3);
+        for (begin, message) in &messages[..2] {
+            let end = seconds(0, begin + message.since[message.since.len() - 1]);
+            let [raised, lowered] =
+                [0.0, -0.12].map(|z| message.points.iter().filter(|point| point[0][quill] == z).count());
+            assert!(
+                raised > 2 && lowered == 2 && end <= number(&result["duration"]) + 1e-9,
+                "{raised} {lowered} {end}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_wrist_keeps_what_is_carried_level_and_turns_it() {
+    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &[]);
+    let (message, result) = (files::yaml(&run.text("yaml")), run.json());
+    // All three turn about z: the orientation of the flange is their sum.
+    let level =
+        |time: f64| ["axis_1", "axis_2", "axis_4"].map(|joint| at(&message, joint, time)[0]).iter().sum::<f64>();
+    let place = &result["steps"][1];
+    assert_eq!(place["carried"], "part");
+    let times = ["begin", "arrival"].map(|key| number(&place[key]));
+    let held = level(times[0]);
+    for i in 0..=300 {
+        let time = times[0] + (times[1] - times[0]) * f64::from(i) / 300.0;
+        assert!((level(time) - held).abs() < 1e-6, "turned by {} at {time}", level(time) - held);
+    }
+    let picked = &result["steps"][0];
+    // From its own orientation, 0, to that of its place, before or after the carrying.
+    let turned = level(number(&result["events"][1]["time"])) - level(number(&result["events"][0]["time"]));
+    assert!((turned - 1.0).abs() < 1e-6, "{turned}: {picked}");
+    // With an empty hand it goes back to its rest.
+    assert!(at(&message, "axis_4", number(&result["duration"]))[0].abs() < 1e-9);
+}
+
+#[test]
+fn what_the_lowered_tool_would_hit_is_seen() {
+    // Beside the place, below all that travels, nearer than the flange is wide, which comes down to 0.06 m.
+    let post =
+        "[[obstacle]]\nname = \"stub\"\ncircle = { center = [0.35, -0.155], radius = 0.003 }\nheight = [0.0, 0.1]\n";
+    let world = format!("{CELL}{post}").replace(", angle = 1.0", "");
+    assert_eq!(planned(&world.replace("STROKE", ""), &[]).0.code, 0);
+    let (run, _) = planned(&world.replace("STROKE", STROKE), &[]);
+    assert_eq!(run.code, 3, "{}", run.errors);
+    let reasons = run_json(&world);
+    assert!(reasons.contains("while the tool is lowered") && reasons.contains("stub"), "{reasons}");
+}
+
+/// The reasons of the step that fails.
+fn run_json(world: &str) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("world.toml");
+    std::fs::write(&file, world.replace("STROKE", STROKE)).unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_cplan"))
+        .args([&root("robots/scara.urdf"), &file])
+        .args(["--json", "--quiet"])
+        .output()
+        .unwrap();
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    result["failed"]["reasons"].to_string()
+}
+
+#[test]
+fn strokes_that_cannot_be_are_refused() {
+    for (stroke, words) in [
+        ("stroke = { joint = \"axis_9\" }", ["no joint \"axis_9\"", "axis_3"]),
+        ("stroke = { joint = \"axis_1\" }", ["axis_1", "one of the two that move"]),
+        ("stroke = { joint = \"axis_4\" }", ["axis_4", "slides"]),
+        ("stroke = { joint = \"axis_3\", travel = 0.0 }", ["travel", "other than 0"]),
+        ("stroke = { joint = \"axis_3\", velocity = -1.0 }", ["velocity", "positive"]),
+        ("stroke = { joint = \"axis_3\", travel = 0.3 }", ["part", "-0.18"]),
+        ("stroke = { speed = 1.0 }", ["speed", "joint"]),
+    ] {
+        let (run, _) = planned(&CELL.replace("STROKE", stroke), &[]);
+        assert_eq!(run.code, 1, "{stroke}");
+        assert!(words.iter().all(|word| run.errors.contains(word)), "{stroke}: {}", run.errors);
+    }
+    let (run, _) = planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300"]);
+    assert!(run.code == 1 && run.errors.contains("accelerations cannot be written"), "{}", run.errors);
+    // The two planned joints alone have none that jump.
+    let (run, _) =
+        planned(&CELL.replace("STROKE", STROKE), &["--accelerations", "--jerk", "300,300", "--joints", "planned"]);
+    assert_eq!(run.code, 0, "{}", run.errors);
+}

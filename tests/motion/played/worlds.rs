@@ -1,0 +1,167 @@
+//! Every shipped world and task, and random ones.
+
+use super::{Certified, Extremes, Run, files, judge, root};
+use cplan::input::load_scene;
+use cplan::model::Joint;
+use std::path::{Path, PathBuf};
+
+/// The joints of a robot in a world.
+fn joints(robot: &Path, world: &Path) -> [Joint; 2] {
+    load_scene(robot, world).unwrap().scene.arm.joints
+}
+
+/// All formats of a run against its JSON.
+fn judge_all(what: &str, run: &Run, joints: &[Joint; 2]) -> Extremes {
+    let certified = Certified::of(&run.json());
+    let mut all = Extremes::default();
+    let mut note = |found: Extremes| {
+        all.velocity = all.velocity.max(found.velocity);
+        all.acceleration = all.acceleration.max(found.acceleration);
+        all.off = all.off.max(found.off);
+        all.dwells += found.dwells;
+    };
+    note(judge(&format!("{what}, CSV"), &files::csv(&run.text("csv")), 0, &certified, joints));
+    note(judge(&format!("{what}, YAML"), &files::yaml(&run.text("yaml")), 0, &certified, joints));
+    #[cfg(feature = "mcap")]
+    {
+        let file = run.bytes("mcap");
+        for (begin, message) in files::mcap(&file) {
+            note(judge(&format!("{what}, MCAP"), &message, begin, &certified, joints));
+        }
+        // States are of the motion; times increase.
+        let mut before = None;
+        for (stamp, names, position) in files::states(&file) {
+            assert!(before.replace(stamp).is_none_or(|before| before < stamp), "{what}: two states at {stamp} ns");
+            for (k, joint) in joints.iter().enumerate() {
+                let named = names.iter().position(|name| *name == joint.name).unwrap();
+                let off = (position[named] - certified.at(stamp as f64 * 1e-9, k)).abs();
+                assert!(off < 1e-12 * (1.0 + position[named].abs()), "{what}: the state at {stamp} ns is {off} off");
+            }
+        }
+    }
+    all
+}
+
+/// Shipped worlds with the robots they are for.
+fn shipped() -> Vec<[PathBuf; 2]> {
+    let text = std::fs::read_to_string(root("workspaces/suite.toml")).unwrap();
+    let manifest: toml::Table = text.parse().unwrap();
+    let problems = manifest["problem"].as_array().unwrap();
+    let file = |problem: &toml::Value, key: &str| root("workspaces").join(problem[key].as_str().unwrap());
+    problems.iter().map(|problem| [file(problem, "robot"), file(problem, "world")]).collect()
+}
+
+fn tasks() -> Vec<[PathBuf; 2]> {
+    let worlds = std::fs::read_dir(root("workspaces/tasks")).unwrap().map(|entry| entry.unwrap().path());
+    let mut tasks: Vec<_> = worlds
+        .filter(|world| world.extension().is_some_and(|extension| extension == "toml"))
+        .map(|world| {
+            let text = std::fs::read_to_string(&world).unwrap();
+            let robot = text.lines().find_map(|line| line.strip_prefix("# robot: ")).expect("its robot");
+            [root(&format!("robots/{}.urdf", robot.trim())), world]
+        })
+        .collect();
+    tasks.sort();
+    tasks
+}
+
+#[test]
+fn what_a_controller_plays_of_every_shipped_world_is_certified() {
+    let mut found = 0;
+    for [robot, world] in shipped() {
+        let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
+        let run = Run::of(&robot, &world, &[]);
+        if run.code != 0 {
+            assert!([3, 4].contains(&run.code), "{name}: {}", run.errors);
+            continue;
+        }
+        let extremes = judge_all(&name, &run, &joints(&robot, &world));
+        // It is as fast as the limits allow, not just slow enough.
+        assert!(extremes.acceleration > 0.99 || extremes.velocity > 0.99, "{name}: {extremes:?}");
+        for format in ["json", "csv", "yaml"] {
+            let (code, said) = run.verified(&robot, &world, format);
+            assert_eq!(code, 0, "{name}.{format}: {said}");
+        }
+        found += 1;
+    }
+    assert!(found >= 15, "only {found} worlds have a path");
+}
+
+#[test]
+fn what_a_controller_plays_of_every_shipped_task_is_certified() {
+    let (mut found, mut dwells) = (0, 0);
+    for [robot, world] in tasks() {
+        let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
+        let run = Run::of(&robot, &world, &[]);
+        if run.code != 0 {
+            assert!([3, 4].contains(&run.code), "{name}: {}", run.errors);
+            continue;
+        }
+        dwells += judge_all(&name, &run, &joints(&robot, &world)).dwells;
+        let (code, said) = run.verified(&robot, &world, "json");
+        assert_eq!(code, 0, "{name}: {said}");
+        found += 1;
+    }
+    assert!(found >= 8 && dwells >= 40, "only {found} tasks are done, with {dwells} dwells");
+}
+
+/// Random worlds; more of them by `CPLAN_PLAYED_WORLDS`.
+#[test]
+fn what_a_controller_plays_in_random_worlds_is_certified() {
+    let count: u64 = std::env::var("CPLAN_PLAYED_WORLDS").ok().and_then(|n| n.parse().ok()).unwrap_or(12);
+    let robot = root("robots/planar_2r.urdf");
+    let (mut found, mut blended) = (0, 0);
+    for seed in 0..count {
+        let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
+        let text = world(&mut dice);
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("world.toml");
+        std::fs::write(&file, &text).unwrap();
+        let period = ["0.01", "0.004", "0.037", "0.25"][(seed % 4) as usize];
+        let run = Run::of(&robot, &file, &["--period", period]);
+        if run.code != 0 {
+            continue;
+        }
+        let what = format!("seed {seed}, period {period}\n{text}");
+        judge_all(&what, &run, &joints(&robot, &file));
+        for format in ["csv", "yaml"] {
+            let (code, said) = run.verified(&robot, &file, format);
+            assert_eq!(code, 0, "{what}\n{format}: {said}");
+        }
+        found += 1;
+        blended += usize::from(run.json()["blends"]["count"].as_u64().unwrap() > 0);
+    }
+    assert!(found * 3 > count && blended > 0, "{found} of {count} worlds have a path, {blended} with blends");
+}
+
+/// Random numbers, the same in every run (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn within(&mut self, from: f64, to: f64) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        from + (to - from) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Discs around the arm, and limits from weak to strong.
+fn world(dice: &mut Dice) -> String {
+    let [v1, v2] = [0, 1].map(|_| 10f64.powf(dice.within(-0.5, 0.8)));
+    let [a1, a2] = [0, 1].map(|_| 10f64.powf(dice.within(0.0, 1.6)));
+    let start = [dice.within(-2.5, 2.5), dice.within(-2.0, 2.0)];
+    let goal = [dice.within(-2.5, 2.5), dice.within(-2.0, 2.0)];
+    let mut text = format!(
+        "[robot]\nvelocity = {{ shoulder = {v1}, elbow = {v2} }}\nacceleration = {{ shoulder = {a1}, elbow = {a2} }}\n\
+         [start]\njoints = {start:?}\n[goal]\njoints = {goal:?}\n"
+    );
+    for _ in 0..3 {
+        let (angle, radius) = (dice.within(-3.1, 3.1), dice.within(0.9, 2.0));
+        let size = dice.within(0.02, 0.25);
+        let center = [radius * angle.cos(), radius * angle.sin()];
+        text += &format!("[[obstacle]]\ncircle = {{ center = {center:?}, radius = {size} }}\n");
+    }
+    text
+}
