@@ -6,7 +6,7 @@ mod wave;
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, FreeCells, Lattice, harmonic};
-use cplan::plan::{Planner, Query, Wavefront};
+use cplan::plan::{PathKind, Planner, Query, Wavefront};
 use cplan::space::{Axis, Topology};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -40,9 +40,9 @@ fn fields(c: &mut Criterion) {
     c.bench_function("wavefront/build 1024^2", |b| b.iter(|| FreeCells::new(black_box(&grid))));
     c.bench_function("lattice/build 1024^2", |b| b.iter(|| Lattice::new(black_box(&grid))));
     c.bench_function("lattice/wave with its order 1024^2", |b| b.iter(|| lattice.wave(black_box(&[goal]))));
-    for shortcut in [false, true] {
-        let planner = Wavefront { shortcut, ..Wavefront::default() };
-        let name = format!("wavefront/query 1024^2{}", if shortcut { " with shortcut" } else { "" });
+    for path in PathKind::ALL {
+        let planner = Wavefront { path, ..Wavefront::default() };
+        let name = format!("wavefront/query 1024^2, {path} path");
         c.bench_function(&name, |b| b.iter(|| planner.query(&grid, &free, black_box(&query))));
     }
 

@@ -8,6 +8,7 @@ use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::motion::MotionArgs;
+use super::path_args::PathArgs;
 use super::search_args::SearchArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
@@ -123,9 +124,10 @@ impl QueryArgs {
 /// How hard to try.
 #[derive(Debug, Args)]
 pub struct EffortArgs {
-    /// First number of grid cells along each axis; doubled up to 2048 where needed.
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(8..=2048))]
-    pub cells: u32,
+    /// First number of grid cells along each axis; doubled up to 2048 where needed [default: 256; of fields as many, but
+    /// square in joint space, where a radian is as long as a metre].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=2048))]
+    pub cells: Option<u32>,
     /// First margin of the polygons, as a share of the arm's reach; quartered where needed.
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
     pub margin: f64,
@@ -137,7 +139,11 @@ pub struct EffortArgs {
 impl EffortArgs {
     /// The same for the solver.
     pub fn effort(&self) -> Effort {
-        Effort { levels: self.levels.into(), margin: self.margin, cells: self.cells as usize, ..Effort::default() }
+        let effort = Effort { levels: self.levels.into(), margin: self.margin, ..Effort::default() };
+        match self.cells {
+            Some(cells) => Effort { cells: cells as usize, square: false, ..effort },
+            None => effort,
+        }
     }
 }
 
@@ -239,6 +245,8 @@ pub struct PlanArgs {
     pub optimum: OptimumArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
+    #[command(flatten)]
+    pub path: PathArgs,
     #[command(flatten)]
     pub search: SearchArgs,
     /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.

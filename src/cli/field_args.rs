@@ -5,7 +5,7 @@ use crate::field::{
     Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
 };
 use crate::model::Preference;
-use crate::plan::{EquationChoice, FieldChoice, FieldPlanner};
+use crate::plan::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use crate::solve::Method;
 use clap::{Args, ValueEnum};
 
@@ -22,7 +22,7 @@ pub enum FieldName {
     Bvp,
     /// The same along the field's own slope.
     Bvp2,
-    /// Attraction by the goal, repulsion by the nearest obstacle; may end in a local minimum, and says so.
+    /// Attraction by the goal, repulsion by the nearest obstacle or by all; may end in a local minimum, and says so.
     Khatib,
 }
 
@@ -110,8 +110,9 @@ pub struct FieldArgs {
     /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]
     pub attraction: Option<Attraction>,
-    /// Push of the nearest obstacle at a distance p (khatib): ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2 within P0,
-    /// or inverse-square:Q for the force Q/p^2 [default: ranged:0.01,0.5].
+    /// Push at a distance p (khatib). Of the nearest obstacle: ranged:K,P0 for the potential K/2 (1/p - 1/P0)^2 within P0,
+    /// or inverse-square:Q for the force Q/p^2; of all obstacle cells together: sum:Q for the force Q/p^2 of each, p in
+    /// cells [default: ranged:0.01,0.5].
     #[arg(long, value_name = "LAW", value_parser = repulsion)]
     pub repulsion: Option<Repulsion>,
     /// Let each component of pull and push go through tanh (khatib).
@@ -163,7 +164,7 @@ impl FieldArgs {
             Some(LimitsName::Reflecting) => Limits::Reflecting,
             Some(LimitsName::High) | None => Limits::High,
         };
-        Ok(Some(FieldPlanner { field, limits, shortcut: true }))
+        Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
     }
 
     /// What the field needs and these regions of the world lack, if anything.
@@ -320,6 +321,9 @@ fn repulsion(text: &str) -> Result<Repulsion, String> {
     match law(text).as_ref().map(|(name, constants)| (*name, &constants[..])) {
         Some(("ranged", [gain, range])) => Ok(Repulsion::Ranged { gain: *gain, range: *range }),
         Some(("inverse-square", [charge])) => Ok(Repulsion::InverseSquare(*charge)),
-        _ => Err("must be ranged:K,P0 or inverse-square:Q with positive numbers, such as ranged:0.01,0.5".into()),
+        Some(("sum", [charge])) => Ok(Repulsion::Sum(*charge)),
+        _ => {
+            Err("must be ranged:K,P0, inverse-square:Q or sum:Q with positive numbers, such as ranged:0.01,0.5".into())
+        }
     }
 }

@@ -18,6 +18,7 @@ mod message_args;
 mod motion;
 mod names;
 mod output;
+mod path_args;
 mod plan;
 mod planned;
 mod recheck;

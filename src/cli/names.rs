@@ -1,6 +1,6 @@
-//! Planners and searches by name on the command line, so that help and shells can list them.
+//! Planners, paths and searches by name on the command line, so that help and shells can list them.
 
-use crate::plan::GridSearch;
+use crate::plan::{GridSearch, PathKind};
 use crate::solve::Method;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
@@ -17,6 +17,20 @@ impl ValueEnum for Method {
             Method::Wavefront => "Manhattan wavefront on a grid",
             Method::Harmonic => "Harmonic potential on a grid",
             Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
+}
+
+impl ValueEnum for PathKind {
+    fn value_variants<'a>() -> &'a [Self] {
+        &PathKind::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            PathKind::Own => "As the planner's method has it",
+            PathKind::Taut => "Pulled taut: shorter, nearer to obstacles",
         };
         Some(PossibleValue::new(self.name()).help(help))
     }

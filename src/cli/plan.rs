@@ -31,7 +31,7 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
 pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
     let sinks = output::sinks(&args.output, &args.picture)?;
     let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
-    if let Some(conflict) = conflict {
+    if let Some(conflict) = conflict.or_else(|| args.path.conflict(args.planner)) {
         return Err(Failure::Usage(conflict));
     }
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
@@ -105,7 +105,7 @@ pub fn effort(scene: &Scene, args: &PlanArgs, field: Option<FieldPlanner>) -> Re
     }
     let metric = args.optimum.metric(scene.arm.joints.each_ref().map(|joint| joint.velocity));
     let wavefront = args.search.wavefront();
-    Ok(Effort { metric, gap: args.optimum.gap, field, wavefront, ..args.effort.effort() })
+    Ok(Effort { metric, gap: args.optimum.gap, field, path: args.path.path, wavefront, ..args.effort.effort() })
 }
 
 /// The result file's content, and what the motion follows.
@@ -133,9 +133,14 @@ pub(super) fn report(
             report.proof = Some(proof.stuck().iter().map(ProofBox::from).collect());
             report
         }
-        Verdict::Unknown(reason) => Report::unknown(planner, joints, reason.clone()),
+        Verdict::Unknown(reason) => {
+            let mut report = Report::unknown(planner, joints, reason.clone());
+            report.path_exists = answer.witness.is_some().then_some(true);
+            report
+        }
     };
     report.free_joints = free_joints(problem);
+    report.path_kind = matches!(answer.verdict, Verdict::Found(_)).then(|| answer.path.name());
     report.name = Some(problem.scene.workspace.name.clone()).filter(|name| !name.is_empty());
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),

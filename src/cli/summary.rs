@@ -121,7 +121,8 @@ fn outcome(planned: &Planned) -> Vec<Line> {
         Verdict::Found(certified) => {
             let path = certified.path();
             let segments = path.segments().count();
-            let found = format!("found and certified: {segments} straight pieces, length {:.4}", path.length());
+            let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
+            let found = format!("found and certified: {segments} straight pieces, length {:.4}{kind}", path.length());
             lines.push(("result", found));
             if problem.goals.pieces().iter().any(|goals| !goals.is_point()) {
                 lines.push(("reached", configuration(&problem.scene.arm, path.goal())));

@@ -1,8 +1,10 @@
 //! A planner with options of its own, as one word of `compare`'s command line.
 
 use super::field_args::FieldArgs;
+use super::path_args::PathArgs;
 use super::search_args::SearchArgs;
 use crate::model::Preference;
+use crate::plan::PathKind;
 use crate::solve::{Effort, Method};
 use clap::Parser;
 
@@ -14,6 +16,7 @@ pub struct Variant {
     /// The planner.
     pub method: Method,
     field: FieldArgs,
+    path: PathArgs,
     search: SearchArgs,
 }
 
@@ -23,6 +26,8 @@ struct Grammar {
     planner: Method,
     #[command(flatten)]
     field: FieldArgs,
+    #[command(flatten)]
+    path: PathArgs,
     #[command(flatten)]
     search: SearchArgs,
 }
@@ -34,7 +39,7 @@ impl Variant {
     /// What is wrong with it, in one line.
     pub fn parse(text: &str) -> Result<Self, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
-        let Grammar { planner, field, search } = Grammar::try_parse_from(&words).map_err(|error| {
+        let Grammar { planner, field, path, search } = Grammar::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();
             // The first line says what is wrong, the next one, where it is so, what would be right.
             let mut lines = text.lines();
@@ -44,10 +49,15 @@ impl Variant {
             words.join(" ")
         })?;
         field.planner(planner)?;
-        match search.conflict(planner) {
+        match search.conflict(planner).or_else(|| path.conflict(planner)) {
             Some(conflict) => Err(conflict),
-            None => Ok(Self { label: words.join(" "), method: planner, field, search }),
+            None => Ok(Self { label: words.join(" "), method: planner, field, path, search }),
         }
+    }
+
+    /// Which of the planner's paths it gives.
+    pub fn path_kind(&self) -> PathKind {
+        self.path.kind(self.method)
     }
 
     /// The effort that it is asked to make, all else as in `base`.
@@ -57,7 +67,10 @@ impl Variant {
     pub fn effort(&self, base: Effort, preferences: &[Preference]) -> Result<Effort, String> {
         match self.field.lack(preferences) {
             Some(lack) => Err(lack),
-            None => Ok(Effort { field: self.field.planner(self.method)?, wavefront: self.search.wavefront(), ..base }),
+            None => {
+                let (field, wavefront) = (self.field.planner(self.method)?, self.search.wavefront());
+                Ok(Effort { field, wavefront, path: self.path.path, ..base })
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What the planner for any field is asked for.
 
+use super::PathKind;
 use crate::cspace::ZonedGrid;
 use crate::field::{Difference, Direction, Equation, Khatib, Limits, Relaxation};
 use std::fmt;
@@ -57,7 +58,7 @@ pub enum FieldChoice {
     Khatib(Khatib),
 }
 
-/// Computes a field with the goals' cells as its goals and follows it from the start's cell. Values are those of
+/// Computes a field with the goals' cells as its goals and follows it from the start. Values are those of
 /// [`Levels::PROBABILITY`](crate::field::Levels::PROBABILITY), relaxed in relative precision, as far as doubles go.
 ///
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
@@ -69,20 +70,28 @@ pub struct FieldPlanner {
     pub field: FieldChoice,
     /// What lies beyond the limits of intervals.
     pub limits: Limits,
-    /// Whether corners that the grid allows to cut are cut.
-    pub shortcut: bool,
+    /// [`PathKind::Own`] is the curve along the gradient, or the force.
+    pub path: PathKind,
 }
 
 impl EquationChoice {
     /// The equation on a grid; the reason if there is none.
     pub(super) fn on(self, space: &ZonedGrid) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
+        // A direction of joint space, in cells, which need not be square.
+        let step = space.grid.step();
+        let in_cells = |direction: Direction| {
+            let [a, b] = direction.components();
+            Direction::of([a / step[0], b / step[1]]).unwrap_or(direction)
+        };
         let strengths = |elsewhere: f64| {
             cells.clone().map(|cell| space.zone(cell).map_or(elsewhere, |zone| zone.epsilon)).collect()
         };
         Ok(match self {
             Self::Harmonic => Equation::Harmonic,
-            Self::Oriented { direction, epsilon, difference } => Equation::Oriented { direction, epsilon, difference },
+            Self::Oriented { direction, epsilon, difference } => {
+                Equation::Oriented { direction: in_cells(direction), epsilon, difference }
+            }
             Self::Preference { elsewhere, difference } => {
                 Equation::Preference { epsilon: strengths(elsewhere), difference }
             }
@@ -94,7 +103,7 @@ impl EquationChoice {
                         .direction
                         .and_then(Direction::of)
                         .or(direction)
-                        .map(|direction| direction.drift(zone.epsilon))
+                        .map(|direction| in_cells(direction).drift(zone.epsilon))
                         .ok_or_else(|| format!("the preference \"{}\" has no direction", zone.name)),
                 };
                 Equation::LocallyOriented { drift: cells.clone().map(drift).collect::<Result<_, _>>()?, difference }

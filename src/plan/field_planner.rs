@@ -2,17 +2,18 @@
 
 use super::attach::Joined;
 use super::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
-use super::{Note, Outcome, Planner, Query, Run, Size, Trace, grid_path};
+use super::{Note, Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::{Grid, ZonedGrid};
 use crate::field::{
-    Cell, Domain, Equation, ForceField, Levels, Measure, Relaxation, Relaxed, Stopping, Stuck, Trap, descend, relax,
+    Cell, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation, Relaxed, Slope,
+    Stopping, Stuck, Trap, relax,
 };
-use crate::space::Configuration;
+use crate::space::{Configuration, Path};
 
 /// What became of a field.
 struct Followed {
     /// The way, or why there is none.
-    cells: Result<Vec<usize>, String>,
+    path: Result<Path, String>,
     trace: Trace,
     sweeps: usize,
     note: Option<Note>,
@@ -43,71 +44,83 @@ impl Planner for FieldPlanner {
         let Some(start) = joined.start.cells.iter().copied().find(reached) else {
             return ended(Outcome::NoPath, cells);
         };
+        let task = Task { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
-            FieldChoice::Khatib(laws) => {
-                let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
-                follow_forces(grid, &ForceField::new(grid, laws, &centers, self.limits), start, &goals)
-            }
+            FieldChoice::Khatib(laws) => task.follow_forces(laws, &goals, self.limits),
             FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps } => {
                 let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
-                match follow_relaxed(space, &domain, equation, &relaxation, &stopping, start) {
+                match task.follow_relaxed(&domain, equation, &relaxation, &stopping) {
                     Ok(followed) => followed,
                     Err(reason) => return ended(Outcome::GaveUp(reason), cells),
                 }
             }
         };
-        let outcome = match followed.cells {
-            Err(reason) => Outcome::GaveUp(reason),
-            Ok(way) => match grid_path::path(grid, query, &joined, &way, self.shortcut) {
-                Some(path) => Outcome::Found(path),
-                None => Outcome::GaveUp("the field ends in a cell that no goal is joined to".into()),
-            },
-        };
+        let outcome = followed.path.map_or_else(Outcome::GaveUp, Outcome::Found);
         let size = Size::Grid { cells, sweeps: followed.sweeps };
         Run { outcome, trace: followed.trace, size, note: followed.note }
     }
 }
 
-/// Follows attraction and repulsion.
-fn follow_forces(grid: &Grid, field: &ForceField, start: usize, goals: &[usize]) -> Followed {
-    let heights = (0..grid.blocked.len()).map(|cell| match grid.blocked[cell] {
-        true => f64::INFINITY,
-        false => field.potential(cell),
-    });
-    let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
-    let cells = field.descend(start, goals).map_err(|Trap { cell, value, minimum }| {
-        let at = shown(grid, cell);
-        match minimum {
-            true => format!("the potential has a local minimum at {at}, of value {value:.4e}"),
-            false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
-        }
-    });
-    Followed { cells, trace, sweeps: 0, note: None }
+/// A way that is looked for.
+struct Task<'a> {
+    space: &'a ZonedGrid,
+    query: &'a Query,
+    joined: &'a Joined,
+    /// The cell of the start, or the one that it is joined to.
+    start: usize,
+    kind: PathKind,
 }
 
-/// Relaxes and climbs; the reason if there is no field.
-fn follow_relaxed(
-    space: &ZonedGrid,
-    domain: &Domain,
-    choice: EquationChoice,
-    relaxation: &Relaxation,
-    stopping: &Stopping,
-    start: usize,
-) -> Result<Followed, String> {
-    let equation = choice.on(space)?;
-    let field = relax(domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
-    let cells = descend(domain, &field.values, start).map_err(|stuck| {
-        format!("{} at {}: {}", what(&stuck), shown(&space.grid, stuck.cell), why(&stuck, &equation, &field))
-    });
-    let logarithm = |(value, kind): (&f64, &Cell)| match kind {
-        Cell::Obstacle => f64::NEG_INFINITY,
-        // What is not monotone may fall below the obstacles' zero.
-        _ => value.max(0.0).ln(),
-    };
-    let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
-    let note = (!field.converged()).then(|| Note::Unconverged { sweeps: field.sweeps(), change: field.change() });
-    let trace = Trace::Field { cells: domain.cells(), potential };
-    Ok(Followed { cells, trace, sweeps: field.sweeps(), note })
+impl Task<'_> {
+    /// Follows attraction and repulsion.
+    fn follow_forces(&self, laws: Khatib, goals: &[usize], limits: Limits) -> Followed {
+        let grid = &self.space.grid;
+        let centers: Vec<Configuration> = goals.iter().map(|&cell| grid.center(cell)).collect();
+        let field = ForceField::new(grid, laws, &centers, limits);
+        let heights = (0..grid.blocked.len()).map(|cell| match grid.blocked[cell] {
+            true => f64::INFINITY,
+            false => field.potential(cell),
+        });
+        let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
+        let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
+        let mut guide = Downforce::new(&field, goals, at);
+        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path.map_err(|Trap { cell, value, minimum }| {
+            let at = shown(grid, cell);
+            match minimum {
+                true => format!("the potential has a local minimum at {at}, of value {value:.4e}"),
+                false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
+            }
+        });
+        Followed { path, trace, sweeps: 0, note: None }
+    }
+
+    /// Relaxes and climbs; the reason if there is no field.
+    fn follow_relaxed(
+        &self,
+        domain: &Domain,
+        choice: EquationChoice,
+        relaxation: &Relaxation,
+        stopping: &Stopping,
+    ) -> Result<Followed, String> {
+        let grid = &self.space.grid;
+        let equation = choice.on(self.space)?;
+        let field = relax(domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
+        let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
+        let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path.map_err(|stuck| {
+            format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, &equation, &field))
+        });
+        let logarithm = |(value, kind): (&f64, &Cell)| match kind {
+            Cell::Obstacle => f64::NEG_INFINITY,
+            // What is not monotone may fall below the obstacles' zero.
+            _ => value.max(0.0).ln(),
+        };
+        let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
+        let note = (!field.converged()).then(|| Note::Unconverged { sweeps: field.sweeps(), change: field.change() });
+        let trace = Trace::Field { cells: domain.cells(), potential };
+        Ok(Followed { path, trace, sweeps: field.sweeps(), note })
+    }
 }
 
 /// What a climb is stuck on.

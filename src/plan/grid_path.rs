@@ -1,9 +1,10 @@
 //! From cells to a path.
 
 use super::attach::{Attachment, Joined};
-use super::{Query, shortcut};
+use super::simplify::simplified;
+use super::{PathKind, Query, shortcut};
 use crate::cspace::Grid;
-use crate::field::{Component, Interpolated, Place, Potential};
+use crate::field::{Guide, Place, follow};
 use crate::space::{Configuration, Measure, Metric, Path};
 
 /// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
@@ -11,6 +12,11 @@ pub(super) fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
     let n = grid.cells[axis] as i64;
     let at = if grid.topology.axes[axis].is_circle() { at.rem_euclid(n) } else { at };
     (0..n).contains(&at).then_some(at as usize)
+}
+
+/// The cell at a place of the unbounded lattice; none beyond a limit.
+pub(super) fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
+    Some(place(grid, 0, i)? * grid.cells[1] + place(grid, 1, j)?)
 }
 
 /// A polyline in lattice units: unwrapped, cell `(i, j)` covers `[i, i + 1] x [j, j + 1]`.
@@ -79,59 +85,97 @@ fn goal_at<'a>(
 }
 
 /// The path from the exact start through the centres of `cells` (neighbours, the first joined to the start, the last to
-/// a goal) to the exact goal; shortened if wanted. The pieces between a configuration and a cell that does not contain
+/// a goal) to the exact goal; pulled taut if wanted. The pieces between a configuration and a cell that does not contain
 /// it are not proven by the grid. Nothing if the cells are not such a chain.
-pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], shorten: bool) -> Option<Path> {
+pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, query, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
-    Some(complete(grid, query, joined, line, goal, shorten))
+    let line = completed(grid, query, joined, line, goal);
+    let line = if kind == PathKind::Taut { shortcut::shortcut(grid, &line) } else { line };
+    Some(between(grid, query.start, &line, goal.0))
 }
 
-/// The path from the exact start up the potential, interpolated between cells ([`Interpolated::ascend`]), to the exact
-/// goal; shortened if wanted. It stays in free cells, but for the pieces between a configuration and a cell that does not
-/// contain it. `start` is the position of a cell joined to the start. Nothing if the potential does not lead to a goal.
-pub(super) fn ascent(
+/// How far a path may be off the curve along the field, in cells. Where the curve's radius is `r` cells, pieces are some
+/// `sqrt(r / 6)` cells long, and none deviates from the curve's direction by more than `1 / sqrt(6 r)`.
+const OFF_THE_CURVE: f64 = 0.02;
+
+/// The field knows the goal's cell, not where in it the goal is. Along so many cells before it the path goes over from the
+/// curve to the centre of that cell to one to the goal, so that it arrives in the curve's direction.
+const ARRIVAL: f64 = 12.0;
+
+/// The path from the exact start along a field ([`follow`]) to the exact goal, no farther off the curve than
+/// [`OFF_THE_CURVE`] but for the [`ARRIVAL`]; or pulled taut. It stays in free cells, but for the pieces between a
+/// configuration and a cell that does not contain it. `home` is the cell joined to the start.
+///
+/// # Errors
+/// Where the field does not lead to a goal.
+pub(super) fn along<G: Guide>(
     grid: &Grid,
     query: &Query,
     joined: &Joined,
-    (component, potential): (&Component, &Potential),
-    start: usize,
-    shorten: bool,
-) -> Option<Path> {
-    let home = component.cells[start] as usize;
-    if start < component.goals {
-        return path(grid, query, joined, &[home], shorten);
-    }
-    let columns = grid.cells[1];
-    let position = |[i, j]: Place| component.position_of(place(grid, 0, i)? * columns + place(grid, 1, j)?);
-    let center = unwrap(grid, &[home], query.start);
-    let from = if joined.start.contained { to_lattice(grid, query.start) } else { center[0] };
+    guide: &mut G,
+    home: usize,
+    kind: PathKind,
+) -> Result<Path, G::Stuck> {
+    let center = unwrap(grid, &[home], query.start)[0];
+    let from = if joined.start.contained { to_lattice(grid, query.start) } else { center };
     // Cells are counted from their corners here, from their centres there.
-    let streamline = Interpolated::new(component, potential, position).ascend(from.map(|x| x - 0.5))?;
+    let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
     let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
     let end = streamline.place.map(|x| x as f64 + 0.5);
-    let cell = component.cells[streamline.goal] as usize;
-    let goal = goal_at(grid, query, joined, cell, from_lattice(grid, end))?;
-    if !goal.1.contained {
+    let is_goal = |place: Place| cell(grid, place).filter(|_| guide.is_goal(place));
+    let at = is_goal(streamline.place).unwrap_or_else(|| unreachable!("a streamline ends in a goal's cell"));
+    let goal = goal_at(grid, query, joined, at, from_lattice(grid, end))
+        .unwrap_or_else(|| unreachable!("each goal's cell is joined to a goal"));
+    let is_far = line.len() > 1;
+    if (is_far || !goal.1.contained) && line[line.len() - 1] != end {
         line.push(end);
     }
-    Some(complete(grid, query, joined, line, goal, shorten))
+    if is_far && goal.1.contained {
+        line = arriving(grid, line, to_lattice(grid, goal.0));
+    }
+    let line = completed(grid, query, joined, line, goal);
+    let line = match kind {
+        PathKind::Own => simplified(grid, &line, OFF_THE_CURVE),
+        PathKind::Taut => shortcut::shortcut(grid, &line),
+    };
+    Ok(between(grid, query.start, &line, goal.0))
 }
 
-/// A line completed to a path from the exact start to the exact goal, shortened if wanted.
-fn complete(
+/// The line with its end moved to `goal`, and what is before it by the less the farther it is away; the line itself where
+/// that would leave the free cells.
+fn arriving(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
+    let end = line[line.len() - 1];
+    let by = [0, 1].map(|k| goal[k] - end[k]);
+    let mut left = vec![0.0; line.len()];
+    for k in (1..line.len()).rev() {
+        left[k - 1] = left[k] + (line[k][0] - line[k - 1][0]).hypot(line[k][1] - line[k - 1][1]);
+    }
+    let range = left[0].min(ARRIVAL);
+    let share = |left: f64| {
+        let x = (1.0 - left / range).max(0.0);
+        x * x * (3.0 - 2.0 * x)
+    };
+    let moved = line.iter().zip(&left).map(|(point, &left)| [0, 1].map(|k| point[k] + share(left) * by[k]));
+    let moved: Line = moved.collect();
+    let is_clear = |pieces: &[[f64; 2]]| pieces.windows(2).all(|w| shortcut::is_clear(grid, w[0], w[1]));
+    let first = left.partition_point(|&left| left >= range).saturating_sub(1);
+    if range > 0.0 && is_clear(&moved[first..]) { moved } else { line }
+}
+
+/// A line from the exact start to the exact goal.
+fn completed(
     grid: &Grid,
     query: &Query,
     joined: &Joined,
     mut line: Line,
     (goal, attachment): (Configuration, &Attachment),
-    shorten: bool,
-) -> Path {
-    if line.len() == 1 && joined.start.contained && attachment.contained {
-        return Path::new(vec![query.start, goal]);
-    }
+) -> Line {
     // A configuration that is at an end of the line, up to rounding, takes its place.
     let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
+    if line.len() == 1 && joined.start.contained && attachment.contained {
+        return vec![from, to];
+    }
     let apart = |a: &[f64; 2], b: [f64; 2]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) > shortcut::TOUCH;
     let ends = line.len() - 1;
     let mut at = 0..;
@@ -141,9 +185,11 @@ fn complete(
     });
     line.insert(0, from);
     line.push(to);
-    if shorten {
-        line = shortcut::shortcut(grid, &line);
-    }
+    line
+}
+
+/// A line as a path between the configurations at its ends.
+fn between(grid: &Grid, start: Configuration, line: &[[f64; 2]], goal: Configuration) -> Path {
     let inner = line[1..line.len() - 1].iter().map(|&at| from_lattice(grid, at));
-    Path::new(std::iter::once(query.start).chain(inner).chain([goal]).collect())
+    Path::new(std::iter::once(start).chain(inner).chain([goal]).collect())
 }

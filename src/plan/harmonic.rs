@@ -1,27 +1,27 @@
 //! The harmonic field planner.
 
 use super::attach::Joined;
-use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
+use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::field::{Component, Lattice, Potential, harmonic, rough_harmonic};
+use crate::field::{Component, Lattice, Place, Potential, Uphill, harmonic, rough_harmonic};
 use crate::interrupt::checkpoint;
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
-/// circles) and climbs it by its gradient, interpolated between the cells (Connolly, Grupen 1993; [`Interpolated`]).
+/// circles) and climbs it along its gradient, interpolated between the cells (Connolly, Grupen 1993; [`follow`]).
 ///
-/// [`Interpolated`]: crate::field::Interpolated
+/// [`follow`]: crate::field::follow()
 ///
 /// Complete on the grid: whatever the length of a corridor, the field has no local maximum but the goals (see
 /// [`crate::field::harmonic`]), so no path is found only if there is none between the cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
-    /// Whether corners that the grid allows to cut are cut.
-    pub shortcut: bool,
+    /// [`PathKind::Own`] is the curve along the gradient.
+    pub path: PathKind,
 }
 
 impl Default for Harmonic {
     fn default() -> Self {
-        Self { shortcut: true }
+        Self { path: PathKind::Own }
     }
 }
 
@@ -61,8 +61,13 @@ impl Planner for Harmonic {
         let field = harmonic(&component);
         let size = Size::Windows { cells: component.len(), windows: field.windows };
         let trace = trace(space, &component, &field.potential);
-        let path = grid_path::ascent(space, query, &joined, (&component, &field.potential), start, self.shortcut);
-        let outcome = path.map_or_else(|| Outcome::GaveUp("the field has a local maximum".into()), Outcome::Found);
+        let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
+        let mut guide = Uphill::new(&component, &field.potential, at);
+        let home = component.cells[start] as usize;
+        let outcome = match grid_path::along(space, query, &joined, &mut guide, home, self.path) {
+            Ok(path) => Outcome::Found(path),
+            Err(_) => Outcome::GaveUp("the field has a local maximum".into()),
+        };
         Run { outcome, trace, size, note: None }
     }
 }

@@ -77,7 +77,7 @@ fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
 }
 
 /// Whether all cells that the segment passes through or touches are free.
-fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
+pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = covered(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {

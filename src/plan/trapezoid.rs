@@ -4,7 +4,7 @@ use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
 use super::funnel::{Passage, Turn, nearest_end, turns};
 use super::terminals::Terminals;
-use super::{Outcome, Planner, Query, Run, Size, Trace};
+use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::planar::Boundary;
 use crate::geometry::{Orientation, Point, orientation};
@@ -20,14 +20,14 @@ use std::sync::Arc;
 /// not the shortest, even when taut: another channel may hold a shorter one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
-    /// Whether the path is pulled taut within the channel, so that it may touch obstacles. Otherwise it leads through
-    /// the middles of doors, and between two doors on one vertical through the centre of the cell.
-    pub taut: bool,
+    /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
+    /// middles of its doors and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
+    pub path: PathKind,
 }
 
 impl Default for Trapezoid {
     fn default() -> Self {
-        Self { taut: true }
+        Self { path: PathKind::Taut }
     }
 }
 
@@ -66,7 +66,10 @@ impl Planner for Trapezoid {
                 match map.adjacency.channel(doors, &terminals, &start_cells) {
                     None => (Outcome::NoPath, Vec::new()),
                     Some(channel) => {
-                        let waypoints = if self.taut { map.taut_path(&channel) } else { map.middle_path(&channel) };
+                        let waypoints = match self.path {
+                            PathKind::Taut => map.taut_path(&channel),
+                            PathKind::Own => map.middle_path(&channel),
+                        };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
                         (Outcome::Found(path), channel.cells)
                     }
@@ -83,15 +86,14 @@ impl Planner for Trapezoid {
 }
 
 impl TrapezoidMap {
-    /// Through the middles of the doors, and the centre of a cell that is left on the vertical on which it was entered.
+    /// Through the middles of the doors, and the centres of the cells between them.
     fn middle_path(&self, channel: &Channel) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &door) in channel.doors.iter().enumerate() {
-            let middle = self.adjacency.middles[door];
-            if k > 0 && self.adjacency.middles[channel.doors[k - 1]].x == middle.x {
+            if k > 0 {
                 waypoints.push(self.adjacency.centers[channel.cells[k]]);
             }
-            waypoints.push(middle);
+            waypoints.push(self.adjacency.middles[door]);
         }
         let last = waypoints[waypoints.len() - 1];
         waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));

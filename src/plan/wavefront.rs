@@ -1,7 +1,7 @@
 //! Searches of a grid: the wavefront, whose labels are the distances from the goal, and the textbook searches beside it.
 
 use super::attach::Joined;
-use super::{Outcome, Planner, Query, Run, Size, Trace, grid_path};
+use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::field::search::{Order, Search, Ties};
 use crate::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
@@ -82,13 +82,13 @@ pub struct Wavefront {
     pub search: GridSearch,
     /// To which cells a move leads.
     pub neighborhood: Neighborhood,
-    /// Whether corners that the grid allows to cut are cut.
-    pub shortcut: bool,
+    /// [`PathKind::Own`] is the staircase from cell to cell.
+    pub path: PathKind,
 }
 
 impl Default for Wavefront {
     fn default() -> Self {
-        Self { search: GridSearch::Wave, neighborhood: Neighborhood::Four, shortcut: true }
+        Self { search: GridSearch::Wave, neighborhood: Neighborhood::Four, path: PathKind::Taut }
     }
 }
 
@@ -115,7 +115,7 @@ impl Planner for Wavefront {
             }
         };
         let (cells, labels, size) = self.cells(map, &joined);
-        let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.shortcut));
+        let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
         Run {
             outcome: path.map_or(Outcome::NoPath, Outcome::Found),
             trace: Trace::Wavefront { cells: space.cells, labels },

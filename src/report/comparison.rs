@@ -2,7 +2,7 @@
 
 use super::row::{Outcome, Row};
 use super::table::{Align, Column, Table, fixed, quoted};
-use crate::plan::Size;
+use crate::plan::{PathKind, Size};
 use crate::space::Configuration;
 use serde_json::{Value, json};
 
@@ -129,8 +129,10 @@ impl Comparison {
         };
         json!({
             "planner": row.planner,
+            "path_kind": row.path_kind.name(),
             "outcome": row.outcome.name(),
             "length": row.length,
+            "paths": row.other_path.map(|_| paths(row)),
             "ratio": self.ratio(row),
             "over_optimum": self.over_optimum(row),
             "pieces": row.pieces,
@@ -158,9 +160,16 @@ impl Comparison {
         columns.extend(right.map(|name| Column::new(name, Align::Right)));
         columns.push(Column::new("size", Align::Left));
         columns.extend(costs.map(|name| Column::new(name, Align::Right)));
+        // Both paths of each planner, if there are planners with both.
+        let has_both = self.rows.iter().any(|row| row.other_path.is_some());
+        let kinds = if has_both { &PathKind::ALL[..] } else { &[] };
+        for kind in kinds {
+            columns.push(Column::new(&format!("{kind} [{}]", self.length_unit), Align::Right));
+            columns.push(Column::new(&format!("{kind} [mm]"), Align::Right));
+        }
         let milliseconds = |v: Option<f64>| fixed(v.map(|v| v * 1e3), 3);
         let cells = |row: &Row| {
-            vec![
+            let mut cells = vec![
                 Some(row.planner.clone()),
                 Some(row.outcome.to_string()),
                 fixed(row.length, 4),
@@ -174,10 +183,23 @@ impl Comparison {
                 milliseconds(row.certify),
                 milliseconds(row.total),
                 fixed(row.memory.map(|bytes| bytes as f64 / f64::from(1 << 20)), 2),
-            ]
+            ];
+            for &kind in kinds {
+                let path = row.of_kind(kind);
+                cells.push(fixed(path.map(|path| path.0), 4));
+                cells.push(fixed(path.and_then(|path| path.1).map(|v| v * 1e3), 3));
+            }
+            cells
         };
         Table { columns, rows: self.rows.iter().map(cells).collect() }
     }
+}
+
+/// Length and clearance of both paths.
+fn paths(row: &Row) -> Value {
+    let figures =
+        |kind| row.of_kind(kind).map(|(length, clearance)| json!({ "length": length, "clearance": clearance }));
+    json!({ "own": figures(PathKind::Own), "taut": figures(PathKind::Taut) })
 }
 
 /// Names of the columns of [`Comparison::to_csv`].

@@ -1,6 +1,6 @@
 //! What one planner did on one problem.
 
-use crate::plan::{Note, Size};
+use crate::plan::{Note, PathKind, Size};
 use crate::solve::Method;
 use std::fmt;
 
@@ -72,6 +72,15 @@ impl From<Method> for Family {
     }
 }
 
+/// Figures of a planner's path of the other kind than the row is about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OtherPath {
+    /// As [`Row::length`].
+    pub length: f64,
+    /// As [`Row::clearance`].
+    pub clearance: Option<f64>,
+}
+
 /// What one planner did. What it did not come to is missing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
@@ -79,10 +88,14 @@ pub struct Row {
     pub planner: String,
     /// What kind of planner it is.
     pub family: Family,
+    /// Which of its paths.
+    pub path_kind: PathKind,
     /// How it ended.
     pub outcome: Outcome,
     /// Euclidean length in joint space (rad and m as they come).
     pub length: Option<f64>,
+    /// Its path of the other kind, if it has one.
+    pub other_path: Option<OtherPath>,
     /// Straight pieces of the path.
     pub pieces: Option<usize>,
     /// Proven least distance between arm and obstacles along the path, metres; none where nothing can be hit.
@@ -116,6 +129,8 @@ impl Row {
         Self {
             planner: planner.into(),
             family,
+            path_kind: PathKind::Taut,
+            other_path: None,
             outcome,
             length: None,
             pieces: None,
@@ -130,6 +145,17 @@ impl Row {
             memory: None,
             note: None,
             reason: None,
+        }
+    }
+
+    /// Length and clearance of the planner's path of this kind, if both are known.
+    #[must_use]
+    pub fn of_kind(&self, kind: PathKind) -> Option<(f64, Option<f64>)> {
+        let other = self.other_path?;
+        if self.path_kind == kind {
+            Some((self.length?, self.clearance))
+        } else {
+            Some((other.length, other.clearance))
         }
     }
 

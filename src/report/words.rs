@@ -5,6 +5,7 @@ use super::row::{Family, Outcome};
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
+use crate::plan::PathKind;
 use crate::solve::percent;
 
 /// A side is said to be better if a fair coin would favour it as clearly as this seldom.
@@ -43,13 +44,15 @@ struct Side {
 }
 
 /// What the study says, a paragraph each: how many problems were settled, how near the proven optimum is, and family
-/// against family how long, how near to obstacles, how fast, how soon and how large. Planners take the place of families
-/// where there is only one of those. A side is called better only where the sign test over all problems that all sides
+/// against family how long, how near to obstacles, how fast, how soon and how large. A planner speaks for its family by its
+/// usual path; what pulling one taut changes is said apart. Planners take the place of families where there is only one of
+/// those. A side is called better only where the sign test over all problems that all sides
 /// have a value for bears it out at 5 %.
 #[must_use]
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
     words.extend(optimum(study));
+    words.extend(pulled_taut(study));
     let sides = sides(study);
     if sides.len() > 1 {
         words.extend(
@@ -94,6 +97,21 @@ fn optimum(study: &Study) -> Option<String> {
         percent(spread.max),
         counted(spread.n, "problem")
     ))
+}
+
+/// What becomes of each planner's own path when it is pulled taut, where both are there.
+fn pulled_taut(study: &Study) -> Option<String> {
+    let sentences = study.planners().into_iter().enumerate().filter_map(|(i, name)| {
+        let pairs =
+            || study.runs(i).filter_map(|(_, row)| Some((row.of_kind(PathKind::Own)?, row.of_kind(PathKind::Taut)?)));
+        let length = Spread::of(pairs().map(|(own, taut)| taut.0 / own.0).filter(|r| r.is_finite()))?;
+        let parts = pairs().filter_map(|(own, taut)| Some(taut.1? / own.1?)).filter(|r| r.is_finite());
+        let clearance = Spread::of(parts).map_or_else(String::new, |s| format!(", clearance {:.2}", s.median));
+        Some(format!("{name} length {:.2}{clearance} ({})", length.median, counted(length.n, "problem")))
+    });
+    let sentences: Vec<String> = sentences.collect();
+    let said = "Pulled taut, in parts of what a planner's own path has (median)";
+    (!sentences.is_empty()).then(|| format!("{said}: {}.", sentences.join("; ")))
 }
 
 fn sides(study: &Study) -> Vec<Side> {
@@ -188,7 +206,7 @@ fn capitalised(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Comparison, Row};
+    use crate::report::{Comparison, OtherPath, Row};
 
     /// A problem with a roadmap and a field: lengths over a bound of 1, and times.
     fn problem(lengths: [Option<f64>; 2], totals: [f64; 2]) -> Comparison {
@@ -263,6 +281,20 @@ mod tests {
         let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.1), Some(1.01)], [1.0, 2.0])).collect();
         all.iter_mut().for_each(|c| c.rows[0].family = Family::Field);
         assert!(words(&study(all))[2].starts_with("Wavefront found the shorter paths."));
+    }
+
+    #[test]
+    fn what_pulling_taut_changes_is_said() {
+        let mut all: Vec<Comparison> = (0..9).map(|_| problem([Some(1.0), Some(1.5)], [1.0, 2.0])).collect();
+        for row in all.iter_mut().map(|comparison| &mut comparison.rows[1]) {
+            (row.planner, row.path_kind, row.clearance) = ("harmonic".to_owned(), PathKind::Own, Some(0.04));
+            row.other_path = Some(OtherPath { length: 1.0, clearance: Some(0.01) });
+        }
+        let words = words(&study(all));
+        let pulled = "Pulled taut, in parts of what a planner's own path has (median): harmonic length 0.67, \
+                      clearance 0.25 (9 problems).";
+        assert_eq!(words[2], pulled);
+        assert!(words[3].starts_with("Roadmaps found the shorter paths.") && words[3].contains("fields 1.5000"));
     }
 
     #[test]

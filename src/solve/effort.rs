@@ -1,6 +1,6 @@
 //! How hard to try.
 
-use crate::plan::{FieldPlanner, Wavefront};
+use crate::plan::{FieldPlanner, PathKind, Wavefront};
 use crate::space::Metric;
 
 /// How much to try before the answer is unknown.
@@ -13,6 +13,9 @@ pub struct Effort {
     pub margin: f64,
     /// First number of grid cells along each axis.
     pub cells: usize,
+    /// Whether fields get as many cells that are square in joint space instead, where a radian is as long as a metre: then
+    /// their equation is that of the configuration space, not of its picture on a grid.
+    pub square: bool,
     /// Boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
     /// What makes a path short, for the visibility planner and for bounds.
@@ -22,6 +25,10 @@ pub struct Effort {
     pub gap: Option<f64>,
     /// Whether to bound the optimum from below though no gap is asked for (visibility planner only).
     pub bounded: bool,
+    /// Which path of a planner that has two; none for what the planner is used to (see [`Method::path_kind`]).
+    ///
+    /// [`Method::path_kind`]: super::Method::path_kind
+    pub path: Option<PathKind>,
     /// How the wavefront planner searches its grid.
     pub wavefront: Wavefront,
     /// The field to follow in place of the default one (harmonic planner only).
@@ -35,10 +42,12 @@ impl Default for Effort {
             levels: 6,
             margin: 1e-3,
             cells: 256,
+            square: true,
             boxes: 200_000,
             metric: Metric::Euclidean,
             gap: None,
             bounded: true,
+            path: None,
             wavefront: Wavefront::default(),
             field: None,
         }

@@ -2,13 +2,14 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
-use super::rungs::{Builder, Described, cells, polygons, zoned_cells};
+use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells};
+use super::subdivision::certified;
 use super::swift::{SLABS, checked};
 use super::taut::pulled_taut;
 use super::{Answer, Effort, Method, Space, Stages, Verdict, last_leg, subdivision};
-use crate::certify::{CertifiedPath, Connectivity, Rejection, certify, connectivity, slab_connectivity};
+use crate::certify::{CertifiedPath, Connectivity, Disconnection, Rejection, certify, connectivity, slab_connectivity};
 use crate::model::{Problem, Scene};
-use crate::plan::{Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility};
+use crate::plan::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
 use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
@@ -36,13 +37,14 @@ const TAUT_ROWS: usize = 600;
 /// Answers `problem` with `method`. `progress` hears about attempts that failed.
 #[must_use]
 pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+    let path = effort.path.unwrap_or(method.path_kind());
     match method {
         Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
-        Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid::default(), polygons),
-        Method::Wavefront => climb(problem, method, effort, progress, &effort.wavefront, cells),
-        Method::Harmonic => match &effort.field {
-            Some(planner) => climb(problem, method, effort, progress, planner, zoned_cells),
-            None => climb(problem, method, effort, progress, &Harmonic::default(), cells),
+        Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid { path }, polygons),
+        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront { path, ..effort.wavefront }, cells),
+        Method::Harmonic => match effort.field {
+            Some(field) => climb(problem, method, effort, progress, &FieldPlanner { path, ..field }, zoned_cells),
+            None => climb(problem, method, effort, progress, &Harmonic { path }, field_cells),
         },
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
@@ -63,7 +65,7 @@ where
     let mut climb = Climb { problem, method, effort, stages: Stages::default(), path: None, bound: None };
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
-    let mut verdict = None;
+    let mut known = None;
     for level in 0..effort.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(problem, effort, level) else { break };
@@ -82,23 +84,32 @@ where
         progress(&format!("{method}: {failure}"));
         history.push(failure);
         if level == 0 && climb.path.is_none() {
-            verdict = prove(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
-            if verdict.is_some() {
+            known = settle(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
+            if let Some(Known::NoPath(_)) = known {
                 break;
             }
         }
     }
-    let mut verdict = climb.path.take().map(Verdict::Found).or(verdict);
-    if verdict.is_none() {
+    let path = climb.path.take();
+    if path.is_none() && known.is_none() {
         progress(&format!("{method}: looking for a proof that there is no path"));
-        verdict = prove(problem, effort.boxes, &mut climb.stages);
+        known = settle(problem, effort.boxes, &mut climb.stages);
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
-    let verdict = verdict.unwrap_or_else(|| {
-        let why = history.last().cloned().unwrap_or_default();
-        Verdict::Unknown(format!("{method} found no certified path at its finest resolution ({why})"))
-    });
-    Answer { method, verdict, bound: climb.bound, history, run, space: space.into(), stages: climb.stages }
+    let why = || history.last().cloned().unwrap_or_default();
+    let unknown = || format!("{method} found no certified path at its finest resolution ({})", why());
+    let (verdict, witness) = match (path, known) {
+        (Some(path), _) => (Verdict::Found(path), None),
+        (None, Some(Known::NoPath(proof))) => (Verdict::Infeasible(proof), None),
+        (None, Some(Known::Path(witness))) => {
+            let reason = "there is a path (certified by subdivision), which this planner's space does not show";
+            (Verdict::Unknown(format!("{reason}: {}", unknown())), Some(witness))
+        }
+        (None, None) => (Verdict::Unknown(unknown()), None),
+    };
+    let (kind, bound) = (effort.path.unwrap_or(method.path_kind()), climb.bound);
+    let stages = climb.stages;
+    Answer { method, verdict, path: kind, witness, bound, history, run, space: space.into(), stages }
 }
 
 /// What is known on the way up the ladder.
@@ -214,28 +225,36 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-fn prove(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+/// What is known of a problem whatever a planner's space shows.
+enum Known {
+    /// There is none.
+    NoPath(Disconnection),
+    /// There is one: this.
+    Path(CertifiedPath),
+}
+
+/// Whether there is a path at all, by slabs and boxes; none if these do not tell.
+fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Known> {
     let clock = Instant::now();
     let clearance = problem.scene.workspace.clearance;
     let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
-    // Slabs answer most questions in a small part of the time; boxes know about shapes without thickness, too.
-    let by_boxes = |boxes: usize| match connectivity(scene, start, goals, clearance, boxes) {
-        Connectivity::Disconnected(proof) => checked(problem, proof),
-        Connectivity::Connected(_) | Connectivity::Undecided { .. } => None,
+    let known = |answer| match answer {
+        Connectivity::Disconnected(proof) => checked(problem, proof).map(Known::NoPath),
+        Connectivity::Connected(channel) => certified(problem, &channel).ok().map(Known::Path),
+        Connectivity::Undecided { .. } => None,
     };
-    let proof = match slab_connectivity(scene, start, goals, clearance, SLABS.min(boxes)) {
-        Connectivity::Disconnected(proof) => {
-            let proof = checked(problem, proof);
-            let is_large = proof.as_ref().is_some_and(|proof| proof.stuck().len() > LARGE_PROOF);
-            let other = is_large.then(|| by_boxes(LARGE_PROOF)).flatten();
-            other.or(proof)
-        }
-        Connectivity::Undecided { .. } => by_boxes(boxes),
-        // There is a path, so there is no proof.
-        Connectivity::Connected(_) => None,
+    let by_boxes = |boxes: usize| known(connectivity(scene, start, goals, clearance, boxes));
+    // Slabs answer most questions in a small part of the time; boxes know about shapes without thickness, too.
+    let known = match known(slab_connectivity(scene, start, goals, clearance, SLABS.min(boxes))) {
+        Some(Known::NoPath(proof)) if proof.stuck().len() > LARGE_PROOF => match by_boxes(LARGE_PROOF) {
+            Some(Known::NoPath(smaller)) => Some(Known::NoPath(smaller)),
+            _ => Some(Known::NoPath(proof)),
+        },
+        None => by_boxes(boxes),
+        known => known,
     };
     stages.prove += clock.elapsed();
-    proof.map(Verdict::Infeasible)
+    known
 }
 
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {

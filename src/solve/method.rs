@@ -1,6 +1,6 @@
 //! The closed list of planners, for the edges of the program.
 
-use crate::plan::{Harmonic, Planner, Trapezoid, Visibility, Wavefront};
+use crate::plan::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
 use std::fmt;
 use std::str::FromStr;
 
@@ -35,6 +35,18 @@ impl Method {
             // No planner over a representation: it judges the scene itself.
             Method::Subdivision => "subdivision",
         }
+    }
+
+    /// The path that it gives where none is asked for: a field is for being followed, cells are for finding a channel.
+    #[must_use]
+    pub fn path_kind(self) -> PathKind {
+        if self == Method::Harmonic { PathKind::Own } else { PathKind::Taut }
+    }
+
+    /// Whether it has a path of its own beside the taut one. What a visibility graph leads to is taut as it is.
+    #[must_use]
+    pub fn has_own_path(self) -> bool {
+        self != Method::Visibility
     }
 }
 

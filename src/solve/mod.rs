@@ -25,7 +25,7 @@ pub use swift::decide;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
-use crate::plan::{Planner, Run, Trace, Visibility};
+use crate::plan::{PathKind, Planner, Run, Trace, Visibility};
 use crate::space::Configuration;
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -86,6 +86,11 @@ pub struct Answer {
     pub method: Method,
     /// The result.
     pub verdict: Verdict,
+    /// Which of the method's paths was asked for.
+    pub path: PathKind,
+    /// Where the verdict is unknown: a certified path by slabs or boxes, which the method's space does not show. Then the
+    /// question whether there is one is settled, but not by the method that was asked.
+    pub witness: Option<CertifiedPath>,
     /// How far the path is from the optimum at the most; of visibility planners that found one.
     pub bound: Option<Bound>,
     /// What became of each attempt before the last, coarse to fine, in words.

@@ -29,19 +29,44 @@ fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
     effort.margin * scale * 0.25_f64.powi(level as i32)
 }
 
-/// Cells of the level's size: twice as many along each axis with every second level. On the first of two levels of one size free
-/// cells are wholly free; should these be too few, cells of free centres follow on the second, which show passages some
-/// three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of the time that
-/// wholly free cells of the same passage take.
+/// Ratio of the axes' ranges up to which a field's cells are square. Beyond, the finer axis would get too few.
+const MOST_OBLONG: f64 = 16.0;
+
+/// Cells of the level's size, as many along both axes: twice as many with every second level. On the first of two levels of
+/// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
+/// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
+/// the time that wholly free cells of the same passage take.
 pub(super) fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
-    let n = effort.cells << (level / 2);
-    let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_rows };
-    (level < 2 || n <= MOST_CELLS).then(|| build(&problem.scene, [n, n], problem.scene.workspace.clearance))
+    let n = side(effort, level)?;
+    Some(grid(problem, level, [n, n]))
+}
+
+/// As many cells for a field, square ones if wanted.
+pub(super) fn field_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
+    if !effort.square {
+        return cells(problem, effort, level);
+    }
+    let n = side(effort, level)? as f64;
+    let [a, b] = problem.scene.arm.topology().axes.map(|axis| axis.extent());
+    let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
+    let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
+    Some(grid(problem, level, shape))
 }
 
 /// The same with the workspace's preferences.
 pub(super) fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
-    cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+    field_cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+}
+
+/// Cells along an axis, if the level is not too fine.
+fn side(effort: &Effort, level: usize) -> Option<usize> {
+    let n = effort.cells << (level / 2);
+    (level < 2 || n <= MOST_CELLS).then_some(n)
+}
+
+fn grid(problem: &Problem, level: usize, shape: [usize; 2]) -> Grid {
+    let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_rows };
+    build(&problem.scene, shape, problem.scene.workspace.clearance)
 }
 
 /// A space in a few words.

@@ -6,11 +6,11 @@ use crate::certify::CertifiedPath;
 use crate::certify::{Channel, Connectivity, Exploration, Occupancy, Rejection, certify, explore};
 use crate::geometry::Point;
 use crate::model::Problem;
-use crate::plan::{Outcome, Passage, Run, Size, Trace, nearest_end, taut_string};
+use crate::plan::{Outcome, Passage, PathKind, Run, Size, Trace, nearest_end, taut_string};
 use crate::space::{Configuration, Path};
 use std::time::Instant;
 
-/// Answers `problem` by [`explore`]: a path through free boxes, pulled taut; a proof; or neither within
+/// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
 /// [`Effort::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
 pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = &problem.scene;
@@ -24,7 +24,10 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
     let clock = Instant::now();
     let (outcome, verdict) = match exploration.answer {
         Connectivity::Connected(channel) => {
-            let certified = certified(problem, &channel);
+            let certified = match effort.path {
+                Some(PathKind::Own) => certify(scene, channel.path(), clearance),
+                Some(PathKind::Taut) | None => certified(problem, &channel),
+            };
             stages.certify = clock.elapsed();
             match certified {
                 Ok(path) => (Outcome::Found(path.path().clone()), Verdict::Found(path)),
@@ -53,7 +56,17 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
         progress(&format!("{}: {reason}", Method::Subdivision));
     }
     let run = Run { outcome, trace, size, note: None };
-    Answer { method: Method::Subdivision, verdict, bound: None, history: Vec::new(), run, space: Space::Scene, stages }
+    Answer {
+        method: Method::Subdivision,
+        verdict,
+        path: effort.path.unwrap_or(Method::Subdivision.path_kind()),
+        witness: None,
+        bound: None,
+        history: Vec::new(),
+        run,
+        space: Space::Scene,
+        stages,
+    }
 }
 
 /// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the

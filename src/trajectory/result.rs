@@ -95,6 +95,13 @@ pub struct Report {
     /// Of an infeasible problem: boxes of colliding configurations that separate the start from all goals.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<Vec<ProofBox>>,
+    /// Whether there is a path all the same, certified by another method than the one that was asked: `true`, of unknown
+    /// results only, and left out where nothing is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path_exists: Option<bool>,
+    /// Which of the planner's paths it is: `own` or `taut`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path_kind: Option<&'static str>,
     /// Waypoints, straight segments between them: what the motion follows, but for its blends.
     pub path: Option<Vec<[f64; 2]>>,
     /// Joints of which the goal, the tip at a place, takes any value: the path's last waypoint says which was chosen.
@@ -182,6 +189,8 @@ impl Report {
             units: joints.each_ref().map(Joint::unit),
             reason: None,
             proof: None,
+            path_exists: None,
+            path_kind: None,
             path: None,
             free_joints: Vec::new(),
             length: None,

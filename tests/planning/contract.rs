@@ -9,8 +9,8 @@ use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Re
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::plan::{
-    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, Planner, Query, Run, Size, Trace,
-    Trapezoid, Visibility, Wavefront,
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, PathKind, Planner, Query, Run, Size,
+    Trace, Trapezoid, Visibility, Wavefront,
 };
 use cplan::space::{Axis, Configuration, Metric, Path};
 use std::f64::consts::TAU;
@@ -29,22 +29,22 @@ const PLANNERS: [(&str, Plan); 13] = [
         let metric = Metric::Time { speeds: [1.0, 1.5] };
         answered(&Visibility { metric }, &polygons(scene, query), query)
     }),
-    ("trapezoid, taut", |scene, query| answered(&Trapezoid { taut: true }, &polygons(scene, query), query)),
-    ("trapezoid, middles", |scene, query| answered(&Trapezoid { taut: false }, &polygons(scene, query), query)),
+    ("trapezoid, taut", |scene, query| answered(&Trapezoid { path: PathKind::Taut }, &polygons(scene, query), query)),
+    ("trapezoid, middles", |scene, query| answered(&Trapezoid { path: PathKind::Own }, &polygons(scene, query), query)),
     ("wavefront, cells", |scene, query| {
-        answered(&Wavefront { shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &cells(scene), query)
     }),
     ("wavefront, shortcut", |scene, query| answered(&Wavefront::default(), &cells(scene), query)),
     ("wavefront, 8 neighbours", |scene, query| {
         let neighborhood = Neighborhood::Eight;
-        answered(&Wavefront { neighborhood, shortcut: false, ..Wavefront::default() }, &cells(scene), query)
+        answered(&Wavefront { neighborhood, path: PathKind::Own, ..Wavefront::default() }, &cells(scene), query)
     }),
     ("wavefront, A*, 8 neighbours", |scene, query| {
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
-        answered(&Wavefront { search, neighborhood, shortcut: false }, &cells(scene), query)
+        answered(&Wavefront { search, neighborhood, path: PathKind::Own }, &cells(scene), query)
     }),
-    ("harmonic, cells", |scene, query| answered(&Harmonic { shortcut: false }, &cells(scene), query)),
-    ("harmonic, shortcut", |scene, query| answered(&Harmonic::default(), &cells(scene), query)),
+    ("harmonic, cells", |scene, query| answered(&Harmonic { path: PathKind::Own }, &cells(scene), query)),
+    ("harmonic, taut", |scene, query| answered(&Harmonic { path: PathKind::Taut }, &cells(scene), query)),
     ("oriented, relaxed", |scene, query| {
         let direction = Direction::of([1.0, 0.5]).expect("not zero");
         let equation = EquationChoice::Oriented { direction, epsilon: 0.1, difference: Difference::Upwind };
@@ -60,7 +60,7 @@ const PLANNERS: [(&str, Plan); 13] = [
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
     let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
     let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120 };
-    FieldPlanner { field, limits: Limits::High, shortcut: true }
+    FieldPlanner { field, limits: Limits::High, path: PathKind::Taut }
 }
 
 /// Polygons grown by a margin far below the room in the scenes here.

@@ -3,14 +3,14 @@
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
-use cplan::plan::{Outcome, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
+use cplan::plan::{Outcome, PathKind, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean };
-const MIDDLES: Trapezoid = Trapezoid { taut: false };
-const TAUT: Trapezoid = Trapezoid { taut: true };
+const MIDDLES: Trapezoid = Trapezoid { path: PathKind::Own };
+const TAUT: Trapezoid = Trapezoid { path: PathKind::Taut };
 
 fn query(start: (f64, f64), goal: (f64, f64)) -> Query {
     Query { start: configuration(start.0, start.1), goals: configuration(goal.0, goal.1).into() }

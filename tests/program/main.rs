@@ -8,4 +8,5 @@ mod pictures;
 mod search;
 #[cfg(feature = "serve")]
 mod serve;
+mod streamlines;
 mod verify;

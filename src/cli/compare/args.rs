@@ -60,11 +60,12 @@ pub struct CompareArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Only these planners; can be repeated.
+    /// Only these planners; can be repeated. Each row is about the planner's usual path; of those that have two (see --path of
+    /// the main job) length and clearance of both are listed.
     #[arg(long, value_name = "NAME")]
     pub planner: Vec<Method>,
     /// One more row: a planner with options of its own, such as --with "harmonic --field oriented --epsilon 0.5
-    /// --direction 0,-1"; can be repeated.
+    /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.
     #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse)]
     pub with: Vec<Variant>,
     /// Print the results as JSON: of several problems all runs, distributions and the summary.

@@ -93,14 +93,18 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let effort = Effort { bounded: false, ..args.effort.effort() };
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let of = |case: &Case| {
-        let plain = methods.iter().map(|&method| Entry { label: method.to_string(), method, effort });
+        let plain = methods.iter().map(|&method| {
+            let (label, path_kind) = (method.to_string(), method.path_kind());
+            Entry { label, method, path_kind, effort: Effort { path: Some(path_kind), ..effort } }
+        });
         let mut entries: Vec<Entry> = plain.collect();
         for variant in &args.with {
             let preferences = &case.base().scene.workspace.preferences;
             let effort = variant.effort(effort, preferences).map_err(|lack| {
                 Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) })
             })?;
-            entries.push(Entry { label: variant.label.clone(), method: variant.method, effort });
+            let (label, path_kind) = (variant.label.clone(), variant.path_kind());
+            entries.push(Entry { label, method: variant.method, path_kind, effort });
         }
         Ok(entries)
     };

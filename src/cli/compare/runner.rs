@@ -6,7 +6,8 @@ use crate::cli::memory::MemoryMeter;
 use crate::cli::motion::MotionArgs;
 use crate::cli::output;
 use crate::model::Problem;
-use crate::report::{Comparison, Family, Outcome, Row};
+use crate::plan::PathKind;
+use crate::report::{Comparison, Family, OtherPath, Outcome, Row};
 use crate::solve::{Effort, Method, Verdict, bound, solve};
 use crate::space::{Metric, Path};
 use crate::trajectory::{Timed, TimingError};
@@ -21,6 +22,8 @@ pub struct Entry {
     pub label: String,
     /// The planner.
     pub method: Method,
+    /// Which of its paths.
+    pub path_kind: PathKind,
     /// How hard to try.
     pub effort: Effort,
 }
@@ -154,6 +157,7 @@ impl Runner<'_> {
             total: seconds(elapsed),
             memory,
             note: answer.run.note,
+            path_kind: entry.path_kind,
             ..Row::new(entry.label.clone(), Family::from(entry.method), Outcome::Unknown)
         };
         let mut path = None;
@@ -165,6 +169,7 @@ impl Runner<'_> {
                 row.pieces = Some(certified.path().segments().count());
                 row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
                 row.duration = Some(trajectory.duration());
+                row.other_path = self.other_path(&problem, entry)?;
                 path = Some(certified.path().clone());
             }
             Verdict::Infeasible(_) => row.outcome = Outcome::Infeasible,
@@ -172,6 +177,23 @@ impl Runner<'_> {
         }
         self.progress.done();
         Ok((row, path))
+    }
+
+    /// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
+    fn other_path(&self, problem: &Problem, entry: &Entry) -> Result<Option<OtherPath>, TimingError> {
+        if !entry.method.has_own_path() {
+            return Ok(None);
+        }
+        let kind = if entry.path_kind == PathKind::Own { PathKind::Taut } else { PathKind::Own };
+        let effort = Effort { path: Some(kind), ..entry.effort };
+        let Verdict::Found(certified) = solve(problem, entry.method, &effort, &mut |_| {}).verdict else {
+            return Ok(None);
+        };
+        let Timed { curve, .. } = self.motion.drive().along(&problem.scene, &certified, 1.0)?;
+        Ok(Some(OtherPath {
+            length: certified.path().length(),
+            clearance: Some(curve.clearance()).filter(|c| c.is_finite()),
+        }))
     }
 }
 

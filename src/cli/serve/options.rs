@@ -3,6 +3,7 @@
 use crate::cli::args::{EffortArgs, OptimumArgs};
 use crate::cli::field_args::FieldArgs;
 use crate::cli::motion::MotionArgs;
+use crate::cli::path_args::PathArgs;
 use crate::cli::search_args::SearchArgs;
 use crate::model::{Joint, Scene};
 use crate::plan::FieldPlanner;
@@ -31,6 +32,8 @@ struct Grammar {
     #[command(flatten)]
     motion: MotionArgs,
     #[command(flatten)]
+    path: PathArgs,
+    #[command(flatten)]
     search: SearchArgs,
     #[command(flatten)]
     field: FieldArgs,
@@ -50,7 +53,8 @@ impl Options {
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()
         })?;
         let planner = grammar.planner;
-        if let Some(conflict) = grammar.optimum.conflict(planner).or_else(|| grammar.search.conflict(planner)) {
+        let conflict = grammar.optimum.conflict(planner).or_else(|| grammar.search.conflict(planner));
+        if let Some(conflict) = conflict.or_else(|| grammar.path.conflict(planner)) {
             return Err(conflict);
         }
         if grammar.motion.period < SHORTEST_PERIOD {
@@ -90,13 +94,13 @@ impl Options {
     /// # Errors
     /// A field that follows preferences of the world, which has none.
     pub fn effort(&self, scene: &Scene) -> Result<Effort, String> {
-        let Grammar { effort, optimum, search, field, .. } = &self.grammar;
+        let Grammar { effort, optimum, path, search, field, .. } = &self.grammar;
         if let Some(lack) = field.lack(&scene.workspace.preferences) {
             return Err(lack);
         }
         let metric = optimum.metric(scene.arm.joints.each_ref().map(|joint| joint.velocity));
         let (field, wavefront) = (self.field, search.wavefront());
-        Ok(Effort { metric, gap: optimum.gap, field, wavefront, ..effort.effort() })
+        Ok(Effort { metric, gap: optimum.gap, field, path: path.path, wavefront, ..effort.effort() })
     }
 }
 
@@ -118,6 +122,7 @@ mod tests {
             ("fastest", "[possible values: visibility"),
             ("harmonic --gap 0.1", "--gap needs --planner visibility"),
             ("visibility --search astar", "--search needs --planner wavefront"),
+            ("visibility --path own", "--path own is not for visibility"),
             ("visibility --output plan.json", "unexpected argument"),
             ("visibility --help", "unexpected argument"),
             ("visibility --period 1e-6", "at least 0.001 s"),

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Component -> windows in order of falling values (peeling) -> elimination (network) or multigrid (wide) -> Potential
-//!           -> triangles between the cells' centres (streamline)
+//!           -> its slope at the cells' centres (streamline), which field::follow goes along
 //! ```
 
 mod component;
@@ -16,6 +16,6 @@ mod wide;
 pub use component::{Component, Room};
 pub use laplace::{Field, harmonic, residual, rough_harmonic};
 pub use potential::Potential;
-pub use streamline::{Interpolated, LatticePoint, Place, Streamline};
+pub use streamline::{LocalMaximum, Uphill};
 
 use super::{Lattice, Wave};

@@ -1,6 +1,7 @@
-//! Attraction by the goal and repulsion by the nearest obstacle (Khatib 1986): local, cheap, and full of local minima. The
-//! counter-example that harmonic fields cure.
+//! Attraction by the goal and repulsion by the nearest obstacle (Khatib 1986) or by all of them (Faria 2006): local, cheap,
+//! and full of local minima. The counter-example that harmonic fields cure.
 
+use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
 use crate::cspace::Grid;
 use crate::space::Configuration;
@@ -15,18 +16,20 @@ pub enum Attraction {
     Linear(f64),
 }
 
-/// How strongly the nearest obstacle repels at a distance `p`.
+/// How strongly an obstacle repels at a distance `p`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Repulsion {
-    /// Potential `k (1/p - 1/p0)^2 / 2` within the range `p0`, nothing beyond.
+    /// The nearest obstacle: potential `k (1/p - 1/p0)^2 / 2` within the range `p0`, nothing beyond.
     Ranged {
         /// `k`.
         gain: f64,
         /// `p0`, in the units of the joints.
         range: f64,
     },
-    /// Force `Q / p^2` at any distance; potential `Q / p`.
+    /// The nearest obstacle: force `Q / p^2` at any distance; potential `Q / p`.
     InverseSquare(f64),
+    /// Every obstacle cell: force `Q / p^2`, `p` in cells.
+    Sum(f64),
 }
 
 /// The two laws.
@@ -69,7 +72,7 @@ impl Repulsion {
         match self {
             Self::Ranged { range, .. } if p >= range => 0.0,
             Self::Ranged { gain, range } => 0.5 * gain * (1.0 / p - 1.0 / range).powi(2),
-            Self::InverseSquare(charge) => charge / p,
+            Self::InverseSquare(charge) | Self::Sum(charge) => charge / p,
         }
     }
 
@@ -79,7 +82,7 @@ impl Repulsion {
         match self {
             Self::Ranged { range, .. } if p >= range => 0.0,
             Self::Ranged { gain, range } => gain * (1.0 / p - 1.0 / range) / (p * p),
-            Self::InverseSquare(charge) => charge / (p * p),
+            Self::InverseSquare(charge) | Self::Sum(charge) => charge / (p * p),
         }
     }
 }
@@ -100,6 +103,7 @@ impl fmt::Display for Repulsion {
         match self {
             Self::Ranged { gain, range } => write!(f, "ranged:{gain},{range}"),
             Self::InverseSquare(charge) => write!(f, "inverse-square:{charge}"),
+            Self::Sum(charge) => write!(f, "sum:{charge}"),
         }
     }
 }
@@ -110,7 +114,16 @@ pub struct ForceField<'a> {
     grid: &'a Grid,
     laws: Khatib,
     goals: Vec<Configuration>,
-    nearest: Vec<[f64; 2]>,
+    obstacles: Obstacles,
+}
+
+/// What repels, for every cell.
+#[derive(Debug, Clone)]
+enum Obstacles {
+    /// Displacements to the nearest.
+    Nearest(Vec<[f64; 2]>),
+    /// All together.
+    Sum(Charges),
 }
 
 /// Where all ways are worse.
@@ -125,31 +138,62 @@ pub struct Trap {
 }
 
 impl<'a> ForceField<'a> {
-    /// Linear in the number of cells. There must be a goal.
+    /// Linear in the number of cells, of [`Repulsion::Sum`] times a logarithm. There must be a goal.
     #[must_use]
     pub fn new(grid: &'a Grid, laws: Khatib, goals: &[Configuration], limits: Limits) -> Self {
-        Self { grid, laws, goals: goals.to_vec(), nearest: nearest_obstacles(grid, limits) }
+        let obstacles = match laws.repulsion {
+            Repulsion::Sum(_) => Obstacles::Sum(Charges::new(grid, limits)),
+            Repulsion::Ranged { .. } | Repulsion::InverseSquare(_) => {
+                Obstacles::Nearest(nearest_obstacles(grid, limits))
+            }
+        };
+        Self { grid, laws, goals: goals.to_vec(), obstacles }
     }
 
     /// The potential in a free cell; of saturated forces the one that they would have if they were not.
     #[must_use]
     pub fn potential(&self, cell: usize) -> f64 {
-        let [a, b] = self.nearest[cell];
-        self.laws.attraction.potential(self.to_goal(cell).norm()) + self.laws.repulsion.potential(a.hypot(b))
+        let Khatib { attraction, repulsion, .. } = self.laws;
+        let push = match &self.obstacles {
+            Obstacles::Nearest(nearest) => repulsion.potential(nearest[cell][0].hypot(nearest[cell][1])),
+            // Its slope is the force, which counts distances in cells.
+            Obstacles::Sum(charges) => repulsion.potential(1.0) * charges.potential[cell] * self.side(),
+        };
+        attraction.potential(self.to_goal(cell).norm()) + push
     }
 
     /// The force in a free cell.
     #[must_use]
     pub fn force(&self, cell: usize) -> [f64; 2] {
-        let saturate = |force: f64| if self.laws.saturated { force.tanh() } else { force };
+        let Khatib { attraction, repulsion, saturated } = self.laws;
+        let saturate = |force: f64| if saturated { force.tanh() } else { force };
         let to_goal = self.to_goal(cell);
         let d = to_goal.norm();
-        let attraction = if d > 0.0 { self.laws.attraction.force(d) / d } else { 0.0 };
-        let [a, b] = self.nearest[cell];
-        let p = a.hypot(b);
-        let repulsion = if p.is_finite() { self.laws.repulsion.force(p) / p } else { 0.0 };
-        let away = if p.is_finite() { [-a, -b] } else { [0.0; 2] };
-        [0, 1].map(|k| saturate(attraction * to_goal[k]) + saturate(repulsion * away[k]))
+        let pull = if d > 0.0 { attraction.force(d) / d } else { 0.0 };
+        let push = match &self.obstacles {
+            Obstacles::Nearest(nearest) => {
+                let p = nearest[cell][0].hypot(nearest[cell][1]);
+                nearest[cell].map(|x| if p.is_finite() { -x * repulsion.force(p) / p } else { 0.0 })
+            }
+            Obstacles::Sum(charges) => charges.force[cell].map(|x| repulsion.force(1.0) * x),
+        };
+        [0, 1].map(|k| saturate(pull * to_goal[k]) + saturate(push[k]))
+    }
+
+    /// Side of a square of a cell's area.
+    fn side(&self) -> f64 {
+        let [a, b] = self.grid.step();
+        (a * b).sqrt()
+    }
+
+    /// Side lengths of a cell.
+    pub(super) fn step(&self) -> [f64; 2] {
+        self.grid.step()
+    }
+
+    /// Whether the forces have no potential.
+    pub(super) fn is_saturated(&self) -> bool {
+        self.laws.saturated
     }
 
     /// Goes from cell to cell until it is in one of `targets`: to the neighbour with the lowest potential among eight,
@@ -163,15 +207,18 @@ impl<'a> ForceField<'a> {
         let mut cells = vec![from];
         let mut at = from;
         while !targets.contains(&at) {
-            at = if self.laws.saturated {
+            if self.laws.saturated {
                 visited[at] = true;
-                self.along_force(at, &visited)?
-            } else {
-                self.lower(at)?
-            };
+            }
+            at = self.next(at, |cell| visited[cell])?;
             cells.push(at);
         }
         Ok(cells)
+    }
+
+    /// The cell to go to from another; with saturated forces none that was visited.
+    pub(super) fn next(&self, at: usize, visited: impl Fn(usize) -> bool) -> Result<usize, Trap> {
+        if self.laws.saturated { self.along_force(at, visited) } else { self.lower(at) }
     }
 
     fn lower(&self, at: usize) -> Result<usize, Trap> {
@@ -183,7 +230,7 @@ impl<'a> ForceField<'a> {
         if best.1 == at { Err(Trap { cell: at, value, minimum: true }) } else { Ok(best.1) }
     }
 
-    fn along_force(&self, at: usize, visited: &[bool]) -> Result<usize, Trap> {
+    fn along_force(&self, at: usize, visited: impl Fn(usize) -> bool) -> Result<usize, Trap> {
         let force = self.force(at);
         let part = |d: [f64; 2]| (force[0] * d[0] + force[1] * d[1]) / d[0].hypot(d[1]);
         let best = self
@@ -191,7 +238,7 @@ impl<'a> ForceField<'a> {
             .map(|(next, d)| (part(d), next))
             .fold((0.0, at), |best, next| if next.0 > best.0 { next } else { best });
         let trap = Trap { cell: at, value: force[0].hypot(force[1]), minimum: false };
-        if best.1 == at || visited[best.1] { Err(trap) } else { Ok(best.1) }
+        if best.1 == at || visited(best.1) { Err(trap) } else { Ok(best.1) }
     }
 
     /// The shortest displacement to a goal.

@@ -9,7 +9,7 @@ mod stencil;
 mod stopping;
 mod sweeps;
 
-pub use descent::{Stuck, descend};
+pub use descent::{Slope, Stuck, descend};
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};

@@ -10,6 +10,7 @@ mod inputs;
 mod many_corners;
 mod mazes;
 mod narrow;
+mod path_kind;
 mod proof_sizes;
 mod results;
 mod tasks;

@@ -6,6 +6,7 @@ const OPTIONS = {
   '--gap': { label: 'proven within', planners: ['visibility'], values: { '': 'as it comes', 0.01: '1 %', 0.001: '0.1 %', 0.0001: '0.01 %' } },
   '--metric': { label: 'short means', planners: ['visibility'], values: { '': 'length', time: 'travel time' } },
   '--cells': { label: 'cells', planners: ['wavefront', 'harmonic'], values: { 64: '64', 128: '128', '': '256', 512: '512', 1024: '1024' } },
+  '--path': { label: 'path', planners: ['trapezoid', 'wavefront', 'harmonic', 'subdivision'], values: { '': "planner's default", own: 'its own', taut: 'pulled taut' } },
   '--search': { label: 'search', planners: ['wavefront'], values: { '': 'wave', bfs: 'bfs', dfs: 'dfs', dijkstra: 'dijkstra', astar: 'A*' } },
   '--neighbors': { label: 'neighbours', planners: ['wavefront'], values: { '': '4', 8: '8' } },
 };

@@ -1,0 +1,34 @@
+//! Which of a planner's two paths is wanted.
+
+use std::fmt;
+
+/// A path of a planner that has two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PathKind {
+    /// The planner's own: along the gradient of a field, from cell to cell of a wavefront, through the middles of doors
+    /// between the cells of a decomposition.
+    Own,
+    /// That one pulled taut as far as the planner's cells allow: shorter and nearer to obstacles, and no longer what the
+    /// planner's method says of its path.
+    Taut,
+}
+
+impl PathKind {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Own, Self::Taut];
+
+    /// Name on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Own => "own",
+            Self::Taut => "taut",
+        }
+    }
+}
+
+impl fmt::Display for PathKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}

@@ -1,0 +1,133 @@
+//! Repulsion by all obstacle cells together, and figure 3.4 of the sources: four times the charge cures a trap, then keeps
+//! the robot from the goal.
+
+use cplan::cspace::{Grid, Proves, ZonedGrid};
+use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
+use cplan::model::{Scene, Workspace};
+use cplan::plan::{FieldChoice, FieldPlanner, Outcome, PathKind, Planner, Query};
+use cplan::space::{Axis, Configuration, Topology};
+use proptest::prelude::*;
+
+const SUM: Repulsion = Repulsion::Sum(1.0);
+
+fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
+    let axis = |k: usize| match circles[k] {
+        true => Axis::Circle,
+        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 * [1.0, 2.5][k] },
+    };
+    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// Term by term: the short way round circles, with a frame of one cell beyond high limits.
+    #[test]
+    fn the_sum_is_that_over_all_obstacle_cells(
+        (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {
+            (Just(rows), Just(columns), proptest::collection::vec(proptest::bool::weighted(0.3), rows * columns))
+        }),
+        circles in any::<[bool; 2]>(),
+        high in any::<bool>(),
+    ) {
+        let grid = grid([rows, columns], circles, blocked);
+        let limits = if high { Limits::High } else { Limits::Reflecting };
+        let laws = Khatib { attraction: Attraction::Constant(1e-9), repulsion: SUM, saturated: false };
+        let field = ForceField::new(&grid, laws, &[grid.center(0)], limits);
+        let step = grid.step();
+        let side = (step[0] * step[1]).sqrt();
+        let n = [rows as i64, columns as i64];
+        for cell in 0..grid.blocked.len() {
+            let at = [(cell / columns) as i64, (cell % columns) as i64];
+            let (mut potential, mut force) = (0.0, [0.0; 2]);
+            for i in -1..=n[0] {
+                for j in -1..=n[1] {
+                    let there = [i, j];
+                    let inside = [0, 1].map(|k| (0..n[k]).contains(&there[k]));
+                    let is_solid = match inside {
+                        [true, true] => grid.blocked[(i * n[1] + j) as usize],
+                        _ => high && (0..2).all(|k| inside[k] || !circles[k]),
+                    };
+                    let mut d = [0, 1].map(|k| (at[k] - there[k]) as f64);
+                    let mut away = d;
+                    for k in 0..2 {
+                        if circles[k] {
+                            let m = n[k] as f64;
+                            let short = [d[k] - m, d[k], d[k] + m].into_iter().min_by(|a, b| a.abs().total_cmp(&b.abs()));
+                            d[k] = short.unwrap();
+                            away[k] = if 2.0 * d[k].abs() == m { 0.0 } else { d[k] };
+                        }
+                    }
+                    let [d, away] = [d, away].map(|d| [0, 1].map(|k| d[k] * step[k] / side));
+                    let p = d[0].hypot(d[1]);
+                    if is_solid && p > 0.0 {
+                        potential += side / p;
+                        force = [0, 1].map(|k| force[k] + away[k] / p.powi(3));
+                    }
+                }
+            }
+            prop_assert!((field.potential(cell) - potential).abs() < 1e-6 * (1.0 + potential));
+            let found = field.force(cell);
+            prop_assert!((0..2).all(|k| (found[k] - force[k]).abs() < 1e-7 * (1.0 + potential)), "{found:?} {force:?}");
+        }
+    }
+}
+
+/// A room with walls, a trap that opens towards the start, and a goal between two blocks.
+fn room(gap: &str) -> (ZonedGrid, Query) {
+    let mut rows: Vec<String> = vec![".".repeat(44); 40];
+    for (i, row) in rows.iter_mut().enumerate() {
+        if (8..17).contains(&i) {
+            // Side walls of the trap, and its bottom.
+            let wall = if i == 16 { "######" } else { "#....#" };
+            row.replace_range(19..25, wall);
+        }
+        if (33..38).contains(&i) {
+            row.replace_range(14..30, gap);
+        }
+    }
+    let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
+    let axis = |upper: f64| Axis::Interval { lower: 0.0, upper };
+    let topology = Topology { axes: [axis(40.0), axis(44.0)] };
+    let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
+    let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
+    let scene = Scene::new(crate::common::rr([axis(3.0), axis(3.0)]), workspace);
+    let query = Query { start: Configuration::new(3.5, 19.75), goals: Configuration::new(35.5, 22.5).into() };
+    (ZonedGrid::new(grid, &scene), query)
+}
+
+fn outcome(charge: f64, gap: &str) -> Outcome {
+    let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
+    let planner = FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::High, path: PathKind::Own };
+    let (space, query) = room(gap);
+    planner.query(&space, &(), &query).outcome
+}
+
+/// Between the side walls.
+fn is_in_trap([i, j]: [f64; 2]) -> bool {
+    (8.0..16.0).contains(&i) && (20.0..24.0).contains(&j)
+}
+
+fn trapped_at(outcome: &Outcome) -> [f64; 2] {
+    let Outcome::GaveUp(reason) = outcome else { panic!("{outcome:?}") };
+    let (_, rest) = reason.split_once("local minimum at (").unwrap_or_else(|| panic!("{reason}"));
+    let (at, _) = rest.split_once(')').unwrap();
+    let numbers: Vec<f64> = at.split(", ").map(|x| x.parse().unwrap()).collect();
+    [numbers[0], numbers[1]]
+}
+
+#[test]
+fn four_times_the_charge_cures_the_trap_and_then_keeps_the_robot_from_the_goal() {
+    const OPEN: &str = "................";
+    const NARROW: &str = "#######..#######";
+    let q = 0.8;
+    // Attraction leads into the trap, whose bottom holds it back.
+    let [i, j] = trapped_at(&outcome(q, OPEN));
+    assert!(is_in_trap([i, j]), "({i}, {j}) is not in the trap");
+    // Four times as strong, its walls keep the robot out.
+    let Outcome::Found(path) = outcome(4.0 * q, OPEN) else { panic!("{:?}", outcome(4.0 * q, OPEN)) };
+    assert!(!path.waypoints().iter().any(|q| is_in_trap([q[0], q[1]])));
+    // But where the goal lies between obstacles, they hide it.
+    let [i, j] = trapped_at(&outcome(4.0 * q, NARROW));
+    assert!(!is_in_trap([i, j]) && (i - 35.5).hypot(j - 22.5) > 2.0, "({i}, {j}) is in the trap, or at the goal");
+}

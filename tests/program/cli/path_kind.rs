@@ -1,0 +1,109 @@
+//! `--path own|taut`, and answers where a planner's space does not show the path that there is.
+
+use super::{FREE, Place, shelf, shipped};
+use serde_json::{Value, json};
+
+#[test]
+fn planners_with_two_paths_give_the_one_that_is_asked_for() {
+    let place = Place::new();
+    let run = |options: &str| {
+        let done = place.run(&shelf(), &format!("{options} --cells 64 --json"));
+        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        done.json()
+    };
+    for (planner, usual) in [("trapezoid", "taut"), ("wavefront", "taut"), ("harmonic", "own"), ("subdivision", "taut")]
+    {
+        let [plain, own, taut] =
+            ["", "--path own", "--path taut"].map(|path| run(&format!("--planner {planner} {path}")));
+        assert_eq!([&own["path_kind"], &taut["path_kind"]], [&json!("own"), &json!("taut")], "{planner}");
+        assert_eq!(plain["path"], if usual == "own" { &own } else { &taut }["path"], "{planner}");
+        assert_eq!(plain["path_kind"], json!(usual), "{planner}");
+        let length = |result: &Value| result["length"].as_f64().unwrap();
+        assert!(length(&own) > 1.02 * length(&taut), "{planner}: {} and {}", length(&own), length(&taut));
+    }
+    let staircase = run("--planner wavefront --path own");
+    let path = staircase["path"].as_array().unwrap();
+    let straight =
+        |pair: &[Value]| (0..2).any(|k| (pair[0][k].as_f64().unwrap() - pair[1][k].as_f64().unwrap()).abs() < 1e-9);
+    // All but the pieces from the start to the first cell, and from the last one to the goal.
+    assert!(path[1..path.len() - 1].windows(2).all(straight), "a step that is not along a joint");
+    let visibility = run("--planner visibility --path taut");
+    assert_eq!(visibility["path_kind"], "taut");
+    assert_eq!(visibility["path"], run("")["path"]);
+}
+
+#[test]
+fn a_visibility_graph_has_no_other_path() {
+    let place = Place::new();
+    place.run(&["no.urdf", "no.toml"], "--path own").refused(2, &["--path own is not for visibility", "taut as it is"]);
+    place.run(&["no.urdf", "no.toml"], "--path straight").refused(2, &["own, taut"]);
+    let compare = ["compare", "no.urdf", "no.toml", "--with", "visibility --path own"];
+    let done = place.command().args(compare).output().unwrap();
+    assert_eq!(done.status.code(), Some(2));
+    assert!(String::from_utf8(done.stderr).unwrap().contains("--path own is not for visibility"));
+}
+
+#[test]
+fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_doors() {
+    let place = Place::new();
+    let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [1.3, 0.2], radius = 0.2 }}\n");
+    let done = place.plan(world, "--planner trapezoid --path own --json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let path = done.json()["path"].as_array().unwrap().len();
+    // Start, then a door and a centre in turn, a door, goal.
+    assert!(path >= 3 && path % 2 == 1, "{path} waypoints");
+}
+
+#[test]
+fn compare_lists_both_paths_of_each_planner() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let done = place.run(&["compare", &urdf, &world], "--cells 48 --json --quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let json = done.json();
+    let rows = json["planners"].as_array().unwrap();
+    let names: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
+    assert_eq!(names, ["visibility", "trapezoid", "wavefront", "harmonic", "subdivision"]);
+    assert!(rows[0]["paths"].is_null(), "{}", rows[0]);
+    for row in &rows[1..] {
+        let of = |kind: &str, key: &str| row["paths"][kind][key].as_f64().unwrap();
+        assert!(of("own", "length") > of("taut", "length"), "{row}");
+        let kind = row["path_kind"].as_str().unwrap();
+        assert_eq!(
+            (&row["length"], &row["clearance"]),
+            (&row["paths"][kind]["length"], &row["paths"][kind]["clearance"])
+        );
+        if row["planner"] == "harmonic" {
+            assert!(kind == "own" && of("own", "clearance") > 2.0 * of("taut", "clearance"), "{row}");
+        }
+    }
+    let table = place.run(&["compare", &urdf, &world], "--cells 48 --quiet").stdout;
+    for column in ["own [rad]", "own [mm]", "taut [rad]", "taut [mm]"] {
+        assert!(table.contains(column), "{column} is not in {table}");
+    }
+    let with = ["--with", "trapezoid --path own", "--planner", "trapezoid", "--json", "--quiet"];
+    let two = place.command().args(["compare", &urdf, &world]).args(with).output().unwrap();
+    let two: Value = serde_json::from_slice(&two.stdout).unwrap();
+    assert_eq!((two["planners"].as_array().unwrap().len(), &two["planners"][1]["path_kind"]), (2, &json!("own")));
+}
+
+/// Cells too coarse for a slot that an arm passes: the answer tells that there is a path, and is still no path.
+#[test]
+fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
+    let place = Place::new();
+    for planner in ["wavefront", "harmonic"] {
+        let on = |world: &str| {
+            let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
+            place.run(&files, &format!("--planner {planner} --cells 16 --levels 1 --json"))
+        };
+        let open = on("workspaces/narrow_slot.toml");
+        assert_eq!(open.code, 4, "{planner}: {}", open.stderr);
+        let json = open.json();
+        assert_eq!((&json["status"], &json["path_exists"]), (&json!("unknown"), &json!(true)), "{planner}");
+        assert!(json["path"].is_null() && json["certified"] == false);
+        let reason = json["reason"].as_str().unwrap();
+        assert!(reason.starts_with("there is a path (certified by subdivision)"), "{reason}");
+        let closed = on("workspaces/singular_closed.toml");
+        assert_eq!((closed.code, &closed.json()["status"]), (3, &json!("infeasible")), "{planner}: {}", closed.stderr);
+    }
+}

@@ -1,0 +1,273 @@
+//! The paths of fields are the fields': through the program, against an equation solved here on cells of its own.
+
+use cplan::input::{Overrides, load};
+use cplan::model::Scene;
+use cplan::space::Configuration;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+/// A file of the repository.
+fn shipped(file: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+/// The result of the program on a world, which has to be found.
+fn planned(robot: &str, world: &str, options: &str) -> Value {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
+    command.args([&shipped(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
+    let output = command.output().unwrap();
+    let code = output.status.code();
+    assert_eq!(code, Some(0), "{world} {options}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn waypoints(result: &Value) -> Vec<[f64; 2]> {
+    let pair = |q: &Value| [0, 1].map(|k| q[k].as_f64().unwrap());
+    result["path"].as_array().unwrap().iter().map(pair).collect()
+}
+
+/// Places along a path, so far apart, each with the direction there.
+fn along(path: &[[f64; 2]], apart: f64) -> Vec<([f64; 2], [f64; 2])> {
+    let mut places = Vec::new();
+    for piece in path.windows(2) {
+        let d = [piece[1][0] - piece[0][0], piece[1][1] - piece[0][1]];
+        let length = d[0].hypot(d[1]);
+        let n = (length / apart).ceil().max(1.0);
+        for k in 0..n as usize {
+            let t = (k as f64 + 0.5) / n;
+            places.push(([0, 1].map(|i| piece[0][i] + t * d[i]), d.map(|x| x / length)));
+        }
+    }
+    places
+}
+
+/// Angle between two vectors, degrees.
+fn angle(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1]).abs().to_degrees()
+}
+
+/// The configuration space as square cells, and Laplace's equation on them: free where the arm at the cell's centre touches
+/// nothing.
+struct Oracle<'a> {
+    scene: &'a Scene,
+    cells: [usize; 2],
+    step: [f64; 2],
+    /// 0 where blocked.
+    values: Vec<f64>,
+}
+
+impl<'a> Oracle<'a> {
+    /// With about `n x n` cells.
+    fn new(scene: &'a Scene, goal: Configuration, n: f64) -> Self {
+        let extents = scene.arm.topology().axes.map(|axis| axis.extent());
+        let side = (extents[0] * extents[1]).sqrt() / n;
+        let cells = extents.map(|extent| (extent / side).round() as usize);
+        let step = [0, 1].map(|k| extents[k] / cells[k] as f64);
+        let mut oracle = Self { scene, cells, step, values: vec![0.0; cells[0] * cells[1]] };
+        let center = |cell: usize| {
+            let at = [cell / cells[1], cell % cells[1]];
+            let [a, b] = [0, 1].map(|k| scene.arm.topology().axes[k].domain().0 + (at[k] as f64 + 0.5) * step[k]);
+            Configuration::new(a, b)
+        };
+        let free: Vec<usize> = (0..oracle.values.len()).filter(|&cell| scene.clearance(center(cell)) > 0.0).collect();
+        let nearest = |a: &&usize, b: &&usize| {
+            let apart = |cell: usize| scene.arm.topology().distance(center(cell), goal);
+            apart(**a).total_cmp(&apart(**b))
+        };
+        let source = *free.iter().min_by(nearest).unwrap();
+        oracle.values[source] = 1.0;
+        // Over-relaxation, row by row and back, until no value changes by more than a millionth of itself.
+        let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.around(cell)).collect();
+        for sweep in 0..4000 {
+            let mut change = 0.0_f64;
+            let mut relax = |cell: usize| {
+                if cell != source {
+                    let value = |next: Option<usize>| next.map_or(0.0, |next| oracle.values[next]);
+                    let mean = neighbors[cell].map(value).iter().sum::<f64>() / 4.0;
+                    let new = (oracle.values[cell] + 1.8 * (mean - oracle.values[cell])).max(0.0);
+                    change = change.max((new - oracle.values[cell]).abs() / new.max(1e-300));
+                    oracle.values[cell] = new;
+                }
+            };
+            if sweep % 2 == 0 {
+                free.iter().for_each(|&cell| relax(cell))
+            } else {
+                free.iter().rev().for_each(|&cell| relax(cell))
+            }
+            if change < 1e-6 {
+                return oracle;
+            }
+        }
+        panic!("the oracle does not converge");
+    }
+
+    fn around(&self, cell: usize) -> [Option<usize>; 4] {
+        let at = [cell / self.cells[1], cell % self.cells[1]].map(|x| x as i64);
+        [[-1, 0], [1, 0], [0, -1], [0, 1]].map(|d| self.cell([at[0] + d[0], at[1] + d[1]]))
+    }
+
+    fn cell(&self, at: [i64; 2]) -> Option<usize> {
+        let on = |k: usize| {
+            let n = self.cells[k] as i64;
+            let i = if self.scene.arm.topology().axes[k].is_circle() { at[k].rem_euclid(n) } else { at[k] };
+            usize::try_from(i).ok().filter(|&i| i < self.cells[k])
+        };
+        Some(on(0)? * self.cells[1] + on(1)?)
+    }
+
+    /// The direction of the gradient of the bilinear interpolation of central differences; none beside obstacles.
+    fn gradient(&self, q: [f64; 2]) -> Option<[f64; 2]> {
+        let at = [0, 1].map(|k| (q[k] - self.scene.arm.topology().axes[k].domain().0) / self.step[k] - 0.5);
+        let least = at.map(|x| x.floor() as i64);
+        let mut sum = [0.0; 2];
+        for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let part = |k: usize, up: i64| {
+                let x = at[k] - least[k] as f64;
+                if up == 1 { x } else { 1.0 - x }
+            };
+            let cell = self.cell([least[0] + i, least[1] + j])?;
+            let weight = part(0, i) * part(1, j) / self.values[cell];
+            let [down, up, left, right] = self.around(cell).map(|next| next.map_or(0.0, |next| self.values[next]));
+            let slope = [(up - down) / self.step[0], (right - left) / self.step[1]];
+            sum = [0, 1].map(|k| sum[k] + weight * slope[k]);
+        }
+        sum.iter().all(|x| x.is_finite()).then_some(sum)
+    }
+
+    /// Median angle between a path and the gradient, but for the last cells before the goal.
+    fn median_angle(&self, path: &[[f64; 2]]) -> f64 {
+        let end = path[path.len() - 1];
+        let far = |q: [f64; 2]| (q[0] - end[0]).hypot(q[1] - end[1]) > 3.0 * self.step[0];
+        let places = along(path, 0.5 * self.step[0]);
+        let all = places.len();
+        let mut angles: Vec<f64> = places
+            .into_iter()
+            .filter(|(q, _)| far(*q))
+            .filter_map(|(q, direction)| Some(angle(direction, self.gradient(q)?)))
+            .collect();
+        assert!(2 * angles.len() > all, "only {} of {all} places have a gradient", angles.len());
+        angles.sort_by(f64::total_cmp);
+        angles[angles.len() / 2]
+    }
+}
+
+/// Worlds of different kinds: two turning joints with limits, without, a gantry, turning and sliding.
+const WORLDS: [(&str, &str); 5] = [
+    ("robots/planar_2r.urdf", "workspaces/shelf.toml"),
+    ("robots/planar_2r.urdf", "workspaces/u_trap.toml"),
+    ("robots/gantry.urdf", "workspaces/gantry_maze.toml"),
+    ("robots/polar.urdf", "workspaces/polar_gate.toml"),
+    ("robots/planar_2r_continuous.urdf", "workspaces/torus_open.toml"),
+];
+
+#[test]
+fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
+    for (robot, world) in WORLDS {
+        let problem = load(shipped(robot).as_ref(), shipped(world).as_ref(), &Overrides::default()).unwrap().problem;
+        let own = planned(robot, &shipped(world), "");
+        assert_eq!(own["path_kind"], "own");
+        let path = waypoints(&own);
+        let end = path[path.len() - 1];
+        let oracle = Oracle::new(&problem.scene, Configuration::new(end[0], end[1]), 160.0);
+        let median = oracle.median_angle(&path);
+        assert!(median <= 5.0, "{world}: {median} degrees off the gradient");
+        let relaxed = planned(robot, &shipped(world), "--relaxation sor --levels 1");
+        let median = oracle.median_angle(&waypoints(&relaxed));
+        assert!(median <= 5.0, "{world}, relaxed: {median} degrees off the gradient");
+        if world.contains("shelf") {
+            // What a string pulled through the same cells is worth.
+            let taut = planned(robot, &shipped(world), "--path taut");
+            assert_eq!(taut["path_kind"], "taut");
+            let median = oracle.median_angle(&waypoints(&taut));
+            assert!(median > 20.0, "{median} degrees: the measure tells no difference");
+        }
+    }
+}
+
+/// A room of 2 m x 1.5 m without obstacles.
+fn room(place: &tempfile::TempDir, start: [f64; 2], goal: [f64; 2], rest: &str) -> String {
+    let file = place.path().join("room.toml");
+    let text = format!("[start]\njoints = {start:?}\n[goal]\njoints = {goal:?}\n{rest}");
+    std::fs::write(&file, text).unwrap();
+    file.display().to_string()
+}
+
+const GANTRY: &str = "robots/gantry.urdf";
+
+#[test]
+fn in_an_empty_room_a_drift_decides_from_where_the_goal_is_reached() {
+    let place = tempfile::tempdir().unwrap();
+    let goal = [1.0, 0.75];
+    for k in 0..8 {
+        let angle_of = f64::from(k) * std::f64::consts::FRAC_PI_4;
+        let (sin, cos) = angle_of.sin_cos();
+        // From the side: straight on the goal would be reached 80 degrees off.
+        let (aside, ahead) = (angle_of + 100_f64.to_radians()).sin_cos();
+        let world = room(&place, [goal[0] + 0.5 * ahead, goal[1] + 0.5 * aside], goal, "");
+        let options = format!("--cells 96 --field oriented --epsilon 1 --direction {cos},{sin}");
+        let path = waypoints(&planned(GANTRY, &world, &options));
+        // The last piece, and the way from where it is within two cells.
+        let far = |q: &[f64; 2]| (q[0] - goal[0]).hypot(q[1] - goal[1]) > 2.0 * 0.018;
+        let within = along(&path, 1e-3).into_iter().rev().find(|(q, _)| far(q)).unwrap().0;
+        for from in [path[path.len() - 2], within] {
+            let off = angle([goal[0] - from[0], goal[1] - from[1]], [cos, sin]);
+            assert!(off <= 10.0, "direction ({cos:.2}, {sin:.2}): {off} degrees off from {from:?}");
+        }
+    }
+}
+
+/// Figure 3.7 of the sources.
+#[test]
+fn the_path_bends_the_more_the_greater_epsilon_is() {
+    let place = tempfile::tempdir().unwrap();
+    let world = room(&place, [0.5, 0.9], [1.5, 0.9], "");
+    let mut before = -1.0;
+    for epsilon in [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5] {
+        let options = format!("--cells 64 --field oriented --epsilon {epsilon} --direction 0,1");
+        let path = waypoints(&planned(GANTRY, &world, &options));
+        let bend = path.iter().map(|q| 0.9 - q[1]).fold(0.0, f64::max);
+        assert!(bend > before + if epsilon > 0.0 { 1e-3 } else { 0.0 }, "epsilon {epsilon}: {bend} after {before}");
+        before = bend;
+    }
+    assert!(before > 0.1, "{before}");
+}
+
+#[test]
+fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
+    let place = tempfile::tempdir().unwrap();
+    for field in ["bvp", "bvp2"] {
+        let shares: Vec<f64> = [-1.0, -0.5, 0.0, 0.5]
+            .into_iter()
+            .map(|epsilon: f64| {
+                let block = "[[obstacle]]\nname = \"block\"\npolygon = [[0.8, 0.55], [1.2, 0.55], [1.2, 0.95], [0.8, 0.95]]\nheight = [0.0, 0.3]\n";
+                let region = format!(
+                    "{block}[[preference]]\nname = \"above\"\nepsilon = {epsilon}\nconfigurations = [[0.5, 0.75], [1.5, 0.75], [1.5, 1.5], [0.5, 1.5]]\n"
+                );
+                let world = room(&place, [0.2, 0.78], [1.8, 0.75], &region);
+                let path = waypoints(&planned(GANTRY, &world, &format!("--cells 64 --field {field}")));
+                let places = along(&path, 0.005);
+                let inside = places.iter().filter(|(q, _)| (0.5..1.5).contains(&q[0]) && q[1] > 0.75).count();
+                inside as f64 / places.len() as f64
+            })
+            .collect();
+        assert!(shares.windows(2).all(|pair| pair[1] < pair[0] - 0.01), "{field}: {shares:?}");
+        assert!(shares[3] < 0.05, "{field}: {shares:?}");
+    }
+}
+
+/// A curve of many pieces is driven like a curve: no stop at its corners.
+#[test]
+fn the_motion_along_a_streamline_takes_no_many_times_that_along_a_string() {
+    for (robot, world) in WORLDS {
+        let [own, taut] =
+            ["own", "taut"].map(|kind| planned(robot, &shipped(world), &format!("--cells 96 --path {kind}")));
+        let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
+        let slower = number(&own, "duration") / number(&taut, "duration");
+        let longer = number(&own, "length") / number(&taut, "length");
+        assert!(slower < 1.6 * longer, "{world}: {slower} times the time, {longer} times the length");
+        let corners = own["path"].as_array().unwrap().len() - 2;
+        assert!(own["blends"]["count"].as_u64().unwrap() as usize >= corners * 9 / 10, "{world}: {}", own["blends"]);
+        assert!(number(&own, "clearance") > number(&taut, "clearance"), "{world}");
+    }
+}
