@@ -96,8 +96,8 @@ pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize],
 }
 
 /// How far a path may be off the curve along the field, in cells. Where the curve's radius is `r` cells, pieces are some
-/// `sqrt(r / 6)` cells long, and none deviates from the curve's direction by more than `1 / sqrt(6 r)`.
-const OFF_THE_CURVE: f64 = 0.02;
+/// `sqrt(r / 2.5)` cells long, and none deviates from the curve's direction by more than `1 / sqrt(10 r)`.
+const OFF_THE_CURVE: f64 = 0.05;
 
 /// The field knows the goal's cell, not where in it the goal is. Along so many cells before it the path goes over from the
 /// curve to the centre of that cell to one to the goal, so that it arrives in the curve's direction.
