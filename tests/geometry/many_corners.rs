@@ -1,7 +1,6 @@
 //! Polygons with more corners than anybody draws by hand: what they are cut into, against integer arithmetic and the polygon
 //! itself, and which sides of a broken one are named, against looking at all pairs.
 
-use crate::common::random::cases;
 use crate::lattice::{Corner, cross, meet, points};
 use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonDefect, SimplePolygon, decompose};
 use proptest::prelude::*;
@@ -108,7 +107,7 @@ fn first_meeting(ring: &[Corner]) -> Option<(usize, usize)> {
 }
 
 proptest! {
-    #![proptest_config(cases(2000))]
+    #![proptest_config(crate::common::random::cases(2000))]
 
     #[test]
     fn of_sides_that_meet_the_first_of_the_list_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {
