@@ -196,7 +196,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
     let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);
     let Basis { u, v, normal } = &findings.plane;
     line("plane", format!("u = {}, v = {}, heights along {}; root frame", axis(*u), axis(*v), axis(*normal)));
-    loaded.robot.notes.iter().for_each(|note| line("", note.clone()));
+    loaded.robot.notes.iter().chain(&loaded.world.notes).for_each(|note| line("", note.clone()));
     line("at", configuration(arm, q));
     line("tip", format!("({:.4}, {:.4}) m", findings.tip[0], findings.tip[1]));
     for (k, joint) in arm.joints.iter().enumerate() {

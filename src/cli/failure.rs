@@ -30,12 +30,20 @@ pub enum Failure {
     /// What an option asks for cannot be done.
     #[error("{0}")]
     Option(String),
+    /// The same as bad input, after a report in JSON that has it already.
+    #[error(transparent)]
+    Reported(InputError),
     /// A wrong command line.
     #[error("{0}")]
     Usage(String),
 }
 
 impl Failure {
+    /// Whether stdout has it already.
+    pub fn is_reported(&self) -> bool {
+        matches!(self, Self::Reported(_))
+    }
+
     /// The process's exit code.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Self::Usage(_)) { super::USAGE } else { super::BAD_INPUT }

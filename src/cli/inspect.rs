@@ -54,6 +54,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
     match inspection.errors.into_iter().next() {
         None => Ok(DONE),
+        Some(error) if args.json => Err(Failure::Reported(error)),
         Some(error) => Err(error.into()),
     }
 }

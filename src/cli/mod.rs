@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod completions;
 mod demo;
+mod error_json;
 mod failure;
 mod field_args;
 mod field_report;
@@ -38,6 +39,7 @@ pub use memory::MemoryMeter;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser, error::ErrorKind};
+use error_json::ErrorJson;
 use failure::Failure;
 use std::process::ExitCode;
 
@@ -54,11 +56,16 @@ const REFUTED: u8 = 3;
 /// Exit code: neither found nor ruled out.
 const UNKNOWN: u8 = 4;
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. `meter` counts the
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json` an error is
+/// a JSON object on stdout, besides the words on stderr. `meter` counts the
 /// process's memory, if anything does.
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
-    let mut cli = Cli::parse();
+    let in_json = std::env::args_os().any(|argument| argument == "--json");
+    let mut cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return unread(&error, in_json),
+    };
     let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
@@ -73,12 +80,29 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
         (Some(Command::Man(args)), _) => man::run(args),
         (Some(Command::Schema), _) => schema::run(),
         (None, Some(files)) => plan::run(files, &cli.plan),
-        (None, None) => Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required").exit(),
+        (None, None) => {
+            let error = Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required");
+            return unread(&error, in_json);
+        }
     };
     ExitCode::from(done.unwrap_or_else(|failure: Failure| {
+        if in_json && !failure.is_reported() {
+            // A stream that is closed cannot be told so.
+            let _ = output::print(&ErrorJson::of_failure(&failure).text());
+        }
         output::say(&format!("error: {failure}"));
         failure.exit_code()
     }))
+}
+
+/// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.
+fn unread(error: &clap::Error, in_json: bool) -> ExitCode {
+    if in_json && error.use_stderr() {
+        let _ = output::print(&ErrorJson::of_usage(error).text());
+    }
+    // As `exit` has it: a stream that is closed is nobody's concern.
+    let _ = error.print();
+    u8::try_from(error.exit_code()).map_or(ExitCode::from(USAGE), ExitCode::from)
 }
 
 #[cfg(test)]

@@ -71,6 +71,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     args.message.apply(&mut report, &loaded.robot.joints)?;
     report.field = field.map(|field| field_report(&field, &answer));
     report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
+    report.assumed = loaded.robot.assumed.clone();
     clock.stage("trajectory");
     if args.timings {
         report.timings = clock.milliseconds();

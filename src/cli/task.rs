@@ -47,6 +47,7 @@ pub fn run(
     let mut report = TaskReport::new(args.planner.name(), task, &answer);
     args.message.apply_to_task(&mut report, &loaded, &answer)?;
     report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
+    report.assumed = loaded.robot.assumed.clone();
     clock.stage("report");
     if args.timings {
         report.timings = clock.milliseconds();

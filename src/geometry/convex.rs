@@ -1,6 +1,39 @@
 //! The one shape that everything is made of: a convex polygon grown by a radius.
 
+use super::predicates::{Orientation, orientation};
 use super::{Bounds, Point, Pose, Vector};
+
+/// Why corners and a radius are no convex shape. Corners are counted from 1 in messages, from 0 here.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ConvexDefect {
+    /// There is no corner.
+    #[error("it has no corner")]
+    NoCorner,
+    /// The radius is negative or not finite.
+    #[error("its radius is {radius}")]
+    Radius {
+        /// As given.
+        radius: f64,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("corner {} is not finite", corner + 1)]
+    NotFinite {
+        /// The corner.
+        corner: usize,
+    },
+    /// A corner and the next one coincide.
+    #[error("corner {} and the next one coincide", corner + 1)]
+    Repeated {
+        /// The corner.
+        corner: usize,
+    },
+    /// The boundary does not go round once counter-clockwise, turning left all the way.
+    #[error("the boundary does not turn left at corner {}, or goes round more than once: its corners are to be convex and counter-clockwise", corner + 1)]
+    NotConvex {
+        /// The corner.
+        corner: usize,
+    },
+}
 
 /// A *rounded convex polygon*: all points within `radius` of the convex hull of `core`.
 ///
@@ -16,9 +49,43 @@ pub struct Convex {
 }
 
 impl Convex {
-    /// A shape from a core that is already convex and counter-clockwise, with at least one corner.
+    /// A shape from a core that is convex, counter-clockwise and without repeated corners; straight corners are allowed.
+    /// Decided exactly, in `O(n)`.
     ///
-    /// Untrusted corners go through [`super::hull`] or the input's validation first; this only checks in debug builds.
+    /// # Errors
+    /// When the corners are none of that, are none at all or not finite, or the radius is negative or not finite. Corners in
+    /// any order go through [`super::hull`] first.
+    pub fn try_new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexDefect> {
+        if core.is_empty() {
+            return Err(ConvexDefect::NoCorner);
+        }
+        if !(radius.is_finite() && radius >= 0.0) {
+            return Err(ConvexDefect::Radius { radius });
+        }
+        if let Some(corner) = core.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+            return Err(ConvexDefect::NotFinite { corner });
+        }
+        let n = core.len();
+        if let Some(corner) = (0..n).find(|&i| n > 1 && core[i] == core[(i + 1) % n]) {
+            return Err(ConvexDefect::Repeated { corner });
+        }
+        // Left turns alone could go round more than once: then some triangle with the first corner is clockwise.
+        let turns_right =
+            |a: usize, b: usize, c: usize| orientation(core[a], core[b], core[c]) == Orientation::Clockwise;
+        let bad = |&i: &usize| turns_right(i, (i + 1) % n, (i + 2) % n) || turns_right(0, i, (i + 1) % n);
+        match (0..n).find(|i| n > 2 && bad(i)) {
+            Some(corner) => Err(ConvexDefect::NotConvex { corner: (corner + 1) % n }),
+            None if n > 2
+                && (1..n - 1).all(|i| orientation(core[0], core[i], core[i + 1]) == Orientation::Collinear) =>
+            {
+                Err(ConvexDefect::NotConvex { corner: 0 })
+            }
+            None => Ok(Self { core, radius }),
+        }
+    }
+
+    /// The same without a look, for corners that are known to be right, or were computed: rounding may have bent them by a hair.
+    /// [`Convex::try_new`] is for all others; this one checks in debug builds alone, that there are corners and a radius.
     #[must_use]
     pub fn new(core: Vec<Point>, radius: f64) -> Self {
         debug_assert!(!core.is_empty() && radius >= 0.0 && radius.is_finite());
@@ -50,9 +117,15 @@ impl Convex {
     }
 
     /// The same shape grown by `distance` on every side (a Minkowski sum with a disc; exact).
+    ///
+    /// # Panics
+    /// When the radius becomes negative, or not finite.
     #[must_use]
+    #[track_caller]
     pub fn grown(&self, distance: f64) -> Self {
-        Self::new(self.core.clone(), self.radius + distance)
+        let radius = self.radius + distance;
+        assert!(radius >= 0.0 && radius.is_finite(), "no convex shape: a radius of {radius}");
+        Self { core: self.core.clone(), radius }
     }
 
     /// The differences `q - p` of the points `q` of this shape and `p` of `other`: the translations that make `other`

@@ -19,12 +19,13 @@ mod penetration;
 pub(crate) mod planar;
 mod polygon;
 mod predicates;
+mod rings;
 mod separation;
 mod sliding;
 mod turning;
 
 pub use box_tree::{Bounds, BoxTree};
-pub use convex::Convex;
+pub use convex::{Convex, ConvexDefect};
 pub use decompose::{MOST_CORNERS, decompose};
 pub use hull::hull;
 pub use inset::{clip, common, inset};
@@ -37,6 +38,7 @@ pub use penetration::{
 };
 pub use polygon::{PolygonDefect, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
+pub use rings::{Polygon, RingDefect, RingSide};
 pub use separation::{Separation, separation};
 pub use sliding::sliding;
 pub(crate) use sliding::{along_and_across, sliding_tracks};

@@ -82,6 +82,12 @@ impl SimplePolygon {
         Ok(Self { corners })
     }
 
+    /// A polygon that is known to be simple and counter-clockwise.
+    pub(super) fn trusted(corners: Vec<Point>) -> Self {
+        debug_assert!(Self::new(corners.clone()).is_ok_and(|polygon| polygon.corners == corners), "{corners:?}");
+        Self { corners }
+    }
+
     /// The corners, counter-clockwise, from the one that was given first.
     #[must_use]
     pub fn corners(&self) -> &[Point] {
@@ -136,14 +142,29 @@ pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
     orientation(corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n])
 }
 
-/// Number of corners, coordinates, repetitions.
-fn check_corners(corners: &[Point]) -> Result<(), PolygonDefect> {
+/// What a ring that may touch itself has to have: corners, coordinates, area.
+pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonDefect> {
+    check_coordinates(corners)?;
+    match (0..corners.len()).all(|i| turn(corners, i) == Orientation::Collinear) {
+        true => Err(PolygonDefect::NoArea),
+        false => Ok(()),
+    }
+}
+
+/// Number of corners, coordinates.
+fn check_coordinates(corners: &[Point]) -> Result<(), PolygonDefect> {
     if corners.len() < 3 {
         return Err(PolygonDefect::TooFewCorners { count: corners.len() });
     }
     if let Some(corner) = corners.iter().position(|p| !p.x.is_finite() || !p.y.is_finite()) {
         return Err(PolygonDefect::NotFinite { corner });
     }
+    Ok(())
+}
+
+/// Number of corners, coordinates, repetitions.
+fn check_corners(corners: &[Point]) -> Result<(), PolygonDefect> {
+    check_coordinates(corners)?;
     let mut order: Vec<usize> = (0..corners.len()).collect();
     // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
     let key = |i: usize| (corners[i].x + 0.0, corners[i].y + 0.0);

@@ -4,6 +4,18 @@ use super::source::Position;
 use std::fmt;
 use thiserror::Error;
 
+/// What a defect is about, for scripts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DefectKind {
+    /// A file or an option.
+    #[default]
+    Input,
+    /// The start: missing, outside the limits, or not free.
+    Start,
+    /// The goal: missing, outside the limits, out of reach, or not free.
+    Goal,
+}
+
 /// One thing that is wrong with the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Defect {
@@ -12,24 +24,39 @@ pub struct Defect {
     /// Where in the file, if that is known.
     pub position: Option<Position>,
     /// The line of the file with a caret below the place.
-    pub excerpt: Option<String>,
+    pub excerpt: Option<Box<str>>,
     /// What is wrong, naming the joint, link or obstacle.
     pub message: String,
     /// What to do about it.
     pub cure: Option<String>,
+    /// What it is about.
+    pub kind: DefectKind,
 }
 
 impl Defect {
     /// A defect of a whole file or option.
     #[must_use]
     pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
-        Self { origin: origin.into(), position: None, excerpt: None, message: message.into(), cure: None }
+        Self {
+            origin: origin.into(),
+            position: None,
+            excerpt: None,
+            message: message.into(),
+            cure: None,
+            kind: DefectKind::Input,
+        }
     }
 
     /// The same with a cure.
     #[must_use]
     pub fn cure(self, cure: impl Into<String>) -> Self {
         Self { cure: Some(cure.into()), ..self }
+    }
+
+    /// The same about something else.
+    #[must_use]
+    pub fn about(self, kind: DefectKind) -> Self {
+        Self { kind, ..self }
     }
 }
 
@@ -62,6 +89,11 @@ impl InputError {
     #[must_use]
     pub fn defects(&self) -> &[Defect] {
         &self.defects
+    }
+
+    /// The same about something else.
+    pub(super) fn about(self, kind: DefectKind) -> Self {
+        Self { defects: self.defects.into_iter().map(|defect| defect.about(kind)).collect() }
     }
 
     /// All of these; at least one.

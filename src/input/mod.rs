@@ -12,22 +12,27 @@
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
 
+mod cure;
 mod error;
 mod group;
 mod inspection;
 mod line_map;
 mod map_text;
+mod notes;
 mod object;
 mod obstacle;
 mod occupancy;
+mod polygon;
 mod posture;
 mod preference;
 mod preference_map;
 mod problem;
+mod quantity;
 mod requirement;
 mod schema;
 mod sequence;
 mod source;
+mod start;
 mod step;
 mod stroke;
 mod suite;
@@ -40,7 +45,7 @@ mod world;
 mod world_map;
 mod wrist;
 
-pub use error::{Defect, InputError};
+pub use error::{Defect, DefectKind, InputError};
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role,
@@ -50,13 +55,13 @@ pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectang
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 pub use schema::world_schema;
 pub use source::{Position, Source};
-pub use suite::{MANIFEST, Member, Suite, load_folder, load_suite};
+pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};
 pub use world::World;
 
-use crate::model::{Problem, RobotJoints, Scene};
+use crate::model::{AssumedLimits, Problem, RobotJoints, Scene};
 use std::path::Path;
 
 /// What the user should know of how the robot was read.
@@ -66,6 +71,8 @@ pub struct RobotReport {
     pub notes: Vec<String>,
     /// What may surprise: links that cannot collide, meshes that a bar stands in for.
     pub warnings: Vec<String>,
+    /// Limits that nobody gives.
+    pub assumed: AssumedLimits,
     /// Joints that could move but are held, and whose value matters to the arm: names and values, radians or metres.
     pub held: Vec<(String, f64)>,
     /// All joints that can move, for messages that name them.
@@ -124,6 +131,9 @@ impl LoadedScene {
         if world.robot != self.world.robot {
             return among(world, urdf.clone());
         }
+        for pair in &world.in_degrees {
+            pair.check(&world.source, &self.scene.arm.joints)?;
+        }
         let scene = Scene::new(self.scene.arm.clone(), world.at_first());
         Ok(Self { scene, world, robot: self.robot.clone() })
     }
@@ -132,6 +142,9 @@ impl LoadedScene {
 /// The arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     let (arm, robot) = urdf::load(urdf, &world)?;
+    for pair in &world.in_degrees {
+        pair.check(&world.source, &arm.joints)?;
+    }
     let scene = Scene::new(arm, world.at_first());
     Ok(LoadedScene { scene, world, robot })
 }

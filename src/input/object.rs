@@ -1,8 +1,10 @@
 //! The world file's `[[object]]`.
 
 use super::error::{Defect, quoted};
-use super::obstacle::{CircleTable, circle, polygon};
-use super::schema::{Corners, HeldAs, NotNegative, Two};
+use super::obstacle::{CircleTable, circle};
+use super::polygon::{Ring, polygon};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
 use super::world::{Number, Numbers, Reader};
 use crate::geometry::{Point, Pose};
 use crate::model::{Holding, Object, Obstacle};
@@ -21,17 +23,18 @@ pub(super) struct ObjectTable {
     /// A name that no other object or obstacle has.
     #[schemars(with = "String")]
     name: Spanned<String>,
-    /// Corners in its own frame, in order round the shape, m; simple, may be non-convex.
-    #[schemars(with = "Option<Corners>")]
-    polygon: Option<Spanned<Vec<Numbers>>>,
+    /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
+    /// itself. Or a list of such rings: the outer one, then holes.
+    #[schemars(with = "Option<Rings>")]
+    polygon: Option<Ring>,
     /// A disc in its own frame.
     circle: Option<CircleTable>,
     /// Where its origin lies at first, m.
     #[schemars(with = "Two")]
     at: Numbers,
     /// How it is turned at first, rad; by default 0.
-    #[schemars(with = "Option<f64>")]
-    angle: Option<Number>,
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
     /// Its extent along the plane's normal where it lies, m; by default all heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
@@ -182,7 +185,7 @@ fn movable(
     let what = format!("object \"{name}\"");
     let (shape, pieces) = match (&given.polygon, &given.circle) {
         (Some(corners), None) => {
-            polygon(reader, corners, &what, "list the corners in order round the shape, each once")?
+            polygon(reader, corners, None, &what, "list the corners in order round the shape, each once")?
         }
         (None, Some(disc)) => circle(reader, disc, &what)?,
         (polygon, _) => {
@@ -192,7 +195,7 @@ fn movable(
         }
     };
     let at = reader.point(&given.at, &format!("{what}, at"))?;
-    let angle = given.angle.as_ref().map(|a| reader.finite(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
+    let angle = given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
     let lift = given.lift.as_ref().map(|l| reader.not_negative(l, &format!("{what}: lift"))).transpose()?;
     let grasp = given.grasp.as_ref().map(|g| reader.point(g, &format!("{what}, grasp"))).transpose()?;
     let supports = match &given.supports {

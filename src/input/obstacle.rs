@@ -2,9 +2,10 @@
 
 use super::error::{Defect, InputError};
 use super::occupancy::OccupancyMap;
-use super::schema::{Corners, Positive, Two, UnknownAs};
+use super::polygon::{Ring, polygon, polyline};
+use super::schema::{Corners, Positive, Rings, Two, UnknownAs};
 use super::world::{Number, Numbers, Reader};
-use crate::geometry::{Convex, SimplePolygon};
+use crate::geometry::Convex;
 use crate::model::{Obstacle, Shape};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -17,19 +18,23 @@ use toml::Spanned;
     "oneOf" = [
         { "required": ["polygon"] }, { "required": ["circle"] }, { "required": ["polyline"] }, { "required": ["image"] }
     ],
-    "dependencies" = { "unknown": ["image"] },
+    "dependencies" = { "unknown": ["image"], "holes": ["polygon"] },
 ))]
 pub(super) struct ObstacleTable {
     /// For messages and pictures; need not be its own.
     name: Option<String>,
-    /// Corners in order round the shape, m; simple, may be non-convex.
-    #[schemars(with = "Option<Corners>")]
-    polygon: Option<Spanned<Vec<Numbers>>>,
+    /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
+    /// GeoJSON, a list of such rings: the outer one, then holes.
+    #[schemars(with = "Option<Rings>")]
+    polygon: Option<Ring>,
+    /// Rings of corners inside the polygon: what they surround is free.
+    #[schemars(with = "Option<Vec<Corners>>")]
+    holes: Option<Spanned<Vec<Ring>>>,
     /// A disc.
     circle: Option<CircleTable>,
     /// Points of a thin wall, m: no area, still solid.
     #[schemars(with = "Option<Vec<Two>>", length(min = 2))]
-    polyline: Option<Spanned<Vec<Numbers>>>,
+    polyline: Option<Ring>,
     /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
     #[schemars(with = "Option<String>")]
     image: Option<Spanned<String>>,
@@ -57,7 +62,8 @@ pub(super) struct CircleTable {
 /// Convex pieces of the largest map: beyond it each planner takes minutes.
 pub(super) const MOST_PIECES: usize = 1 << 20;
 
-const SIMPLE: &str = "list the corners in order round the shape, each once; a wall without area is a polyline";
+const SIMPLE: &str =
+    "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
     /// The obstacle, the `index`-th of its file.
@@ -69,7 +75,7 @@ impl ObstacleTable {
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
-            (Some(corners), None, None, None) => polygon(reader, corners, &what, SIMPLE)?,
+            (Some(corners), None, None, None) => polygon(reader, corners, obstacle.holes.as_ref(), &what, SIMPLE)?,
             (None, Some(disc), None, None) => circle(reader, disc, &what)?,
             (None, None, Some(points), None) => polyline(reader, points, &what)?,
             (None, None, None, Some(file)) => image(reader, file, obstacle.unknown.as_ref(), &what)?,
@@ -85,6 +91,10 @@ impl ObstacleTable {
         if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
             let message = format!("{what}: only an image has unknown cells");
             return Err(reader.source.defect_at(unknown.span(), message).cure("remove the key").into());
+        }
+        if let (Some(holes), None) = (&obstacle.holes, &obstacle.polygon) {
+            let message = format!("{what}: only a polygon has holes");
+            return Err(reader.source.defect_at(holes.span(), message).cure("remove the key").into());
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
         Ok(Obstacle { name, shape, pieces, heights })
@@ -119,41 +129,16 @@ fn image(
     Ok((Shape::Pieces, pieces))
 }
 
-/// A polygon without crossings; `cure` is for one that has some.
-pub(super) fn polygon(
-    reader: &Reader,
-    corners: &Spanned<Vec<Numbers>>,
-    what: &str,
-    cure: &str,
-) -> Result<(Shape, Vec<Convex>), Defect> {
-    let points = reader.points(corners, what)?;
-    let polygon = SimplePolygon::new(points).map_err(|defect| {
-        reader.source.defect_at(corners.span(), format!("{what} is not a simple polygon: {defect}")).cure(cure)
-    })?;
-    Ok((Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces()))
-}
-
 /// A disc.
 pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
     let center = reader.point(&circle.center, &format!("{what}, center"))?;
     let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
     if radius <= 0.0 {
         let message = format!("{what}: the radius must be positive, is {radius}");
-        return Err(reader.source.defect_at(circle.radius.span(), message));
+        return Err(reader
+            .source
+            .defect_at(circle.radius.span(), message)
+            .cure("a radius is in metres; leave out what has none"));
     }
     Ok((Shape::Circle { center, radius }, vec![Convex::disc(center, radius)]))
-}
-
-fn polyline(reader: &Reader, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
-    let corners = reader.points(points, what)?;
-    if corners.len() < 2 {
-        let message = format!("{what}: a polyline needs at least two points, it has {}", corners.len());
-        return Err(reader.source.defect_at(points.span(), message));
-    }
-    if let Some(i) = corners.windows(2).position(|w| w[0] == w[1]) {
-        let message = format!("{what}: points {} and {} of the polyline are the same", i + 1, i + 2);
-        return Err(reader.source.defect_at(points.get_ref()[i + 1].span(), message).cure("leave one of them out"));
-    }
-    let pieces = corners.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
-    Ok((Shape::Polyline(corners), pieces))
 }

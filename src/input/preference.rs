@@ -1,9 +1,10 @@
 //! The world file's `[[preference]]`.
 
 use super::error::Defect;
+use super::polygon::{Ring, simple_polygon};
 use super::schema::{Corners, Two};
 use super::world::{Number, Numbers, Reader};
-use crate::geometry::{Point, SimplePolygon};
+use crate::geometry::SimplePolygon;
 use crate::model::{Preference, Region};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -24,14 +25,17 @@ pub(super) struct PreferenceTable {
     direction: Option<Numbers>,
     /// Corners of a region in joint space, rad or m.
     #[schemars(with = "Option<Corners>")]
-    configurations: Option<Spanned<Vec<Numbers>>>,
+    configurations: Option<Ring>,
     /// Corners of the region where the tip is, m.
     #[schemars(with = "Option<Corners>")]
-    polygon: Option<Spanned<Vec<Numbers>>>,
+    polygon: Option<Ring>,
 }
 
 /// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
 const WIDEST: f64 = 100.0;
+
+/// The cure for regions that are no simple polygons.
+const ORDERED: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
     /// The preference, the `index`-th of its file.
@@ -46,7 +50,7 @@ impl PreferenceTable {
         let direction = given.direction.as_ref().map(|d| direction(reader, d, &what)).transpose()?;
         let region = match (&given.configurations, &given.polygon) {
             (Some(corners), None) => Region::Configurations(configurations(reader, corners, &what)?),
-            (None, Some(corners)) => Region::Tip(polygon(reader, corners, &what)?),
+            (None, Some(corners)) => Region::Tip(simple_polygon(reader, corners, &what, ORDERED)?),
             (configurations, _) => {
                 let found = if configurations.is_some() { "both" } else { "neither" };
                 let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
@@ -68,8 +72,8 @@ fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2],
     Ok(vector.map(|x| x / length))
 }
 
-fn configurations(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<SimplePolygon, Defect> {
-    let polygon = polygon(reader, corners, what)?;
+fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimplePolygon, Defect> {
+    let polygon = simple_polygon(reader, corners, what, ORDERED)?;
     let is_wide = |k: usize| {
         let values = || polygon.corners().iter().map(|corner| corner[k]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min) > WIDEST
@@ -82,12 +86,4 @@ fn configurations(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) 
             .cure("angles are radians; circles repeat themselves"));
     }
     Ok(polygon)
-}
-
-fn polygon(reader: &Reader, corners: &Spanned<Vec<Numbers>>, what: &str) -> Result<SimplePolygon, Defect> {
-    let points: Vec<Point> = reader.points(corners, what)?;
-    SimplePolygon::new(points).map_err(|defect| {
-        let message = format!("{what} is not a simple polygon: {defect}");
-        reader.source.defect_at(corners.span(), message).cure("list the corners in order round the region, each once")
-    })
 }

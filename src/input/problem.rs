@@ -1,6 +1,6 @@
 //! Start and goal: within the limits, free, and for a goal of the tip every posture that reaches it.
 
-use super::error::{Defect, InputError};
+use super::error::{Defect, DefectKind, InputError};
 use super::posture::{
     CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, describe_segment, obstructions,
     out_of_reach, within_limits,
@@ -18,7 +18,7 @@ pub(super) enum Place<'a> {
 }
 
 impl Place<'_> {
-    fn defect(&self, message: String) -> Defect {
+    pub(super) fn defect(&self, message: String) -> Defect {
         match self {
             Place::Option(name) => Defect::new(*name, message),
             Place::World(loaded, at) => loaded.world.source.defect_at(at.clone(), message),
@@ -40,29 +40,20 @@ impl LoadedScene {
         if let Some(clearance) = overrides.clearance {
             self.scene.workspace.clearance = checked_clearance(clearance)?;
         }
-        let (start, place) = self.start(overrides)?;
-        self.require("the start", start, &place)?;
-        let (goal, place) = self.goal(overrides)?;
-        let mut notes = Vec::new();
+        let mut notes = self.world.notes.clone();
+        let (start, place) = self.start(overrides, &mut notes)?;
+        self.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
+        let about = |defect: Defect| defect.about(DefectKind::Goal);
+        let (goal, place) = self.goal(overrides).map_err(|error| error.about(DefectKind::Goal))?;
         let goals = match goal {
             Goal::Joints(q) => {
-                self.require("the goal", q, &place)?;
+                let q = self.at_limits("the goal", q, &mut notes);
+                self.require("the goal", q, &place).map_err(about)?;
                 GoalSet::from(q)
             }
-            Goal::Tip(tip) => self.postures(tip, start, &place, &mut notes)?,
+            Goal::Tip(tip) => self.postures(tip, start, &place, &mut notes).map_err(about)?,
         };
         Ok(Loaded { problem: Problem { scene: self.scene, start, goal, goals }, robot: self.robot, notes })
-    }
-
-    /// The start, and where it was given.
-    pub(super) fn start(&self, overrides: &Overrides) -> Result<(Configuration, Place<'_>), InputError> {
-        if let Some(values) = &overrides.start {
-            return Ok((values.resolve(&self.scene.arm.joints, "--start")?, Place::Option("--start")));
-        }
-        match &self.world.start {
-            Some((values, at)) => Ok((Configuration::from(*values), Place::World(self, at.clone()))),
-            None => Err(self.missing("start", "[start] joints = [q1, q2] in the world file, or --start q1,q2").into()),
-        }
     }
 
     fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
@@ -103,7 +94,7 @@ impl LoadedScene {
         Defect::new(option, message).cure("leave the option out, or remove the steps from the world")
     }
 
-    fn missing(&self, what: &str, cure: &str) -> Defect {
+    pub(super) fn missing(&self, what: &str, cure: &str) -> Defect {
         self.world.source.defect(format!("there is no {what}")).cure(cure)
     }
 

@@ -80,6 +80,10 @@ stands_for! {
     Positive, { "type": "number", "exclusiveMinimum": 0 }
 }
 stands_for! {
+    /// An angle or a length.
+    AngleOrLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
+}
+stands_for! {
     /// A number of 0 or more.
     NotNegative, { "type": "number", "minimum": 0 }
 }
@@ -93,6 +97,26 @@ stands_for! {
         "type": "array",
         "minItems": 3,
         "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+    }
+}
+stands_for! {
+    /// Corners of a polygon, or of an outer ring and its holes.
+    Rings, {
+        "type": "array",
+        "anyOf": [
+            {
+                "minItems": 3,
+                "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+            },
+            {
+                "minItems": 1,
+                "items": {
+                    "type": "array",
+                    "minItems": 3,
+                    "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+                }
+            }
+        ]
     }
 }
 stands_for! {

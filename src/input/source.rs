@@ -167,7 +167,7 @@ impl Source {
         let position = self.position(range.start);
         Defect {
             position: Some(position),
-            excerpt: Some(self.excerpt(position, range)),
+            excerpt: Some(self.excerpt(position, range).into()),
             ..Defect::new(self.name(), message)
         }
     }

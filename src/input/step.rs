@@ -3,7 +3,8 @@
 use super::error::Defect;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, NameList, Names};
-use super::schema::{DoneIn, NotNegative, Share, Two};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, DoneIn, NotNegative, Share, Two};
 use super::source::Cursor;
 use super::table::Table;
 use super::world::{GoalTable, Number, Numbers, Reader};
@@ -63,8 +64,8 @@ struct PlaceTable {
     #[schemars(with = "Two")]
     at: Numbers,
     /// How a level payload is turned there, rad; by default as it was.
-    #[schemars(with = "Option<f64>")]
-    angle: Option<Number>,
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
     /// Obstacles and objects that it may touch there; by default those of the object.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
@@ -275,7 +276,8 @@ impl<'a> StepReader<'a> {
     }
 
     fn place(&self, place: &PlaceTable) -> Result<LeafAction, Defect> {
-        let angle = place.angle.as_ref().map(|a| Ok((self.reader.finite(a, "place, angle")?, a.span()))).transpose()?;
+        let angle =
+            place.angle.as_ref().map(|a| Ok((self.reader.quantity(a, "place, angle")?, a.span()))).transpose()?;
         let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
         Ok(LeafAction::Place { at: self.reader.point(&place.at, "place, at")?, angle, supports })
     }

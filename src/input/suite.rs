@@ -20,6 +20,17 @@ pub struct Suite {
     pub members: Vec<Member>,
     /// Worlds that are left out because they have steps, not a goal.
     pub with_steps: Vec<PathBuf>,
+    /// Problems that cannot be read.
+    pub refused: Vec<Refused>,
+}
+
+/// A problem that cannot be read, or whose start or goal cannot be.
+#[derive(Debug, Clone)]
+pub struct Refused {
+    /// For tables.
+    pub name: String,
+    /// Why.
+    pub error: InputError,
 }
 
 /// A robot in a world.
@@ -67,7 +78,8 @@ struct Pair {
 /// ```
 ///
 /// # Errors
-/// [`InputError`] with every defect of the manifest, or of all the files that it names.
+/// [`InputError`] for a manifest that cannot be read, and with every defect of all the files that it names if none of the
+/// problems can be read. If some can, the others are in [`Suite::refused`].
 pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
@@ -95,29 +107,33 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         let message = format!("{what}: there is no file {}", path.display());
         Err(source.defect_at(name.span(), message).cure("paths are relative to the manifest"))
     };
-    let (mut pairs, mut defects) = (Vec::new(), Vec::new());
+    let (mut pairs, mut refused) = (Vec::new(), Vec::new());
     for problem in file.problem {
         let paths = [(&problem.robot, "robot"), (&problem.world, "world")].map(|(name, what)| beside(name, what));
         match paths {
             [Ok(robot), Ok(world)] => {
                 pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot, world });
             }
-            paths => defects.extend(paths.into_iter().filter_map(Result::err)),
+            paths => {
+                let name = problem.name.map_or_else(|| stem(Path::new(problem.world.get_ref())), Spanned::into_inner);
+                refused
+                    .push(Refused { name, error: InputError::of(paths.into_iter().filter_map(Result::err).collect()) });
+            }
         }
     }
-    InputError::check(defects)?;
-    if pairs.is_empty() {
+    if pairs.is_empty() && refused.is_empty() {
         let defect = source.defect("the manifest lists no problem");
         return Err(defect.cure("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
     }
     let name = file.name.unwrap_or_else(|| folder_name(&manifest.with_file_name("")));
-    read(name, pairs)
+    read(name, pairs, refused)
 }
 
 /// Reads all worlds of a folder (every `.toml` but [`MANIFEST`], by name) with one robot.
 ///
 /// # Errors
-/// [`InputError`] with every defect of all files, or for a folder without worlds.
+/// [`InputError`] for a folder without worlds, and with every defect of all files if none of them can be read. If some can,
+/// the others are in [`Suite::refused`].
 pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
     let whole = |message: String| Defect::new(folder.display().to_string(), message);
     let entries = std::fs::read_dir(folder).map_err(|error| {
@@ -134,13 +150,12 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
         return Err(whole("there is no world in it".into()).cure("give a folder with world files (.toml)").into());
     }
     let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: urdf.to_owned(), world }).collect();
-    read(folder_name(folder), pairs)
+    read(folder_name(folder), pairs, Vec::new())
 }
 
-/// Reads all files; all that is wrong is told at once.
-fn read(name: String, pairs: Vec<Pair>) -> Result<Suite, InputError> {
-    let (mut members, mut with_steps, mut defects): (Vec<Member>, _, Vec<Defect>) =
-        (Vec::new(), Vec::new(), Vec::new());
+/// Reads all files; what is wrong with some of them is kept beside the others.
+fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Suite, InputError> {
+    let (mut members, mut with_steps): (Vec<Member>, _) = (Vec::new(), Vec::new());
     for Pair { name, robot, world } in pairs {
         match load_scene(&robot, &world) {
             Ok(scene) if scene.has_steps() => with_steps.push(world),
@@ -149,44 +164,55 @@ fn read(name: String, pairs: Vec<Pair>) -> Result<Suite, InputError> {
                 let name = distinct(&name, &stem(&robot), |name| members.iter().any(|member| member.name == name));
                 members.push(Member { name, scene });
             }
-            // One robot in many worlds has the same defects in each.
-            Err(error) => {
-                for defect in error.defects() {
-                    if !defects.contains(defect) {
-                        defects.push(defect.clone());
-                    }
-                }
-            }
+            Err(error) => refused.push(Refused { name: name.unwrap_or_else(|| stem(&world)), error }),
         }
     }
-    InputError::check(defects)?;
     if members.is_empty() {
+        all_of(&refused)?;
         let shown = with_steps.first().map_or_else(String::new, |path| path.display().to_string());
         let defect = Defect::new(shown, "this world and all others of the suite have steps, not a goal");
         return Err(defect
             .cure("only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place")
             .into());
     }
-    Ok(Suite { name, members, with_steps })
+    Ok(Suite { name, members, with_steps, refused })
+}
+
+/// All that is wrong with these at once, if there are any.
+fn all_of(refused: &[Refused]) -> Result<(), InputError> {
+    let mut defects: Vec<Defect> = Vec::new();
+    for defect in refused.iter().flat_map(|refused| refused.error.defects()) {
+        // One robot in many worlds has the same defects in each.
+        if !defects.contains(defect) {
+            defects.push(defect.clone());
+        }
+    }
+    InputError::check(defects)
 }
 
 impl Suite {
-    /// Puts start and goal into every scene, as [`LoadedScene::problem`] does.
+    /// Puts start and goal into every scene, as [`LoadedScene::problem`] does. What cannot be is told beside them, with what
+    /// could not be read.
     ///
     /// # Errors
-    /// [`InputError`] with the defects of all of them.
-    pub fn problems(self, overrides: &Overrides) -> Result<Vec<(String, Loaded)>, InputError> {
-        let (mut problems, mut defects) = (Vec::new(), Vec::new());
+    /// [`InputError`] with the defects of all of them, if no problem is left.
+    pub fn problems(self, overrides: &Overrides) -> Result<Asked, InputError> {
+        let (mut problems, mut refused) = (Vec::new(), self.refused);
         for Member { name, scene } in self.members {
             match scene.problem(overrides) {
                 Ok(loaded) => problems.push((name, loaded)),
-                Err(error) => defects.extend_from_slice(error.defects()),
+                Err(error) => refused.push(Refused { name, error }),
             }
         }
-        InputError::check(defects)?;
-        Ok(problems)
+        if problems.is_empty() {
+            all_of(&refused)?;
+        }
+        Ok((problems, refused))
     }
 }
+
+/// Problems with their names, and those that cannot be asked.
+pub type Asked = (Vec<(String, Loaded)>, Vec<Refused>);
 
 /// A file's name without its extension.
 fn stem(path: &Path) -> String {

@@ -1,6 +1,6 @@
 //! The steps of a world as a task for its arm.
 
-use super::error::{Defect, InputError};
+use super::error::{Defect, DefectKind, InputError};
 use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, RobotReport, World, clearance as checked_clearance};
@@ -58,9 +58,10 @@ impl LoadedScene {
         if let Some(clearance) = overrides.clearance {
             self.scene.workspace.clearance = checked_clearance(clearance)?;
         }
-        let (start, place) = self.start(overrides)?;
+        let mut notes = self.world.notes.clone();
+        let (start, place) = self.start(overrides, &mut notes)?;
         if is_checked {
-            self.require("the start", start, &place)?;
+            self.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
         }
         let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| self.unfulfilled(r, start)).collect())?;
@@ -72,7 +73,7 @@ impl LoadedScene {
         let workspace = Workspace { clearance: scene.workspace.clearance, ..world.workspace };
         let items = world.steps.map(|steps| steps.items).unwrap_or_default();
         let (wrist, note) = world.wrist.unzip();
-        let notes = note.flatten().into_iter().collect();
+        notes.extend(note.flatten());
         let task = Task { arm: scene.arm.clone(), workspace, objects: world.objects, start, items, wrist, stroke };
         Ok(LoadedTask { task, scene, robot, notes })
     }

@@ -1,14 +1,18 @@
 //! The world file: its schema, and the workspace it describes.
 
+use super::cure::cure;
 use super::error::{Defect, InputError};
+use super::notes::Taken;
 use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
 use super::preference::PreferenceTable;
-use super::schema::{HeldAs, NotNegative, Positive, Two};
+use super::quantity::{JointPair, Written};
+use super::schema::{AngleOrLength, HeldAs, NotNegative, Positive, Two};
 use super::sequence::{Sequence, write_out};
 use super::source::Source;
 use super::step::{StepReader, StepTable, TaskTable};
 use super::stroke::StrokeTable;
+use super::table::Table;
 use super::world_map::{self, MapTable};
 use super::wrist::WristTable;
 use crate::geometry::Point;
@@ -16,6 +20,7 @@ use crate::model::{Goal, Heights, Holding, Object, Workspace, Wrist};
 use crate::space::Configuration;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -33,9 +38,13 @@ pub struct World {
     pub workspace: Workspace,
     /// What can be moved.
     pub objects: Vec<Object>,
+    /// What was taken as it must be meant, though it was not written so.
+    pub notes: Vec<String>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
-    pub(super) start: Option<([f64; 2], Range<usize>)>,
+    pub(super) start: Option<(Goal, Range<usize>)>,
+    /// Joint values that are in degrees, where it is not yet known whether the joints turn.
+    pub(super) in_degrees: Vec<JointPair>,
     pub(super) goal: Option<(Goal, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
     /// With what is to be said of it.
@@ -53,9 +62,11 @@ impl World {
                 preferences: Vec::new(),
             },
             objects: Vec::new(),
+            notes: Vec::new(),
             source: Source::in_memory("", ""),
             robot: RobotTable::default(),
             start: None,
+            in_degrees: Vec::new(),
             goal: None,
             steps: None,
             wrist: None,
@@ -83,12 +94,12 @@ pub(super) struct RobotTable {
     pub tip: Option<Spanned<String>>,
     /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
     #[serde(default)]
-    #[schemars(with = "BTreeMap<String, f64>")]
-    pub fixed: PerJoint<Number>,
+    #[schemars(with = "BTreeMap<String, AngleOrLength>")]
+    pub fixed: PerJoint<Written>,
     /// Least and greatest value of a joint, by name, rad or m, in place of the URDF's.
     #[serde(default)]
-    #[schemars(with = "BTreeMap<String, Two>")]
-    pub limits: PerJoint<Numbers>,
+    #[schemars(with = "BTreeMap<String, [AngleOrLength; 2]>")]
+    pub limits: PerJoint<Spanned<Vec<Written>>>,
     /// Top speed of a joint, by name, rad/s or m/s, in place of the URDF's.
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Positive>")]
@@ -136,9 +147,10 @@ pub(super) struct WorldFile {
     clearance: Option<Number>,
     #[serde(default)]
     robot: RobotTable,
-    start: Option<StartTable>,
+    #[schemars(with = "Option<StartTable>")]
+    start: Option<Spanned<Table<StartTable>>>,
     #[schemars(with = "Option<GoalTable>")]
-    goal: Option<Spanned<GoalTable>>,
+    goal: Option<Spanned<Table<GoalTable>>>,
     map: Option<MapTable>,
     /// What the arm must not touch.
     #[serde(default)]
@@ -160,14 +172,17 @@ pub(super) struct WorldFile {
     task: Option<Spanned<TaskTable>>,
 }
 
-/// Where the arm is at first.
+/// Where the arm is at first: joint values, or a place for the tip that a single posture reaches.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "start")]
+#[schemars(rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
 struct StartTable {
     /// Values of both joints, base to tip, rad or m.
-    #[schemars(with = "Two")]
-    joints: Numbers,
+    #[schemars(with = "Option<[AngleOrLength; 2]>")]
+    joints: Option<Spanned<Vec<Written>>>,
+    /// Coordinates of the tip, m; taken if one posture alone is within the limits and free.
+    #[schemars(with = "Option<Two>")]
+    tip: Option<Numbers>,
 }
 
 /// Where the arm is to go: joint values, or a place for the tip in whatever posture is best.
@@ -176,8 +191,8 @@ struct StartTable {
 #[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
 pub(super) struct GoalTable {
     /// Values of both joints, base to tip, rad or m.
-    #[schemars(with = "Option<Two>")]
-    joints: Option<Numbers>,
+    #[schemars(with = "Option<[AngleOrLength; 2]>")]
+    joints: Option<Spanned<Vec<Written>>>,
     /// Coordinates of the tip, m.
     #[schemars(with = "Option<Two>")]
     tip: Option<Numbers>,
@@ -197,13 +212,22 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         return Err(defect.cure("give the URDF first and the world file second").into());
     }
     let file: WorldFile = toml::from_str(&source.text).map_err(|error| match error.span() {
-        Some(span) => source.defect_at(span, in_toml_words(error.message())),
-        None => source.defect(in_toml_words(error.message())),
+        Some(span) => {
+            let is_unknown = error.message().contains("unknown field");
+            let cure =
+                if is_unknown { "use a key that is known, or remove this one" } else { cure(&source.text, span.start) };
+            source.defect_at(span, in_toml_words(error.message())).cure(cure)
+        }
+        None => source.defect(in_toml_words(error.message())).cure(cure("", 0)),
     })?;
-    let reader = Reader { source: &source };
+    let reader = Reader::new(&source);
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
-    let start = file.start.as_ref().map(|s| reader.two(&s.joints, "start joints")).transpose()?;
-    let goal = file.goal.as_ref().map(|g| reader.goal(g.get_ref(), g.span(), "goal")).transpose()?;
+    let start = file.start.as_ref().map(|s| {
+        let Table(StartTable { joints, tip }) = s.get_ref();
+        reader.place(joints.as_ref(), tip.as_ref(), s.span(), "start")
+    });
+    let start = start.transpose()?;
+    let goal = file.goal.as_ref().map(|g| reader.goal(&g.get_ref().0, g.span(), "goal")).transpose()?;
     let obstacles = file.obstacle.iter().enumerate().map(|(i, o)| ObstacleTable::read(&reader, i, o));
     let mut obstacles = obstacles.collect::<Result<Vec<_>, _>>()?;
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
@@ -220,9 +244,12 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
     let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
     let stem = source.path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
+    let notes = reader.taken.lines();
     Ok(World {
+        notes,
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
-        start: start.zip(file.start.map(|s| s.joints.span())),
+        start,
+        in_degrees: reader.in_degrees.take(),
         // Steps count for more than a map's goal.
         goal: goal.or(map.goal.filter(|_| steps.is_none()).map(|(tip, at)| (Goal::Tip(tip), at))),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
@@ -270,13 +297,24 @@ pub(super) fn in_toml_words(message: &str) -> String {
 /// Checks values and knows the file they come from.
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
+    /// What is not refused, though it is not written as it is meant.
+    pub taken: Taken,
+    /// Joint values in degrees.
+    pub in_degrees: RefCell<Vec<JointPair>>,
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(source: &'a Source) -> Self {
+        Self { source, taken: Taken::default(), in_degrees: RefCell::default() }
+    }
 }
 
 impl Reader<'_> {
     pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
         let value = *number.get_ref();
         if !value.is_finite() {
-            return Err(self.source.defect_at(number.span(), format!("{what}: {value} is not a finite number")));
+            let defect = self.source.defect_at(number.span(), format!("{what}: {value} is not a finite number"));
+            return Err(defect.cure("write a number"));
         }
         if value.abs() > LARGEST {
             let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
@@ -289,7 +327,7 @@ impl Reader<'_> {
         let value = self.finite(number, what)?;
         if value < 0.0 {
             let message = format!("{what} must not be negative, is {value}");
-            return Err(self.source.defect_at(number.span(), message));
+            return Err(self.source.defect_at(number.span(), message).cure("write 0 or more"));
         }
         Ok(value)
     }
@@ -299,7 +337,7 @@ impl Reader<'_> {
             [a, b] => Ok([self.finite(a, what)?, self.finite(b, what)?]),
             other => {
                 let message = format!("{what}: expected two numbers, found {}", other.len());
-                Err(self.source.defect_at(numbers.span(), message))
+                Err(self.source.defect_at(numbers.span(), message).cure("write [a, b]"))
             }
         }
     }
@@ -310,10 +348,25 @@ impl Reader<'_> {
 
     /// Joint values or a point for the tip, and where they stand.
     pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
-        match (&goal.joints, &goal.tip) {
+        self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
+    }
+
+    /// The same from the two keys, of which one is there.
+    fn place(
+        &self,
+        joints: Option<&Spanned<Vec<Written>>>,
+        tip: Option<&Numbers>,
+        at: Range<usize>,
+        what: &str,
+    ) -> Result<(Goal, Range<usize>), Defect> {
+        match (joints, tip) {
             (Some(joints), None) => {
-                let values = self.two(joints, &format!("{what} joints"))?;
-                Ok((Goal::Joints(Configuration::from(values)), joints.span()))
+                let pair = self.joint_pair(joints, &format!("{what} joints"))?;
+                let goal = Goal::Joints(Configuration::from(pair.values));
+                if pair.degrees.iter().any(Option::is_some) {
+                    self.in_degrees.borrow_mut().push(pair);
+                }
+                Ok((goal, joints.span()))
             }
             (None, Some(tip)) => Ok((Goal::Tip(self.point(tip, &format!("{what} tip"))?), tip.span())),
             (joints, _) => {
@@ -345,10 +398,5 @@ impl Reader<'_> {
             return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
         }
         Ok(Heights { lower, upper })
-    }
-
-    pub fn points(&self, points: &Spanned<Vec<Numbers>>, what: &str) -> Result<Vec<Point>, Defect> {
-        let name = |i: usize| format!("{what}, point {}", i + 1);
-        points.get_ref().iter().enumerate().map(|(i, p)| self.point(p, &name(i))).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! The arm, the workspace, and the two together.
 
 mod arm;
+mod assumed;
 mod carried;
 mod inverse;
 mod joint;
@@ -18,6 +19,7 @@ mod task;
 mod workspace;
 
 pub use arm::{Arm, Plane};
+pub use assumed::AssumedLimits;
 pub use carried::Carried;
 pub(crate) use carried::{on_axis, swept};
 pub use inverse::{Freedom, Inverse, inverse, within};

@@ -227,7 +227,7 @@ mod tests {
         };
         let sampling = Some(Sampling { queries: 2, seed: u64::MAX });
         let comparisons = vec![comparison(found), comparison(stuck)];
-        Study { title: title.to_owned(), sampling, comparisons, left_out: Vec::new() }
+        Study { title: title.to_owned(), sampling, comparisons, left_out: Vec::new(), refused: Vec::new() }
     }
 
     #[test]
@@ -255,7 +255,13 @@ mod tests {
 
     #[test]
     fn nothing_is_a_log_too() {
-        let none = Study { title: String::new(), sampling: None, comparisons: Vec::new(), left_out: Vec::new() };
+        let none = Study {
+            title: String::new(),
+            sampling: None,
+            comparisons: Vec::new(),
+            left_out: Vec::new(),
+            refused: Vec::new(),
+        };
         assert!(Reader::log(&none.to_arena_log("", 0.0)).planners.is_empty());
     }
 }

@@ -25,6 +25,6 @@ pub use page::{Overlay, Page, Picture, Spot};
 pub use row::{Family, OtherPath, Outcome, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
-pub use study::{Sampling, Study};
+pub use study::{Refusal, Sampling, Study};
 pub use table::{Align, Column, Table};
 pub use words::words;

@@ -25,6 +25,19 @@ pub struct Study {
     pub comparisons: Vec<Comparison>,
     /// What was left out, and why; a line each.
     pub left_out: Vec<String>,
+    /// Problems that could not be run.
+    pub refused: Vec<Refusal>,
+}
+
+/// A problem that could not be run: its files cannot be read, or its start or goal is blocked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Refusal {
+    /// Its name.
+    pub problem: String,
+    /// `input`, `start` or `goal`.
+    pub kind: &'static str,
+    /// What is wrong, on a line.
+    pub reason: String,
 }
 
 impl Study {

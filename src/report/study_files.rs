@@ -3,7 +3,7 @@
 use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
 use super::row::{Outcome, Row};
-use super::study::Study;
+use super::study::{Refusal, Study};
 use super::table::{Align, Column, Table, quoted};
 use super::words::words;
 use serde_json::{Value, json};
@@ -56,6 +56,12 @@ impl Study {
                 text += &format!("{},{ends},{}\n", quoted(&comparison.problem), comparison.csv_row(row));
             }
         }
+        let columns = CSV_HEADER.matches(',').count();
+        for Refusal { problem, reason, .. } in &self.refused {
+            // Neither ends nor planner, the outcome, and the reason in the last column.
+            let empty = ",".repeat(columns - 1);
+            text += &format!("{},,,,,,refused{empty}{}\n", quoted(problem), quoted(reason));
+        }
         text
     }
 
@@ -69,6 +75,7 @@ impl Study {
             "summary": words(self),
             "contradictions": self.alarms(),
             "left_out": self.left_out,
+            "refused": self.refused.iter().map(Refusal::json).collect::<Vec<_>>(),
         });
         if let Some(sampling) = self.sampling {
             object["queries"] = json!(sampling.queries);
@@ -110,9 +117,13 @@ impl Study {
 
     fn outcomes(&self) -> Table {
         let mut columns = vec![Column::new("planner", Align::Left)];
-        columns.extend(["found", "infeasible", "unknown", "problems"].map(|name| Column::new(name, Align::Right)));
+        let refused = (!self.refused.is_empty()).then_some(self.refused.len());
+        let names =
+            ["found", "infeasible", "unknown"].into_iter().chain(refused.map(|_| "refused")).chain(["problems"]);
+        columns.extend(names.map(|name| Column::new(name, Align::Right)));
         let row = |(i, name): (usize, &&str)| {
-            let counts = self.tally(i).into_iter().chain([self.comparisons.len()]);
+            let all = self.comparisons.len() + self.refused.len();
+            let counts = self.tally(i).into_iter().chain(refused).chain([all]);
             [Some((*name).to_owned())].into_iter().chain(counts.map(|n| Some(n.to_string()))).collect()
         };
         Table { columns, rows: self.planners().iter().enumerate().map(row).collect() }
@@ -155,7 +166,15 @@ impl Study {
             remarks.truncate(REMARKS);
             remarks.push(more);
         }
-        remarks.into_iter().chain(self.left_out.iter().cloned()).chain(self.alarms())
+        let refused =
+            self.refused.iter().map(|Refusal { problem, reason, .. }| format!("{problem} was not run: {reason}"));
+        remarks.into_iter().chain(self.left_out.iter().cloned()).chain(refused).chain(self.alarms())
+    }
+}
+
+impl Refusal {
+    fn json(&self) -> Value {
+        json!({ "problem": self.problem, "kind": self.kind, "reason": self.reason })
     }
 }
 

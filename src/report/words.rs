@@ -225,7 +225,7 @@ mod tests {
     }
 
     fn study(comparisons: Vec<Comparison>) -> Study {
-        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::impossible::Impossible;
 use super::joints::{MessageError, Messages};
 use super::sequence::Sequence;
 use super::step_report::{EventReport, StepReport, finite};
-use crate::model::{Joint, RobotJoints, Task};
+use crate::model::{AssumedLimits, Joint, RobotJoints, Task};
 use crate::trajectory::{JointMotion, SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
 use serde::Serialize;
 use std::rc::Rc;
@@ -50,6 +50,9 @@ pub struct TaskReport {
     joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
     units: [&'static str; 2],
+    /// Limits that the timing takes for want of given ones.
+    #[serde(skip_serializing_if = "AssumedLimits::is_empty")]
+    pub assumed: AssumedLimits,
     /// Why not all steps can be done, or are not known to be possible.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
@@ -138,6 +141,7 @@ impl TaskReport {
             search: None,
             joints: joints.each_ref().map(|joint| joint.name.clone()),
             units: joints.each_ref().map(Joint::unit),
+            assumed: AssumedLimits::default(),
             reason: failed.map(|why| reason(task, why, status)),
             failed: failed.map(|why| FailedStep::new(task, why)),
             certified: is_whole,

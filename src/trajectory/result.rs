@@ -3,7 +3,7 @@
 use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
 use crate::certify::{CertifiedCurve, ProofBox};
-use crate::model::{Joint, RobotJoints};
+use crate::model::{AssumedLimits, Joint, RobotJoints};
 use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -89,6 +89,9 @@ pub struct Report {
     pub joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
     pub units: [&'static str; 2],
+    /// Limits that the timing takes for want of given ones.
+    #[serde(skip_serializing_if = "AssumedLimits::is_empty")]
+    pub assumed: AssumedLimits,
     /// Why there is no path, or why none is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
@@ -187,6 +190,7 @@ impl Report {
             planner: planner.to_owned(),
             joints: joints.each_ref().map(|j| j.name.clone()),
             units: joints.each_ref().map(Joint::unit),
+            assumed: AssumedLimits::default(),
             reason: None,
             proof: None,
             path_exists: None,

@@ -11,4 +11,5 @@ mod measures;
 mod minkowski;
 mod parry;
 mod polygons;
+mod rings;
 mod verdicts;

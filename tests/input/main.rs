@@ -5,6 +5,7 @@ mod arms;
 mod common;
 mod errors;
 mod inspect;
+mod mutations;
 mod maps;
 mod real_urdfs;
 mod tasks;

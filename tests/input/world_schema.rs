@@ -81,6 +81,7 @@ frame = false
 height = [0.0, 3.0]
 [[obstacle]]
 polygon = [[0, 0], [1, 0], [1, 1]]
+holes = [[[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]]
 [[obstacle]]
 name = "disc"
 circle = { center = [1, 1], radius = 0.5 }

@@ -31,7 +31,8 @@ is told apart (build, query, certify). Length over the proven optimum is measure
 below. Memory is what a run allocates at the same time, at the most.
 
 Exit codes: of one problem, that of the best answer (0 found, 3 proven that there is no path, 4 unknown); of several,
-0 if all ran; 1 bad input, or planners that contradict each other; 2 wrong command line.")]
+0 if all ran; 1 bad input, planners that contradict each other, or (after all others ran, and are reported) problems of a suite
+that cannot be read or whose start or goal is blocked; 2 wrong command line.")]
 pub struct CompareArgs {
     /// The arm. With --suite: the arm for all worlds of the folder.
     #[arg(value_name = "URDF", required_unless_present = "suite")]

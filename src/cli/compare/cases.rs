@@ -4,9 +4,9 @@ use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
 use crate::cli::output;
-use crate::input::{self, Overrides, Suite};
+use crate::input::{self, DefectKind, Overrides, Refused, Suite};
 use crate::model::{Goal, Problem};
-use crate::report::Sampling;
+use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
 use std::path::Path;
@@ -22,6 +22,8 @@ pub struct Cases {
     pub sampling: Option<Sampling>,
     /// What was left out, and why; a line each.
     pub left_out: Vec<String>,
+    /// Problems that could not be run.
+    pub refused: Vec<Refusal>,
     /// What may surprise about the robots; a line each.
     pub warnings: Vec<String>,
 }
@@ -81,7 +83,9 @@ impl Cases {
         }
         let mut name = suite.name.clone();
         let overrides = args.query.overrides();
-        let mut bases = if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
+        let (mut bases, refused) =
+            if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
+        let mut refused: Vec<Refusal> = refused.iter().map(refusal).collect();
         for (_, problem) in &mut bases {
             args.motion.override_limits(&mut problem.scene.arm.joints);
         }
@@ -92,9 +96,21 @@ impl Cases {
         }
         let sampling = args.queries.map(|queries| Sampling { queries: queries as usize, seed: args.seed });
         let mut cases = Vec::new();
-        for (world, (name, problem)) in bases.into_iter().enumerate() {
+        // Worlds are numbered without gaps.
+        let mut world = 0;
+        for (name, problem) in bases {
             let name = if args.is_single() { output::title(&problem) } else { name };
-            cases.extend(drawn(name, world, Arc::new(problem), sampling)?);
+            match drawn(&name, world, Arc::new(problem), sampling) {
+                Ok(drawn) => {
+                    cases.extend(drawn);
+                    world += 1;
+                }
+                Err(reason) if args.suite.is_some() => refused.push(Refusal { problem: name, kind: "input", reason }),
+                Err(reason) => return Err(Failure::Option(reason)),
+            }
+        }
+        if let ([], Some(Refusal { reason, .. })) = (&cases[..], refused.first()) {
+            return Err(Failure::Option(reason.clone()));
         }
         let title = match sampling {
             Some(Sampling { queries, seed }) if args.suite.is_some() => {
@@ -103,7 +119,7 @@ impl Cases {
             Some(Sampling { queries, seed }) => format!("{name}: {queries} random queries, seed {seed}"),
             None => name,
         };
-        Ok(Self { title, cases, sampling, left_out, warnings })
+        Ok(Self { title, cases, sampling, left_out, refused, warnings })
     }
 }
 
@@ -111,16 +127,37 @@ impl Cases {
 fn one(urdf: &Path, world: &Path) -> Result<Suite, Failure> {
     let scene = input::load_scene(urdf, world)?;
     let name = scene.scene.workspace.name.clone();
-    Ok(Suite { name: name.clone(), members: vec![input::Member { name, scene }], with_steps: Vec::new() })
+    Ok(Suite {
+        name: name.clone(),
+        members: vec![input::Member { name, scene }],
+        with_steps: Vec::new(),
+        refused: Vec::new(),
+    })
 }
 
+/// Problems with their names, and those that cannot be run.
+type Bases = (Vec<(String, Problem)>, Vec<Refused>);
+
 /// With the worlds' own start and goal, or those of the command line.
-fn problems(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>, Failure> {
-    Ok(suite.problems(overrides)?.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect())
+fn problems(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
+    let (problems, refused) = suite.problems(overrides)?;
+    Ok((problems.into_iter().map(|(name, loaded)| (name, loaded.problem)).collect(), refused))
+}
+
+/// Why a problem is not run, on a line.
+fn refusal(refused: &Refused) -> Refusal {
+    let defect = refused.error.defects().first();
+    let kind = match defect.map(|defect| defect.kind) {
+        Some(DefectKind::Start) => "start",
+        Some(DefectKind::Goal) => "goal",
+        _ => "input",
+    };
+    let reason = refused.error.to_string().lines().next().unwrap_or_default().to_owned();
+    Refusal { problem: refused.name.clone(), kind, reason }
 }
 
 /// Scenes whose start and goal nobody will look at: the worlds' own may be missing or blocked.
-fn scenes(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>, Failure> {
+fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
     let scene = |member: input::Member| {
         // Only a world that was named by itself can have steps here; asked for its goal it says so.
         if member.scene.has_steps() {
@@ -133,18 +170,24 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Vec<(String, Problem)>,
         let nowhere = Configuration::zeros();
         Ok((member.name, Problem { scene, start: nowhere, goal: Goal::Joints(nowhere), goals: nowhere.into() }))
     };
-    suite.members.into_iter().map(scene).collect()
+    let scenes: Result<Vec<_>, Failure> = suite.members.into_iter().map(scene).collect();
+    Ok((scenes?, suite.refused))
 }
 
 /// The problem, or as many random ones in its scene.
-fn drawn(name: String, world: usize, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, Failure> {
-    let Some(Sampling { queries, seed }) = sampling else { return Ok(vec![Case { name, world, base, query: None }]) };
+///
+/// # Errors
+/// In words, when hardly anything is free.
+fn drawn(name: &str, world: usize, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
+    let Some(Sampling { queries, seed }) = sampling else {
+        return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);
+    };
     let Some(pairs) = free_pairs(&base.scene, queries, seed) else {
-        return Err(Failure::Option(format!(
+        return Err(format!(
             "--queries: {name} has hardly a configuration that keeps the clearance of {} m; a smaller --clearance or \
              other obstacles leave room for random queries",
             base.scene.workspace.clearance
-        )));
+        ));
     };
     let width = queries.to_string().len();
     let case =

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::memory::MemoryMeter;
 use super::output::{self, Sink};
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
-use crate::report::{Comparison, Page, Study};
+use crate::report::{Comparison, Page, Refusal, Study};
 use crate::solve::{Effort, Method};
 use crate::trajectory::write_whole_set;
 use cases::{Case, Cases};
@@ -34,6 +34,9 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     let cases = Cases::load(args)?;
     let entries = entries(args, &cases)?;
     cases.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    for Refusal { problem, reason, .. } in &cases.refused {
+        output::say(&format!("warning: {problem} is not run: {reason}"));
+    }
     if !args.quiet {
         cases.left_out.iter().for_each(|line| output::say(&format!("note: {line}")));
     }
@@ -52,6 +55,7 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
         sampling: cases.sampling,
         comparisons: std::mem::take(&mut done.comparisons),
         left_out: cases.left_out.clone(),
+        refused: cases.refused.clone(),
     };
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
@@ -73,10 +77,10 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     Ok(exit_code(&study, args.is_single()))
 }
 
-/// A contradiction is a failure; otherwise the code is that of a single problem's best answer.
+/// A contradiction is a failure, and so is a problem that could not be run, after all others were; otherwise the code is that of a single problem's best answer.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
     match study.settled() {
-        _ if !study.alarms().is_empty() => BAD_INPUT,
+        _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
         _ if !is_single => DONE,
         [0, 0, _] => UNKNOWN,
         [0, ..] => INFEASIBLE,
@@ -160,7 +164,7 @@ mod tests {
             rows: outcomes.iter().map(|outcome| Row::new("planner", Family::Field, *outcome)).collect(),
         };
         let comparisons = outcomes.iter().map(comparison).collect();
-        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }
     }
 
     #[test]

@@ -220,7 +220,7 @@ fn form(table: &Table) -> Option<Form> {
     let mut forms = corners("polygon").map(Form::Polygon).into_iter().chain(circle());
     let first = forms.next().or_else(|| corners("polyline").map(Form::Polyline));
     let shapes = ["polygon", "circle", "polyline", "image"].into_iter().filter(|key| table.contains_key(key)).count();
-    first.filter(|_| shapes == 1)
+    first.filter(|_| shapes == 1 && !table.contains_key("holes"))
 }
 
 fn pair(item: Option<&Item>) -> Option<Pair> {
@@ -228,7 +228,10 @@ fn pair(item: Option<&Item>) -> Option<Pair> {
 }
 
 fn pair_of(array: &Array) -> Option<Pair> {
-    let mut numbers = array.iter().map(|x| x.as_float().or_else(|| x.as_integer().map(|i| i as f64)));
+    let degrees =
+        |x: &Value| x.as_str()?.trim().strip_suffix("deg")?.trim_end().parse::<f64>().ok().map(f64::to_radians);
+    let mut numbers =
+        array.iter().map(|x| x.as_float().or_else(|| x.as_integer().map(|i| i as f64)).or_else(|| degrees(x)));
     match (numbers.next(), numbers.next(), numbers.next()) {
         (Some(Some(a)), Some(Some(b)), None) => Some([a, b]),
         _ => None,

@@ -1,4 +1,5 @@
-//! Joint values as a table: a header of names, then a sample a line.
+//! Joint values as a table: a header of names, then a sample a line. Values are separated by commas, semicolons or tabs, as
+//! the header has it; lines that begin with `#` are comments, but for the header itself.
 
 use super::columns::{Meaning, meanings};
 use super::records::{Field, Records};
@@ -8,14 +9,18 @@ use crate::input::source::Source;
 
 /// Reads a table. See [`super::load_recording`] for the names of columns.
 pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
-    let mut records = Records::new(&source.text);
-    let header = records.next().ok_or_else(|| {
+    let separator = separator(&source.text, names);
+    let mut records = Records::new(&source.text, separator);
+    // A comment may be the header.
+    let header = records.find(|record| !is_comment(record) || names_joints(record, names));
+    let header = header.ok_or_else(|| {
         source.defect("is empty").cure("write a header of names, then the samples: time,joint1,joint2")
     })?;
-    let columns = Columns::new(source, names, &header)?;
+    let mut columns = Columns::new(source, names, &header)?;
     let mut samples = Samples { what: "sample", ..Samples::default() };
     let mut values: Vec<Vec<f64>> = columns.used.iter().map(|_| Vec::new()).collect();
-    for record in records {
+    let mut repeated = 0;
+    for record in records.filter(|record| !is_comment(record)) {
         if record.len() != header.len() {
             let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
             return Err(source
@@ -23,13 +28,52 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
                 .cure("give every line one value for each name of the header")
                 .into());
         }
-        for (&(index, _), column) in columns.used.iter().zip(&mut values) {
-            column.push(number(source, &header[index], &record[index])?);
+        let sample = columns.used.iter().map(|&(index, _)| number(source, &header[index], &record[index]));
+        let sample = sample.collect::<Result<Vec<f64>, Defect>>()?;
+        // The same line again, its time included, is the same sample.
+        if columns.has_time()
+            && !sample.is_empty()
+            && values.iter().map(|column| column.last()).eq(sample.iter().map(Some))
+        {
+            repeated += 1;
+            continue;
         }
+        values.iter_mut().zip(sample).for_each(|(column, value)| column.push(value));
         samples.places.push(whole(&record));
+    }
+    if repeated > 0 {
+        let plural = if repeated == 1 { " repeats the one before it" } else { "s repeat the ones before them" };
+        columns.notes.push(format!("{repeated} sample{plural}; taken once"));
+    }
+    if separator != ',' {
+        let name = if separator == ';' { "semicolons" } else { "tabs" };
+        columns.notes.push(format!("values are separated by {name}"));
     }
     columns.fill(&mut samples, values);
     Ok(samples)
+}
+
+/// The character that separates values: of comma, semicolon and tab the first with which some line names a joint.
+fn separator(text: &str, names: &Names) -> char {
+    let names_some = |separator: &char| {
+        let mut heads = Records::new(text, *separator).take(HEAD);
+        heads.any(|record| record.len() > 1 && names_joints(&record, names))
+    };
+    [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
+}
+
+/// So many lines are looked at for the header.
+const HEAD: usize = 64;
+
+fn is_comment(record: &[Field]) -> bool {
+    record.first().is_some_and(|field| field.text.starts_with('#'))
+}
+
+/// Whether a line names a joint of the arm.
+fn names_joints(record: &[Field], names: &Names) -> bool {
+    let joints: Vec<&str> = names.all().collect();
+    let name = |field: &Field| field.text.trim_start_matches(['#', ' ']).to_owned();
+    record.iter().any(|field| meanings(&name(field), &joints).iter().any(|m| matches!(m, Meaning::Of(..))))
 }
 
 fn whole(record: &[Field]) -> std::ops::Range<usize> {
@@ -87,16 +131,15 @@ impl Columns {
             let cure = format!("name the columns in the first line: time, {}", names.arm.join(", "));
             return Err(source.defect_at(whole(header), "there is no header").cure(cure));
         }
-        let tabbed = |f: &Field| f.text.contains([';', '\t']);
-        if used.is_empty() && header.iter().any(tabbed) {
-            let message = "the columns are not separated by commas";
-            return Err(source.defect_at(whole(header), message).cure("separate values by commas, decimals by points"));
-        }
         let mut notes = Vec::new();
         if !unknown.is_empty() {
             notes.push(format!("columns that are not used: {}", quoted(unknown)));
         }
         Ok(Self { joints: joints.into_iter().map(str::to_owned).collect(), used, notes })
+    }
+
+    fn has_time(&self) -> bool {
+        self.used.iter().any(|(_, meaning)| *meaning == Meaning::Time)
     }
 
     /// Puts the columns' values where they belong.

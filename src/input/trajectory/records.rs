@@ -1,4 +1,4 @@
-//! Comma-separated values (RFC 4180) with the place of every field.
+//! Comma-separated values (RFC 4180) with the place of every field; or separated by semicolons or tabs.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -15,11 +15,13 @@ pub(super) struct Field<'a> {
 pub(super) struct Records<'a> {
     text: &'a str,
     at: usize,
+    separator: char,
 }
 
 impl<'a> Records<'a> {
-    pub fn new(text: &'a str) -> Self {
-        Self { text, at: 0 }
+    /// Of values that are separated by this character.
+    pub fn new(text: &'a str, separator: char) -> Self {
+        Self { text, at: 0, separator }
     }
 
     /// The next field, and whether it ends its record.
@@ -28,8 +30,8 @@ impl<'a> Records<'a> {
         let rest = &self.text[start..];
         let quoted = rest.starts_with('"').then(|| closing_quote(rest));
         let begin = quoted.unwrap_or(0);
-        let length = rest[begin..].find([',', '\n']).map_or(rest.len(), |i| begin + i);
-        let ends = !rest[length..].starts_with(',');
+        let length = rest[begin..].find([self.separator, '\n']).map_or(rest.len(), |i| begin + i);
+        let ends = !rest[length..].starts_with(self.separator);
         self.at = start + (length + 1).min(rest.len());
         let raw = rest[..length].trim();
         let text = match quoted {
@@ -82,7 +84,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Vec<Vec<String>> {
-        Records::new(text).map(|r| r.into_iter().map(|f| f.text.into_owned()).collect()).collect()
+        Records::new(text, ',').map(|r| r.into_iter().map(|f| f.text.into_owned()).collect()).collect()
     }
 
     #[test]
@@ -97,10 +99,24 @@ mod tests {
     }
 
     #[test]
+    fn other_separators() {
+        let read = |text, separator| -> Vec<Vec<String>> {
+            Records::new(text, separator).map(|r| r.into_iter().map(|f| f.text.into_owned()).collect()).collect()
+        };
+        assert_eq!(read("a;b\n1,5;2\n", ';'), [["a", "b"], ["1,5", "2"]]);
+        assert_eq!(read("a\tb\n\t2\n", '\t'), [["a", "b"], ["", "2"]]);
+    }
+
+    #[test]
     fn places_are_those_of_the_text() {
         let text = "a,\"b,\"\nç, d";
-        let fields: Vec<&str> =
-            Records::new(text).flatten().map(|f| f.range).collect::<Vec<_>>().into_iter().map(|r| &text[r]).collect();
+        let fields: Vec<&str> = Records::new(text, ',')
+            .flatten()
+            .map(|f| f.range)
+            .collect::<Vec<_>>()
+            .into_iter()
+            .map(|r| &text[r])
+            .collect();
         assert_eq!(fields, ["a", "\"b,\"", "ç", " d"]);
     }
 }

@@ -3,6 +3,7 @@
 use super::document::{escaped, tag};
 use crate::input::error::Defect;
 use crate::input::source::Source;
+use crate::input::world::LARGEST;
 use roxmltree::Node;
 
 /// Attributes that hold numbers, in any element of a link or joint.
@@ -40,6 +41,19 @@ const NUMERIC: [&str; 31] = [
     "izz",
 ];
 
+/// Those of them where an infinity says that there is no limit.
+const UNLIMITED: [&str; 9] = [
+    "lower",
+    "upper",
+    "effort",
+    "velocity",
+    "acceleration",
+    "deceleration",
+    "jerk",
+    "soft_lower_limit",
+    "soft_upper_limit",
+];
+
 /// Joint types of the URDF specification.
 const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
@@ -62,15 +76,17 @@ impl Attributes<'_> {
     fn defect(&mut self, node: Node, attribute: Option<&str>, message: String, cure: &str) {
         let place = attribute.and_then(|a| node.attribute_node(a)).map_or_else(|| tag(node), |a| a.range());
         let defect = self.source.defect_at(place, format!("{}: {message}", self.what));
-        self.defects.push(if cure.is_empty() { defect } else { defect.cure(cure) });
+        self.defects.push(defect.cure(cure));
     }
 
-    /// Refuses NaN and infinities in every numeric attribute below `node`, also in those that are not used: a file that
-    /// has them was not written right.
+    /// Refuses NaN in every numeric attribute below `node`, also in those that are not used, and infinities where they do
+    /// not just say that there is no limit: a file that has them was not written right.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes().filter(|a| NUMERIC.contains(&a.name())) {
-                let bad = |word: &&str| word.parse::<f64>().is_ok_and(|x| !x.is_finite());
+                let may_be_infinite = UNLIMITED.contains(&attribute.name());
+                let bad =
+                    |word: &&str| word.parse::<f64>().is_ok_and(|x| x.is_nan() || x.is_infinite() && !may_be_infinite);
                 if let Some(word) = attribute.value().split_whitespace().find(bad) {
                     let message = format!("{word} in {}=\"{}\" is not finite", attribute.name(), attribute.value());
                     let cure = "every number of a URDF is finite; a joint without limits is of type continuous";
@@ -88,7 +104,7 @@ impl Attributes<'_> {
             self.defect(second, None, format!("a second <{name}>"), "keep the one that is meant");
         }
         if first.is_none() && required {
-            self.defect(node, None, format!("<{name}> is missing"), "");
+            self.defect(node, None, format!("<{name}> is missing"), &format!("add a <{name}>"));
         }
         first
     }
@@ -97,7 +113,8 @@ impl Attributes<'_> {
     pub fn text<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         let value = node.attribute(name).filter(|v| !v.trim().is_empty());
         if value.is_none() {
-            self.defect(node, None, format!("<{}> needs the attribute {name}", node.tag_name().name()), "");
+            let message = format!("<{}> needs the attribute {name}", node.tag_name().name());
+            self.defect(node, None, message, &format!("add {name}=\"...\""));
         }
         value
     }
@@ -107,15 +124,28 @@ impl Attributes<'_> {
         let text = node.attribute(name)?;
         let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
         match values {
-            Ok(values) if values.len() == count => values.iter().all(|x| x.is_finite()).then_some(values),
+            Ok(values) if values.len() == count => {
+                let is_length = ["xyz", "size", "radius", "length"].contains(&name);
+                if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > LARGEST) {
+                    let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {LARGEST:e})");
+                    self.defect(node, Some(name), message, "lengths are in metres");
+                    return None;
+                }
+                values.iter().all(|x| x.is_finite()).then_some(values)
+            }
             Ok(values) => {
                 let message = format!("{name}=\"{text}\" has {} numbers, not {count}", values.len());
-                self.defect(node, Some(name), message, "");
+                self.defect(node, Some(name), message, "separate numbers by blanks, as in \"0.5 0 0\"");
                 None
             }
             Err(_) => {
                 let noun = if count == 1 { "a number".to_owned() } else { format!("{count} numbers") };
-                self.defect(node, Some(name), format!("{name}=\"{text}\" is not {noun}"), "");
+                self.defect(
+                    node,
+                    Some(name),
+                    format!("{name}=\"{text}\" is not {noun}"),
+                    "write numbers, such as 0.5 or -1e-3",
+                );
                 None
             }
         }
@@ -175,6 +205,11 @@ impl Attributes<'_> {
     /// that is reported, so that what is examined further is in order.
     pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
         let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
+        for (value, name) in values.iter_mut().zip(["lower", "upper"]) {
+            let infinite =
+                limit.attribute(name).and_then(|text| text.trim().parse::<f64>().ok()).filter(|x| x.is_infinite());
+            *value = value.or(infinite);
+        }
         let [lower, upper] = [0, 1].map(|k| values[k].unwrap_or(absent[k]));
         if ranged && lower > upper {
             let missing = ["lower", "upper"].into_iter().zip(values).find(|(_, value)| value.is_none());
@@ -210,7 +245,12 @@ impl Attributes<'_> {
     /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let Some(shape) = geometry.children().find(Node::is_element) else {
-            self.defect(geometry, None, "the <geometry> is empty".into(), "");
+            self.defect(
+                geometry,
+                None,
+                "the <geometry> is empty".into(),
+                "put a box, cylinder, sphere, capsule or mesh into it",
+            );
             return None;
         };
         let sizes: &[(&str, usize)] = match shape.tag_name().name() {
@@ -222,7 +262,12 @@ impl Attributes<'_> {
                 if let Some(scale) = self.numbers(shape, "scale", 3)
                     && scale.contains(&0.0)
                 {
-                    self.defect(shape, Some("scale"), "a scale of 0 flattens the mesh".into(), "");
+                    self.defect(
+                        shape,
+                        Some("scale"),
+                        "a scale of 0 flattens the mesh".into(),
+                        "scale=\"1 1 1\" leaves it as it is",
+                    );
                 }
                 return Some(shape);
             }

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::held::Held;
+use super::pairing;
 use super::tree::Tree;
 use crate::input::error::{Defect, InputError, quoted};
 use crate::input::world::World;
@@ -31,7 +32,15 @@ pub(super) fn choose(document: &Document, tree: &Tree, world: &World) -> Result<
     let chooser = Chooser { document, tree, world };
     chooser.names_exist()?;
     let joints = chooser.joints()?;
-    with_joints(document, tree, world, joints)
+    let mut chain = with_joints(document, tree, world, joints)?;
+    if world.robot.joints.is_none() && chooser.candidates().len() > 2 {
+        let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
+        let note = format!(
+            "the two joints are \"{first}\" and \"{second}\", the only planar pair of neighbours; [robot] joints chooses others"
+        );
+        chain.notes.insert(0, note);
+    }
+    Ok(chain)
 }
 
 /// The chain of two joints, the first of which carries the second.
@@ -170,9 +179,13 @@ impl Chooser<'_> {
         }
     }
 
+    /// Joints that can move on their own.
+    fn candidates(&self) -> Vec<usize> {
+        (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
+    }
+
     fn the_only_two(&self) -> Result<[usize; 2], Defect> {
-        let candidates: Vec<usize> =
-            (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect();
+        let candidates = self.candidates();
         if let [a, b] = candidates[..] {
             return Ok([a, b]);
         }
@@ -204,21 +217,35 @@ impl Chooser<'_> {
                 .defect(message)
                 .cure("use a robot with two joints that move in one plane"));
         }
+        if candidates.len() > pairing::MOST_TRIED {
+            let message = format!(
+                "the robot has {} joints that can move, and which two are to be planned for is not said{coupled}",
+                candidates.len()
+            );
+            let cure = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
+            return Err(self.document.source.defect(message).cure(cure));
+        }
+        let planar = pairing::planar(self.document, self.tree, self.world);
+        if let Some(pair) = pairing::evident(self.document, self.tree, &planar) {
+            return Ok(pair);
+        }
+        let count = candidates.len();
+        let list = list.join(", ");
+        if planar.is_empty() {
+            let message = format!(
+                "cplan plans for two joints that move in one plane; none of the robot's {count} joints that can move form \
+                 such a pair: {list}{coupled}"
+            );
+            let cure =
+                "use a robot with two joints that move in one plane; `cplan inspect` says of each pair why it does not";
+            return Err(self.document.source.defect(message).cure(cure));
+        }
         let message = format!(
-            "the robot has {} joints that can move, and which two are to be planned for is not said: {}{coupled}",
-            candidates.len(),
-            list.join(", ")
+            "the robot has {count} joints that can move, and which two are to be planned for is not said: {list}{coupled}"
         );
-        let turning = |j: usize| self.all()[j].joint_type != JointType::Prismatic;
-        let pairs = || candidates.iter().flat_map(|&a| candidates.iter().map(move |&b| [a, b]));
-        let serial = |[a, b]: &[usize; 2]| a != b && self.tree.carries(*a, self.tree.parent[*b]);
-        let likely = pairs().filter(serial).find(|pair| pair.iter().all(|j| turning(*j)));
-        let example = likely.or_else(|| pairs().find(serial)).unwrap_or([candidates[0], candidates[1]]);
-        let example = example.map(|j| self.all()[j].name.as_str());
         let cure = format!(
-            "name two of one chain in the world file: [robot] joints = [{}]; the others stand still (at `fixed` values); \
-             `cplan inspect` tells which form a planar arm",
-            quoted(example)
+            "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
+            pairing::choices(self.document, &planar)
         );
         Err(self.document.source.defect(message).cure(cure))
     }

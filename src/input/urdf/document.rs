@@ -62,7 +62,10 @@ impl Document {
     /// can be seen without the tree of links are all collected in [`Document::defects`].
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::recognise_by_name(&source)?;
-        let xml = roxmltree::Document::parse(&source.text).map_err(|error| foreign::malformed(&source, &error))?;
+        foreign::without_entities(&source)?;
+        let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
+        let xml = roxmltree::Document::parse_with_options(&source.text, options);
+        let xml = xml.map_err(|error| foreign::malformed(&source, &error))?;
         let root = xml.root_element();
         foreign::recognise(&source, root)?;
 

@@ -24,6 +24,19 @@ pub(super) fn recognise_by_name(source: &Source) -> Result<(), Defect> {
     Ok(())
 }
 
+/// Refuses document types that define entities, which can grow without end. One that does not is harmless, and ignored.
+pub(super) fn without_entities(source: &Source) -> Result<(), Defect> {
+    const ENTITY: &str = "<!ENTITY";
+    match source.text.find(ENTITY).filter(|at| source.text[..*at].contains("<!DOCTYPE")) {
+        None => Ok(()),
+        Some(at) => {
+            let defect = source
+                .defect_at(at..at + ENTITY.len(), "the document type defines entities, which a URDF has no use for");
+            Err(defect.cure("write their values where they are used, and remove the <!DOCTYPE ...>"))
+        }
+    }
+}
+
 /// What broken XML is reported as.
 pub(super) fn malformed(source: &Source, error: &Error) -> Defect {
     let at = error.pos();

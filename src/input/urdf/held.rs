@@ -3,8 +3,9 @@
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range, find};
 use crate::input::error::{Defect, InputError};
+use crate::input::quantity::Quantity;
 use crate::space::Axis;
-use urdf_rs::Mimic;
+use urdf_rs::{JointType, Mimic};
 
 /// Values of all joints, and which of them are held where it matters.
 pub(super) struct Held {
@@ -99,11 +100,17 @@ impl Chooser<'_> {
         let range = Limits { document: self.document, world: self.world }.range(index)?;
         let Some(value) = find(&self.world.robot.fixed, &joint.name) else {
             return Ok(match range {
-                Range::Known(Axis::Interval { lower, upper }) => 0f64.clamp(lower, upper),
-                Range::Known(Axis::Circle) | Range::Unset(_) => 0.0,
+                Range::Known(Axis::Interval { lower, upper }) | Range::Taken(Axis::Interval { lower, upper }, _) => {
+                    0f64.clamp(lower, upper)
+                }
+                Range::Known(Axis::Circle) | Range::Taken(Axis::Circle, _) | Range::Unset(_) => 0.0,
             });
         };
-        let number = *value.get_ref();
+        let Quantity { value: number, in_degrees } = *value.get_ref();
+        if in_degrees && joint.joint_type == JointType::Prismatic {
+            let message = format!("[robot] fixed: joint \"{}\" slides: its value cannot be in degrees", joint.name);
+            return Err(self.in_world(value, message).cure("write its value in metres, without \"deg\""));
+        }
         if !number.is_finite() {
             return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
         }

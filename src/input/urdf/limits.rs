@@ -2,14 +2,27 @@
 
 use super::document::Document;
 use crate::input::error::Defect;
-use crate::input::world::World;
+use crate::input::quantity::Written;
+use crate::input::world::{LARGEST, World};
 use crate::space::Axis;
 use toml::Spanned;
 use urdf_rs::JointType;
 
-/// Longest range that a joint may have, radians or metres. Simulators write 1e16 for "none", and a map of such a range
-/// would be of no use; a hundred turns are enough for any wrist.
-const LONGEST_RANGE: f64 = 1e3;
+/// Longest range of a joint that turns, radians: a hundred turns are enough for any wrist.
+const LONGEST_TURN: f64 = 1e3;
+
+/// Longest range of a joint that slides, metres: beyond the coordinates that a world may have nothing can be hit.
+const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
+
+/// Both limits of a revolute joint beyond this many radians are none: simulators write 1e16, exporters 1e9 or infinity. No
+/// start that a world may give is so far out.
+const UNLIMITED: f64 = LARGEST;
+
+/// Top speed of a joint that turns and has none, radians a second.
+const DEFAULT_TURNING_SPEED: f64 = 1.0;
+
+/// Top speed of a joint that slides and has none, metres a second.
+const DEFAULT_SLIDING_SPEED: f64 = 0.25;
 
 /// Seconds in which a joint of unknown acceleration limit reaches its top speed.
 pub(in crate::input) const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
@@ -18,7 +31,9 @@ pub(in crate::input) const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
     Known(Axis),
-    /// No limits, with the reason and whether the file gives infinite or absurd ones.
+    /// Not as the file has it, with a note.
+    Taken(Axis, String),
+    /// No limits, with the reason.
     Unset(String),
 }
 
@@ -27,7 +42,16 @@ pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: Option<f64>,
-    pub note: Option<String>,
+    /// What was assumed for want of limits.
+    pub assumed: Assumed,
+    pub notes: Vec<String>,
+}
+
+/// Which rates nobody gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Assumed {
+    pub velocity: bool,
+    pub acceleration: bool,
 }
 
 /// Limits of joints as the URDF and the world file have them.
@@ -41,7 +65,7 @@ impl Limits<'_> {
     pub fn range(&self, index: usize) -> Result<Range, Defect> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.world.robot.limits, &joint.name) {
-            return self.overridden(&joint.name, limits).map(Range::Known);
+            return self.overridden(joint, limits).map(Range::Known);
         }
         if joint.joint_type == JointType::Continuous {
             return Ok(Range::Known(Axis::Circle));
@@ -54,7 +78,20 @@ impl Limits<'_> {
             return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which means unset")));
         }
         let [lower, upper] = self.softened(index, [lower, upper])?;
-        if upper - lower > LONGEST_RANGE {
+        let slides = joint.joint_type == JointType::Prismatic;
+        if !slides && lower <= -UNLIMITED && upper >= UNLIMITED {
+            let note =
+                format!("joint \"{}\": limits from {lower} to {upper} are none; taken as continuous", joint.name);
+            return Ok(Range::Taken(Axis::Circle, note));
+        }
+        if slides && upper - lower > LONGEST_SLIDE {
+            let (lower, upper) = (lower.max(-LARGEST), upper.min(LARGEST));
+            if lower < upper {
+                let note = format!("joint \"{}\": its range is taken as {lower:e} to {upper:e} m", joint.name);
+                return Ok(Range::Taken(Axis::Interval { lower, upper }, note));
+            }
+        }
+        if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
             return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
         }
         Ok(Range::Known(Axis::Interval { lower, upper }))
@@ -63,7 +100,7 @@ impl Limits<'_> {
     /// The range of a joint that is to be planned for.
     pub fn planned_range(&self, index: usize) -> Result<Axis, Defect> {
         match self.range(index)? {
-            Range::Known(axis) => Ok(axis),
+            Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
             Range::Unset(reason) => {
                 let joint = &self.document.robot.joints[index];
                 let example = if joint.joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
@@ -77,11 +114,16 @@ impl Limits<'_> {
         }
     }
 
-    fn overridden(&self, name: &str, limits: &Spanned<Vec<Spanned<f64>>>) -> Result<Axis, Defect> {
+    fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<Axis, Defect> {
         let defect = |message: String| {
-            self.world.source.defect_at(limits.span(), format!("[robot] limits of \"{name}\": {message}"))
+            let message = format!("[robot] limits of \"{}\": {message}", joint.name);
+            self.world.source.defect_at(limits.span(), message).cure("limits = { NAME = [lower, upper] }, rad or m")
         };
-        let numbers: Vec<f64> = limits.get_ref().iter().map(|n| *n.get_ref()).collect();
+        let longest = if joint.joint_type == JointType::Prismatic { LONGEST_SLIDE } else { LONGEST_TURN };
+        let numbers: Vec<f64> = limits.get_ref().iter().map(|n| n.get_ref().value).collect();
+        if joint.joint_type == JointType::Prismatic && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
+            return Err(defect("the joint slides: its limits cannot be in degrees".into()));
+        }
         let [lower, upper] = numbers[..] else {
             return Err(defect(format!("expected [lower, upper], found {} numbers", numbers.len())));
         };
@@ -91,8 +133,8 @@ impl Limits<'_> {
         if lower >= upper {
             return Err(defect(format!("lower ({lower}) must be below upper ({upper})")));
         }
-        if upper - lower > LONGEST_RANGE {
-            return Err(defect(format!("the range is longer than {LONGEST_RANGE}"))
+        if upper - lower > longest {
+            return Err(defect(format!("the range is longer than {longest}"))
                 .cure("a joint that turns without end is of type continuous in the URDF"));
         }
         Ok(Axis::Interval { lower, upper })
@@ -121,31 +163,30 @@ impl Limits<'_> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
         let name = &joint.name;
+        let mut notes = Vec::new();
+        let mut assumed = Assumed::default();
+        let slides = joint.joint_type == JointType::Prismatic;
+        let unit = if slides { "m" } else { "rad" };
         let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
-        let velocity = match self.positive(&self.world.robot.velocity, name, "velocity")?.or(given) {
-            Some(velocity) => velocity,
-            None => {
-                let why = if place.limit.is_some() {
-                    "its velocity limit is 0, which means unset"
-                } else {
-                    "it has no <limit>"
-                };
-                let at = place.limit.as_ref().unwrap_or(&place.at);
-                let defect = self.document.defect_at(at, format!("joint \"{name}\" has no top speed: {why}"));
-                return Err(defect.cure(format!("in the world file: [robot] velocity = {{ {} = 1.0 }}", key(name))));
-            }
-        };
+        let velocity = self.positive(&self.world.robot.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
+            let default = if slides { DEFAULT_SLIDING_SPEED } else { DEFAULT_TURNING_SPEED };
+            assumed.velocity = true;
+            notes.push(format!(
+                "joint \"{name}\": no top speed given; assumed {default} {unit}/s, for the timing alone"
+            ));
+            default
+        });
         let jerk = self.positive(&self.world.robot.jerk, name, "jerk")?;
         let given = place.acceleration.filter(|a| *a > 0.0);
         if let Some(acceleration) = self.positive(&self.world.robot.acceleration, name, "acceleration")?.or(given) {
-            return Ok(Rates { velocity, acceleration, jerk, note: None });
+            return Ok(Rates { velocity, acceleration, jerk, assumed, notes });
         }
         let acceleration = velocity / DEFAULT_TIME_TO_TOP_SPEED;
-        let unit = if joint.joint_type == JointType::Prismatic { "m/s^2" } else { "rad/s^2" };
-        let note = format!(
-            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit} (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
-        );
-        Ok(Rates { velocity, acceleration, jerk, note: Some(note) })
+        assumed.acceleration = true;
+        notes.push(format!(
+            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit}/s^2 (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
+        ));
+        Ok(Rates { velocity, acceleration, jerk, assumed, notes })
     }
 
     fn positive(

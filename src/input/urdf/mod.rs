@@ -18,6 +18,7 @@ mod held;
 mod ignored;
 mod limits;
 mod mesh;
+mod pairing;
 mod plane;
 mod reduction;
 mod remedy;

@@ -3,7 +3,8 @@
 use super::bodies::{Bodies, Outlines};
 use super::chain::Chain;
 use super::document::Document;
-use super::limits::{Limits, Rates};
+use super::limits::{Limits, Range, Rates};
+use super::pairing;
 use super::plane::{self, SpatialAxis, project};
 use super::tree::{self, Tree};
 use crate::geometry::Point;
@@ -46,15 +47,23 @@ impl<'a> Reduction<'a> {
 
     /// The plane of motion.
     pub fn plane(&self) -> Result<Plane, InputError> {
-        plane::common_plane(self.axes()).map_err(|message| {
+        self.common_plane().map_err(|message| {
             let place = &self.document.joints[self.chain.joints[1]];
             let at = place.axis.as_ref().unwrap_or(&place.at);
-            let defect = self.document.defect_at(at, message).cure(
-                "cplan plans for two joints that turn about parallel axes or slide in one plane: choose such a pair with \
-                 [robot] joints in the world file",
-            );
-            defect.into()
+            let planar = pairing::planar(self.document, self.tree, &pairing::freed(self.world));
+            let choose = if planar.is_empty() {
+                "the robot has no such pair".to_owned()
+            } else {
+                format!("in the world file: {}", pairing::choices(self.document, &planar))
+            };
+            let rule = "cplan plans for two joints that turn about parallel axes or slide in one plane";
+            self.document.defect_at(at, message).cure(format!("{rule}: {choose}")).into()
         })
+    }
+
+    /// The same, and why there is none in words alone.
+    pub fn common_plane(&self) -> Result<Plane, String> {
+        plane::common_plane(self.axes())
     }
 
     /// What the two joints can do; all that is missing is reported together.
@@ -93,7 +102,20 @@ impl<'a> Reduction<'a> {
         report.notes.extend(self.chain.notes.iter().cloned());
         let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
         report.held = self.chain.held.iter().map(held).collect();
-        report.notes.extend(bounds.iter().filter_map(|b| b.rates.note.clone()));
+        let limits = Limits { document: self.document, world: self.world };
+        for (j, bounds) in self.chain.joints.into_iter().zip(&bounds) {
+            if let Ok(Range::Taken(_, note)) = limits.range(j) {
+                report.notes.push(note);
+            }
+            report.notes.extend(bounds.rates.notes.iter().cloned());
+            let name = &self.document.robot.joints[j].name;
+            if bounds.rates.assumed.velocity {
+                report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
+            }
+            if bounds.rates.assumed.acceleration {
+                report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
+            }
+        }
         report.notes.extend(outlines.notes);
         report.warnings.extend(outlines.warnings);
 

@@ -6,7 +6,7 @@ use crate::model::Plane;
 use urdf_rs::JointType;
 
 /// Entries of `[robot]` with which the pair of joints loads, each on a line of its own: the joints, and placeholders for
-/// ranges and speeds that are missing or wrong and for geometry that cannot be used. None if `[robot]` has all.
+/// ranges that are missing or wrong and for geometry that cannot be used. None if `[robot]` has all.
 pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     let Reduction { document, world, chain, .. } = reduction;
     let joints = &document.robot.joints;
@@ -24,7 +24,6 @@ pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     };
     let range = |j: usize| if joints[j].joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
     lines.extend(table("limits", &|j| limits.planned_range(j).is_err(), &range));
-    lines.extend(table("velocity", &|j| limits.rates(j).is_err(), &|_| "1.0"));
     if reduction.outlines(plane).is_err() {
         lines.push("bar = 0.05".into());
     }

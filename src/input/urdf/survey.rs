@@ -4,7 +4,7 @@ use super::bodies::Outlines;
 use super::chain::{self, Chain, is_movable};
 use super::document::Document;
 use super::ignored;
-use super::limits::{Limits, Range, Rates, find};
+use super::limits::{Assumed, Limits, Range, Rates, find};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
 use super::remedy;
@@ -163,15 +163,18 @@ fn joint(limits: &Limits, index: usize) -> JointEntry {
         role: if movable { Role::Undecided } else { Role::Rigid },
         value: None,
         limits: movable.then(|| range(limits, index)),
-        velocity: rates
-            .as_ref()
-            .map(|r| RateEntry { value: r.velocity, source: given(find(&world.velocity, &joint.name).is_some()) }),
+        velocity: rates.as_ref().map(|r| RateEntry {
+            value: r.velocity,
+            source: match r.assumed.velocity {
+                true => RateSource::Default,
+                false => given(find(&world.velocity, &joint.name).is_some()),
+            },
+        }),
         acceleration: rates.as_ref().map(|r| RateEntry {
             value: r.acceleration,
-            // A note says that a default was taken.
-            source: match &r.note {
-                Some(_) => RateSource::Default,
-                None => given(find(&world.acceleration, &joint.name).is_some()),
+            source: match r.assumed.acceleration {
+                true => RateSource::Default,
+                false => given(find(&world.acceleration, &joint.name).is_some()),
             },
         }),
         jerk: rates.as_ref().and_then(|r| r.jerk).map(|value| RateEntry { value, source: RateSource::World }),
@@ -182,7 +185,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
     let joint = &limits.document.robot.joints[index];
     let of = |source, range| LimitEntry { source, range };
     match limits.range(index) {
-        Ok(Range::Known(Axis::Circle)) => of(LimitSource::Continuous, None),
+        Ok(Range::Known(Axis::Circle) | Range::Taken(Axis::Circle, _)) => of(LimitSource::Continuous, None),
         Ok(Range::Known(Axis::Interval { lower, upper })) => {
             let source = if find(&limits.world.robot.limits, &joint.name).is_some() {
                 LimitSource::World
@@ -193,6 +196,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
             };
             of(source, Some([lower, upper]))
         }
+        Ok(Range::Taken(Axis::Interval { lower, upper }, _)) => of(LimitSource::Urdf, Some([lower, upper])),
         Ok(Range::Unset(_)) | Err(_) => of(LimitSource::Unset, None),
     }
 }
@@ -210,10 +214,11 @@ fn pair(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> 
     let letter = |j: usize| if document.robot.joints[j].joint_type == JointType::Prismatic { 'P' } else { 'R' };
     let world = neutral(document, world, joints);
     let tried = chain::with_joints(document, tree, &world, joints)
-        .and_then(|chain| Reduction::new(document, tree, &world, &chain).plane());
+        .map_err(|error| error.defects().first().map(|d| d.message.clone()).unwrap_or_default())
+        .and_then(|chain| Reduction::new(document, tree, &world, &chain).common_plane());
     let (planar, reason) = match &tried {
         Ok(plane) => (true, plane::describe(plane, &tree.links[tree.root])),
-        Err(error) => (false, error.defects().first().map(|d| d.message.clone()).unwrap_or_default()),
+        Err(reason) => (false, reason.clone()),
     };
     PairEntry {
         joints: joints.map(|j| document.robot.joints[j].name.clone()),
@@ -306,7 +311,13 @@ fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
         let rest = if slides { Axis::Interval { lower: 0.0, upper: 0.0 } } else { Axis::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),
-            rates: Rates { velocity: 1.0, acceleration: 1.0, jerk: None, note: None },
+            rates: Rates {
+                velocity: 1.0,
+                acceleration: 1.0,
+                jerk: None,
+                assumed: Assumed::default(),
+                notes: Vec::new(),
+            },
         }
     })
 }

@@ -45,7 +45,7 @@ impl Reduction<'_> {
     fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Defect> {
         let joint = self.tool_joint(chooser, &table.joint, "stroke", plane)?;
         let source = &self.world.source;
-        let reader = Reader { source };
+        let reader = Reader::new(source);
         let given = |number: &Option<Number>, what: &str, allowed: fn(f64) -> bool, how: &str| match number {
             None => Ok(None),
             Some(number) => match reader.finite(number, &format!("[robot] stroke, {what}"))? {

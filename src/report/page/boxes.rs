@@ -102,7 +102,7 @@ mod tests {
             rows: vec![Row { duration: Some(*duration), ..Row::new("<planner>", Family::Field, Outcome::Found) }],
         };
         let comparisons = durations.iter().map(comparison).collect();
-        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new() }
+        Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }
     }
 
     fn attribute(svg: &str, class: &str, name: &str) -> String {

@@ -69,7 +69,11 @@ impl Page<'_> {
         let planners = self.study.planners();
         let problems = self.study.comparisons.len();
         let plural = if problems == 1 { "" } else { "s" };
-        format!("{problems} problem{plural}, {} planners: {}", planners.len(), planners.join(", "))
+        let refused = match self.study.refused.len() {
+            0 => String::new(),
+            n => format!(" ({n} more not run)"),
+        };
+        format!("{problems} problem{plural}{refused}, {} planners: {}", planners.len(), planners.join(", "))
     }
 
     fn outcomes(&self) -> String {

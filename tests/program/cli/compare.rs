@@ -113,6 +113,47 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
     place.run(&["compare", &robot, "--suite", "empty"], "").refused(1, &["empty: there is no world in it", "cure:"]);
 }
 
+/// Worlds that cannot be run do not keep the others from it: they are counted everywhere, and in the exit code.
+#[test]
+fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
+    let place = Place::new();
+    suite(&place);
+    let robot = shipped("robots/planar_2r.urdf");
+    place.write("worlds/blocked.toml", "[start]\njoints = [9.0, 0.0]\n[goal]\njoints = [0.0, 0.0]\n");
+    place.write("worlds/broken.toml", "obstcle = 1\n");
+    let problems = ["open", "blocked", "broken", "absent"]
+        .map(|name| format!("[[problem]]\nrobot = \"{robot}\"\nworld = \"{name}.toml\"\n"));
+    place.write("worlds/suite.toml", problems.concat());
+    let options = format!("{QUICK} --output runs.csv --output report.html");
+    let text = place.run(&["compare", "--suite", "worlds"], &options);
+    assert_eq!(text.code, 1, "{}", text.stderr);
+    for part in ["refused  problems", "blocked was not run: ", "broken was not run: ", "absent was not run: "] {
+        assert!(text.stdout.contains(part), "no {part:?} in {}", text.stdout);
+    }
+    let counted = |line: &&str| line.split_whitespace().skip(1).eq(["1", "0", "0", "3", "4"]);
+    assert!(text.stdout.lines().any(|line| counted(&line)), "{}", text.stdout);
+    let csv = place.read("runs.csv");
+    let width = csv.lines().next().unwrap().split(',').count();
+    let refused: Vec<&str> = csv.lines().filter(|line| line.contains(",refused,")).collect();
+    assert_eq!(refused.len(), 3, "{csv}");
+    assert!(
+        refused.iter().all(|line| line.split('"').next().unwrap().matches(',').count() == width - 1),
+        "{refused:?}"
+    );
+    assert!(place.read("report.html").contains("(3 more not run)"));
+    let json = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json"));
+    assert_eq!(json.code, 1);
+    let json = json.json();
+    let kinds: Vec<&str> = json["refused"].as_array().unwrap().iter().map(|r| r["kind"].as_str().unwrap()).collect();
+    assert_eq!((json["problems"].as_array().unwrap().len(), kinds.len()), (1, 3));
+    assert!(kinds.contains(&"start") && kinds.contains(&"input"), "{kinds:?}");
+    // Random queries need no start, but room.
+    place.write("worlds/blocked.toml", "clearance = 50\n[[obstacle]]\ncircle = { center = [9, 9], radius = 1 }\n");
+    let drawn = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json --queries 2"));
+    let drawn = drawn.json();
+    assert_eq!((drawn["problems"].as_array().unwrap().len(), drawn["refused"].as_array().unwrap().len()), (2, 3));
+}
+
 #[test]
 fn worlds_with_steps_are_left_out_and_said_to_be() {
     let place = Place::new();

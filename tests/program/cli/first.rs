@@ -1,6 +1,6 @@
 //! The first five minutes: the demo, and files to start from.
 
-use super::{Done, Place};
+use super::{Done, FREE, Place, shipped};
 use std::fs;
 
 const KINDS: [&str; 5] = ["rr", "rp", "pr", "pp", "scara"];
@@ -175,4 +175,51 @@ fn places_that_cannot_be_written_give_one_error() {
         }
     }
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+/// The README's first own world, with the arm that `init` writes: it succeeds, and its mistake is shown as the README says.
+#[test]
+fn the_readmes_own_world_has_a_path() {
+    let readme = include_str!("../../../README.md");
+    let section = readme.split("**Your own world**").nth(1).expect("the README has the section");
+    let block = |mark: &str| section.split(mark).nth(1).and_then(|rest| rest.split("```").next()).expect("a block");
+    let world = block("```toml\n");
+    let place = Place::new();
+    assert_eq!(place.run(&["init"], "").code, 0);
+    place.write("world.toml", world);
+    let done = place.run(&["arm.urdf", "world.toml"], "--picture my.svg");
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    assert!(done.stdout.contains("found and certified") && place.path("my.svg").is_file(), "{}", done.stdout);
+    place.write("world.toml", world.replace("radius", "radios"));
+    let wrong = place.run(&["arm.urdf", "world.toml"], "");
+    assert_eq!((wrong.code, wrong.stderr.as_str()), (1, block("```console\n")));
+}
+
+/// Every key of a wrong kind is refused with its place and what to write instead.
+#[test]
+fn every_wrong_kind_of_value_has_a_cure() {
+    let place = Place::new();
+    for (world, cure) in [
+        ("[start]\njoints = {}\n", "joints = [q1, q2]"),
+        ("start = [0.1, 0.2]\n", "[start] joints = [q1, q2]"),
+        ("goal = [0.1, 0.2]\n", "[goal] joints = [q1, q2]"),
+        ("[robot]\njoints = { a = 1 }\n", "joints = [\"first\", \"second\"]"),
+        ("[[obstacle]]\npolygon = { a = 1 }\n", "polygon = [[x, y], [x, y], [x, y]]"),
+        ("[[obstacle]]\npolygon = [1, 2]\n", "write a point as [x, y]"),
+        ("[[obstacle]]\ncircle = [1, 2, 3]\n", "cure"),
+        ("[obstacle]\npolygon = []\n", "[[obstacle]]"),
+        ("clearance = \"1 cm\"\n", "clearance = 0.01"),
+        ("name = 3\n", "name = \"words\""),
+        ("[[obstacle]]\ncircle = { center = [1e308, 0], radius = 1 }\n", "metres"),
+    ] {
+        place.plan(world, "").refused(1, &["world.toml: line ", cure, "cure: "]);
+    }
+    place.write("world.toml", FREE);
+    let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    for size in ["1e308 0.1 0.1", "1e7 0.1 0.1"] {
+        let at = robot.find("size=\"").unwrap() + 6;
+        let end = at + robot[at..].find('"').unwrap();
+        place.write("arm.urdf", format!("{}{size}{}", &robot[..at], &robot[end..]));
+        place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf: line ", "too large", "metres", "cure: "]);
+    }
 }

@@ -1,7 +1,9 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
+mod as_written;
 mod commands;
 mod compare;
+mod error_json;
 mod fields;
 mod first;
 mod free_joint;

@@ -50,7 +50,7 @@ fn tables_that_are_none() {
     csv("\n\n", &["is empty"]);
     csv("time,j1,j2\n", &["no sample", "at least one"]);
     csv("0,0.1,0.2\n1,0.1,0.3\n", &["line 1", "no header", "time, j1, j2"]);
-    csv("time;j1;j2\n0;0;0\n", &["line 1", "not separated by commas"]);
+    csv("time;j1;j2\n0;0\n", &["line 2", "has 2 values, the header has 3 names"]);
     csv("time,j1\n0,0\n", &["no positions of joint \"j2\"", "\"j1\""]);
     csv("time,J1,J2\n0,0,0\n", &["no positions of joint \"j1\"", "it holds none"]);
     csv("time,j1_velocity,j2\n0,0,0\n", &["no positions of joint \"j1\""]);

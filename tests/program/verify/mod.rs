@@ -3,6 +3,7 @@
 mod bad_input;
 mod command;
 mod controller;
+mod dialects;
 mod files;
 mod limits;
 mod motion;

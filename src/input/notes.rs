@@ -1,0 +1,54 @@
+//! What was taken as it must be meant, though it was not written so: counted by kind, so that a thousand exported shapes
+//! make one line.
+
+use std::cell::RefCell;
+
+/// More names than this are counted.
+const NAMED: usize = 3;
+
+/// What was taken, and of whom.
+#[derive(Debug, Default)]
+pub(super) struct Taken(RefCell<Vec<(&'static str, Vec<String>)>>);
+
+impl Taken {
+    /// Notes that of `whom` something was taken as `what` says.
+    pub fn note(&self, whom: &str, what: &'static str) {
+        let mut kinds = self.0.borrow_mut();
+        let kind = kinds.iter().position(|(kind, _)| *kind == what).unwrap_or_else(|| {
+            kinds.push((what, Vec::new()));
+            kinds.len() - 1
+        });
+        if kinds[kind].1.iter().all(|name| name != whom) {
+            kinds[kind].1.push(whom.to_owned());
+        }
+    }
+
+    /// A line a kind, in the order in which they came up.
+    pub fn lines(self) -> Vec<String> {
+        let line = |(what, names): (&str, Vec<String>)| {
+            let more = names.len().saturating_sub(NAMED);
+            let names: Vec<String> = names.into_iter().take(NAMED).collect();
+            let names = names.join(", ");
+            let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+            format!("{names}{more}: {what}")
+        };
+        self.0.into_inner().into_iter().map(line).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_of_a_kind_are_one_line() {
+        let taken = Taken::default();
+        for k in 0..5 {
+            taken.note(&format!("o{k}"), "taken once");
+            taken.note(&format!("o{k}"), "taken once");
+        }
+        taken.note("x", "something else");
+        let lines = taken.lines();
+        assert_eq!(lines, ["o0, o1, o2 and 2 more: taken once", "x: something else"]);
+    }
+}

@@ -1,0 +1,106 @@
+//! Where the arm is at first: joint values, or the only posture that puts the tip somewhere.
+
+use super::error::{Defect, DefectKind, InputError};
+use super::posture::{
+    CURE_FOR_LIMITS, CURE_FOR_REACH, cure_for_contact, describe, obstructions, out_of_reach, within_limits,
+};
+use super::problem::Place;
+use super::{LoadedScene, Overrides};
+use crate::geometry::Point;
+use crate::model::{Goal, inverse};
+use crate::space::{Axis, Configuration};
+
+/// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written
+/// with nine digits, and far below what any drive can do.
+const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// More postures than this are counted, not listed.
+const LISTED: usize = 6;
+
+impl LoadedScene {
+    /// The start, and where it was given: within the limits up to rounding, which is taken off with a note.
+    pub(super) fn start(
+        &self,
+        overrides: &Overrides,
+        notes: &mut Vec<String>,
+    ) -> Result<(Configuration, Place<'_>), InputError> {
+        let (start, place) = self.given_start(overrides, notes).map_err(|error| error.about(DefectKind::Start))?;
+        Ok((self.at_limits("the start", start, notes), place))
+    }
+
+    fn given_start(
+        &self,
+        overrides: &Overrides,
+        notes: &mut Vec<String>,
+    ) -> Result<(Configuration, Place<'_>), InputError> {
+        if let Some(values) = &overrides.start {
+            return Ok((values.resolve(&self.scene.arm.joints, "--start")?, Place::Option("--start")));
+        }
+        let Some((start, at)) = &self.world.start else {
+            return Err(self.missing("start", "[start] joints = [q1, q2] in the world file, or --start q1,q2").into());
+        };
+        let place = Place::World(self, at.clone());
+        let q = match start {
+            Goal::Joints(q) => *q,
+            Goal::Tip(tip) => self.only_posture(*tip, &place, notes)?,
+        };
+        Ok((q, place))
+    }
+
+    /// The same configuration with values that are beyond a limit by rounding alone put there.
+    pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
+        let joints = &self.scene.arm.joints;
+        Configuration::from_fn(|i, _| {
+            let Axis::Interval { lower, upper } = joints[i].axis else { return q[i] };
+            let nearest = q[i].clamp(lower, upper);
+            if nearest == q[i] || (q[i] - nearest).abs() > LIMIT_ROUNDING {
+                return q[i];
+            }
+            let (name, unit) = (&joints[i].name, joints[i].unit());
+            notes.push(format!(
+                "{what} has joint \"{name}\" at {} {unit}, beyond its limit by rounding; taken as {nearest} {unit}",
+                q[i]
+            ));
+            nearest
+        })
+    }
+
+    /// The posture that puts the tip at a point, if it is the only one that is within the limits and free.
+    fn only_posture(&self, tip: Point, place: &Place, notes: &mut Vec<String>) -> Result<Configuration, Defect> {
+        let scene = &self.scene;
+        let solved = inverse(&scene.arm, tip, Configuration::zeros());
+        let at = format!("({}, {})", tip.x, tip.y);
+        if solved.branches.is_empty() {
+            return Err(place.defect(out_of_reach(scene, "the start", tip)).cure(CURE_FOR_REACH));
+        }
+        if solved.free.is_some() {
+            let message = format!("the start puts the tip at {at}, which leaves a joint free: many postures do");
+            return Err(place.defect(message).cure("give the start's joint values: joints = [q1, q2]"));
+        }
+        let (allowed, outside) = within_limits(scene, &solved);
+        // No joint is free, so these are points.
+        let allowed: Vec<Configuration> = allowed.iter().map(|posture| posture.ends()[0]).collect();
+        let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
+        match free[..] {
+            [only] => {
+                notes.push(format!("the start is the only posture with the tip at {at}: {}", describe(scene, only)));
+                Ok(only)
+            }
+            [] => {
+                let hits =
+                    |q: &Configuration| format!("({}): {}", describe(scene, *q), obstructions(scene, *q).join("; "));
+                let cure = if blocked.is_empty() { CURE_FOR_LIMITS } else { cure_for_contact(scene) };
+                let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
+                let message = format!("no posture that puts the tip at {at} is allowed and free: {}", why.join("; "));
+                Err(place.defect(message).cure(cure))
+            }
+            _ => {
+                let listed: Vec<String> =
+                    free.iter().take(LISTED).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
+                let more = if free.len() > LISTED { ", ..." } else { "" };
+                let message = format!("{} postures put the tip at {at}, and which is meant is not said", free.len());
+                Err(place.defect(message).cure(format!("give joint values: {}{more}", listed.join(", or "))))
+            }
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! Files as people and exporters write them: what can be meant in one way only is taken, and said; the rest is refused with a
+//! cure.
+
+use super::{Done, FREE, Place, shipped};
+
+impl Done {
+    /// A path, and all parts in the summary.
+    fn found(&self, parts: &[&str]) {
+        assert_eq!(self.code, 0, "{}{}", self.stdout, self.stderr);
+        for part in parts {
+            assert!(self.stdout.contains(part), "{part:?} is not in: {}", self.stdout);
+        }
+    }
+}
+
+fn obstacle(shape: &str) -> String {
+    format!("{FREE}[[obstacle]]\nname = \"it\"\n{shape}\n")
+}
+
+/// The result without what depends on how the obstacles were written.
+fn path_of(done: &Done) -> serde_json::Value {
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    done.json()["path"].clone()
+}
+
+#[test]
+fn rings_that_repeat_points_are_the_rings_without() {
+    let place = Place::new();
+    let plain =
+        path_of(&place.plan(obstacle("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]"), "--json"));
+    for (shape, note) in [
+        ("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3], [1.15, 0.18]]", "repeats the first"),
+        ("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]", "repeat the one before"),
+        ("polygon = [[[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3], [1.15, 0.18]]]", "repeats the first"),
+    ] {
+        assert_eq!(path_of(&place.plan(obstacle(shape), "--json")), plain, "{shape}");
+        place.plan(obstacle(shape), "").found(&["obstacle \"it\": ", note]);
+    }
+    let wall = path_of(&place.plan(obstacle("polyline = [[1.2, 0.2], [1.6, 0.2], [1.6, 0.4]]"), "--json"));
+    let repeated = "polyline = [[1.2, 0.2], [1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.6, 0.4]]";
+    assert_eq!(path_of(&place.plan(obstacle(repeated), "--json")), wall);
+    place.plan(obstacle(repeated), "").found(&["repeat the one before"]);
+    // A polyline may come back to where it was.
+    place
+        .plan(obstacle("polyline = [[1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.2, 0.2], [1.1, 0.3]]"), "--quiet")
+        .found(&[]);
+}
+
+/// A start in the hole of a plate.
+const PLATE: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [GOAL]\n[[obstacle]]\nname = \"plate\"\n";
+
+#[test]
+fn holes_are_free_and_enclosed() {
+    let place = Place::new();
+    let thin = |goal: &str, shape: &str| format!("{}{shape}\n", PLATE.replace("GOAL", goal));
+    place.write("arm.urdf", arm("velocity=\"2\"").replace("size=\"1 0.05 0.05\"", "size=\"0.1 0.05 0.05\""));
+    let plan = |world: String, options: &str| {
+        place.write("world.toml", world);
+        place.run(&["arm.urdf", "world.toml"], options)
+    };
+    // The second link, a short block about (1.5, 0), in the hole; a turn of joint 1 takes it out of it.
+    let outer = "[[1, -0.5], [2.2, -0.5], [2.2, 0.5], [1, 0.5]]";
+    let hole = "[[1.3, -0.2], [1.7, -0.2], [1.7, 0.2], [1.3, 0.2]]";
+    for shape in [format!("polygon = {outer}\nholes = [{hole}]"), format!("polygon = [{outer}, {hole}]")] {
+        plan(thin("0.05, 0.0", &shape), "").found(&["plate"]);
+        let proven = plan(thin("1.5, 0.0", &shape), "");
+        assert_eq!(proven.code, 3, "{}{}", proven.stdout, proven.stderr);
+    }
+    let filled = plan(thin("0.05, 0.0", &format!("polygon = {outer}")), "");
+    filled.refused(1, &["the start", "hits obstacle \"plate\""]);
+    let outside = format!("polygon = {outer}\nholes = [[[5, 5], [6, 5], [6, 6]]]");
+    plan(thin("1.5, 0.0", &outside), "").refused(1, &["hole 1 does not lie inside", "line 8", "cure"]);
+    let alone = "circle = { center = [1, 1], radius = 0.1 }\nholes = [[[5, 5], [6, 5], [6, 6]]]";
+    plan(thin("1.5, 0.0", alone), "").refused(1, &["only a polygon has holes", "cure"]);
+    // Pictures of all kinds show what is there.
+    let shape = format!("polygon = {outer}\nholes = [{hole}]");
+    plan(thin("0.05, 0.0", &shape), "--picture a.svg --picture a.html --quiet").found(&[]);
+    assert!(place.read("a.svg").contains("<path"));
+}
+
+#[test]
+fn corners_that_touch_are_taken_and_crossings_are_not() {
+    let place = Place::new();
+    // Two lobes that meet in a point, and a ring whose corner lies on another of its sides.
+    let lobes = "polygon = [[1.2, 0.2], [1.4, 0.1], [1.4, 0.3], [1.2, 0.2], [1.0, 0.35], [1.0, 0.3]]";
+    place.plan(obstacle(lobes), "").found(&["touches itself in single points"]);
+    let pinched = "polygon = [[1.1, 0.2], [1.5, 0.2], [1.5, 0.4], [1.3, 0.2], [1.1, 0.4]]";
+    place.plan(obstacle(pinched), "").found(&["touches itself in single points"]);
+    let crossing = "polygon = [[1.1, 0.2], [1.3, 0.3], [1.5, 0.4], [1.5, 0.2], [1.3, 0.3], [1.1, 0.4]]";
+    place.plan(obstacle(crossing), "").refused(1, &["crosses itself at (1.3, 0.3)", "cure"]);
+}
+
+/// An arm whose joints have these attributes and no more in their `<limit>`.
+fn arm(limit: &str) -> String {
+    let link = |name: &str| {
+        format!(
+            "<link name=\"{name}\"><collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"1 0.05 0.05\"/></geometry>\
+             </collision></link>"
+        )
+    };
+    let joint = |name: &str, at: &str, parent: &str, child: &str| {
+        let limit = if limit.is_empty() { String::new() } else { format!("<limit {limit}/>") };
+        format!(
+            "<joint name=\"{name}\" type=\"continuous\"><origin xyz=\"{at}\"/><parent link=\"{parent}\"/>\
+             <child link=\"{child}\"/><axis xyz=\"0 0 1\"/>{limit}</joint>"
+        )
+    };
+    format!(
+        "<robot name=\"r\"><link name=\"base\"/>{}{}{}{}</robot>",
+        link("upper"),
+        link("fore"),
+        joint("j1", "0 0 0", "base", "upper"),
+        joint("j2", "1 0 0", "upper", "fore")
+    )
+}
+
+const TURN: &str = "[start]\njoints = [0, 1]\n[goal]\njoints = [1, -1]\n";
+
+#[test]
+fn speeds_that_nobody_gives_are_assumed_and_said() {
+    let place = Place::new();
+    place.write("world.toml", TURN);
+    let run = |urdf: String, options: &str| {
+        place.write("arm.urdf", urdf);
+        place.run(&["arm.urdf", "world.toml"], options)
+    };
+    let given = run(arm("velocity=\"1\" effort=\"1\""), "--json").json();
+    assert!(given["assumed"].get("velocity").is_none(), "{given}");
+    for limit in ["", "effort=\"inf\"", "velocity=\"0\"", "velocity=\"inf\" effort=\"inf\""] {
+        let json = run(arm(limit), "--json").json();
+        assert_eq!(json["assumed"]["velocity"], serde_json::json!({ "j1": 1.0, "j2": 1.0 }), "{limit}");
+        assert_eq!(json["assumed"]["acceleration"], serde_json::json!({ "j1": 4.0, "j2": 4.0 }), "{limit}");
+        assert_eq!((&json["path"], &json["trajectory"]), (&given["path"], &given["trajectory"]), "{limit}");
+        run(arm(limit), "").found(&["joint \"j1\": no top speed given; assumed 1 rad/s"]);
+    }
+    let sliding = arm("lower=\"-1\" upper=\"1\"").replace("type=\"continuous\"", "type=\"prismatic\"");
+    let sliding = sliding.replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1).replacen("xyz=\"0 0 1\"", "xyz=\"0 1 0\"", 1);
+    let json = run(sliding, "--json").json();
+    assert_eq!(json["assumed"]["velocity"], serde_json::json!({ "j1": 0.25, "j2": 0.25 }));
+    let named = TURN.to_owned() + "[robot]\nvelocity = { j1 = 2.0, j2 = 3.0 }\nacceleration = { j1 = 9, j2 = 9 }\n";
+    place.write("world.toml", named);
+    assert!(run(arm(""), "--json").json().get("assumed").is_none());
+}
+
+#[test]
+fn limits_that_are_none_make_a_joint_continuous() {
+    let place = Place::new();
+    place.write("world.toml", TURN);
+    let turning = |limits: &str| arm(&format!("{limits} velocity=\"1\"")).replace("\"continuous\"", "\"revolute\"");
+    let run = |urdf: String, options: &str| {
+        place.write("arm.urdf", urdf);
+        place.run(&["arm.urdf", "world.toml"], options)
+    };
+    let plain = path_of(&run(arm("velocity=\"1\""), "--json"));
+    for limits in ["lower=\"-1e16\" upper=\"1e16\"", "lower=\"-inf\" upper=\"inf\"", "lower=\"-1e9\" upper=\"1e10\""] {
+        assert_eq!(path_of(&run(turning(limits), "--json")), plain, "{limits}");
+        run(turning(limits), "").found(&["taken as continuous"]);
+    }
+    for limits in ["lower=\"-1\" upper=\"inf\"", "lower=\"-1\" upper=\"1e16\"", "lower=\"-2000\" upper=\"2000\""] {
+        run(turning(limits), "").refused(1, &["joint \"j1\"", "too long to plan in", "limits = { j1 = ", "cure"]);
+    }
+    run(turning("lower=\"nan\" upper=\"1\""), "").refused(1, &["not finite"]);
+    // Slides of any length.
+    let sliding = |limits: &str| {
+        let urdf = arm(&format!("{limits} velocity=\"1\"")).replace("\"continuous\"", "\"prismatic\"");
+        urdf.replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1).replacen("xyz=\"0 0 1\"", "xyz=\"0 1 0\"", 1)
+    };
+    run(sliding("lower=\"-800\" upper=\"800\""), "").found(&["-800.0000 m to 800.0000 m"]);
+    for limits in ["lower=\"-1e16\" upper=\"1e16\"", "lower=\"-inf\" upper=\"inf\""] {
+        run(sliding(limits), "").found(&["taken as -1e6 to 1e6 m"]);
+    }
+}
+
+#[test]
+fn the_only_planar_pair_is_taken() {
+    let place = Place::new();
+    place.write("world.toml", TURN);
+    let joint = |name: &str, kind: &str, axis: &str, parent: &str, child: &str| {
+        format!(
+            "<link name=\"{child}\"><collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"1 0.05 0.05\"/></geometry>\
+             </collision></link><joint name=\"{name}\" type=\"{kind}\"><origin xyz=\"1 0 0\"/><parent link=\"{parent}\"/>\
+             <child link=\"{child}\"/><axis xyz=\"{axis}\"/><limit lower=\"-2\" upper=\"2\" velocity=\"1\" effort=\"1\"/>\
+             </joint>"
+        )
+    };
+    let run = |joints: &[String], options: &str| {
+        place.write("arm.urdf", format!("<robot name=\"r\"><link name=\"base\"/>{}</robot>", joints.concat()));
+        place.run(&["arm.urdf", "world.toml"], options)
+    };
+    let (up, across) = ("0 0 1", "0 1 0");
+    // A SCARA: two arms, a quill and a wrist. The wrist would do with either arm, but is no neighbour of one.
+    let scara = [
+        joint("a1", "revolute", up, "base", "l1"),
+        joint("a2", "revolute", up, "l1", "l2"),
+        joint("quill", "prismatic", up, "l2", "l3"),
+        joint("wrist", "revolute", up, "l3", "l4"),
+    ];
+    run(&scara, "").found(&["a1: ", "a2: ", "the two joints are \"a1\" and \"a2\"", "\"quill\" is held at 0 m"]);
+    let lifted = [
+        joint("lift", "prismatic", up, "base", "l1"),
+        joint("a1", "revolute", up, "l1", "l2"),
+        joint("a2", "revolute", up, "l2", "l3"),
+    ];
+    run(&lifted, "").found(&["the two joints are \"a1\" and \"a2\""]);
+    let between = [
+        joint("a1", "revolute", up, "base", "l1"),
+        joint("lift", "prismatic", up, "l1", "l2"),
+        joint("a2", "revolute", up, "l2", "l3"),
+    ];
+    run(&between, "").found(&["the two joints are \"a1\" and \"a2\""]);
+    // Three in a row: any two neighbours would do.
+    let three = [
+        joint("a1", "revolute", up, "base", "l1"),
+        joint("a2", "revolute", up, "l1", "l2"),
+        joint("a3", "revolute", up, "l2", "l3"),
+    ];
+    run(&three, "").refused(1, &["which two", "[robot] joints = [\"a1\", \"a2\"], or [robot] joints = [\"a1\", \"a3\"], or [robot] joints = [\"a2\", \"a3\"]"]);
+    // Yaw, pitch, yaw: the yaws are parallel only while the pitch is held.
+    let crooked = [
+        joint("a1", "revolute", up, "base", "l1"),
+        joint("b", "revolute", across, "l1", "l2"),
+        joint("a2", "revolute", up, "l2", "l3"),
+    ];
+    run(&crooked, "").refused(1, &["which two", "[robot] joints = [\"a1\", \"a2\"]"]);
+    let none = [
+        joint("x", "revolute", up, "base", "l1"),
+        joint("y", "revolute", across, "l1", "l2"),
+        joint("z", "revolute", "1 0 0", "l2", "l3"),
+    ];
+    run(&none, "").refused(1, &["none of the robot's 3 joints", "cure"]);
+    // A pair that is named and not planar: the cure names the one that is.
+    place.write("world.toml", format!("[robot]\njoints = [\"a2\", \"quill\"]\n{TURN}"));
+    run(&scara, "").refused(1, &["one common plane", "[robot] joints = [\"a1\", \"a2\"]"]);
+}
+
+#[test]
+fn starts_are_taken_by_the_tip_if_one_posture_alone_reaches_it() {
+    let place = Place::new();
+    place.write("arm.urdf", arm("velocity=\"1\""));
+    let limited = arm("lower=\"0\" upper=\"3\" velocity=\"1\"").replace("\"continuous\"", "\"revolute\"");
+    place.write("limited.urdf", limited);
+    let world = "[robot]\nlimits = { j2 = [0, 3] }\n[start]\ntip = [1, 0.5]\n[goal]\njoints = [1, 1]\n";
+    // The tip is the origin of "fore" where nothing else is: the end of link 1.
+    let tool = |urdf: &str| {
+        let urdf = place.read(urdf);
+        let tool = "<link name=\"tool\"/><joint name=\"t\" type=\"fixed\"><origin xyz=\"1 0 0\"/><parent link=\"fore\"/>\
+                    <child link=\"tool\"/></joint></robot>";
+        place.write("arm.urdf", urdf.replace("</robot>", tool));
+    };
+    tool("arm.urdf");
+    let run = |world: &str, options: &str| {
+        place.write("world.toml", world);
+        place.run(&["arm.urdf", "world.toml"], options)
+    };
+    run(world, "").found(&["the start is the only posture with the tip at (1, 0.5)"]);
+    let both = world.replace("[robot]\nlimits = { j2 = [0, 3] }\n", "");
+    run(&both, "").refused(1, &["2 postures put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
+    run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "cure"]);
+    run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["leaves a joint free", "cure"]);
+    run(&world.replace("tip", "joints = [0, 1]\ntip"), "").refused(1, &["either `joints` or `tip`", "cure"]);
+}
+
+#[test]
+fn values_beyond_a_limit_by_rounding_are_the_limit() {
+    let place = Place::new();
+    // planar_2r's limits are -2.9 and 2.9.
+    let world = FREE.replace("[-0.9, 0.4]", "[-2.9000000004, 0.4]").replace("[1.55, -0.35]", "[1.55, 2.9000000001]");
+    place.plan(&world, "").found(&[
+        "the start has joint \"shoulder\"",
+        "the goal has joint \"elbow\"",
+        "taken as -2.9 rad",
+    ]);
+    place.plan(FREE.replace("-0.9", "-2.90000001"), "").refused(1, &["exceeds its limits", "cure"]);
+}
+
+#[test]
+fn angles_may_be_in_degrees() {
+    let place = Place::new();
+    let radians = FREE.replace("-0.9", &(-50f64).to_radians().to_string());
+    let plain = path_of(&place.plan(radians, "--json"));
+    for start in ["\"-50deg\"", "\" -50 deg \"", "'-5e1deg'"] {
+        assert_eq!(path_of(&place.plan(FREE.replace("-0.9", start), "--json")), plain, "{start}");
+    }
+    let limits = "[robot]\nlimits = { shoulder = [\"-90deg\", \"90deg\"] }\n";
+    place.plan(format!("{limits}{FREE}"), "").found(&["shoulder: -1.5708 rad (-90.00 deg) to 1.5708 rad (90.00 deg)"]);
+    for text in ["\"-50\"", "\"deg\"", "\"50rad\"", "\"nandeg\"", "true"] {
+        let done = place.plan(FREE.replace("-0.9", text), "");
+        assert_eq!(done.code, 1, "{text}: {}", done.stderr);
+        assert!(done.stderr.contains("world.toml: line 2"), "{text}: {}", done.stderr);
+    }
+    place.write("world.toml", "[start]\njoints = [0.1, \"20deg\"]\n[goal]\njoints = [0.2, 0.2]\n");
+    let rp = place.run(&[shipped("robots/polar.urdf"), "world.toml".into()], "");
+    rp.refused(1, &["slides: its value cannot be in degrees", "line 2", "cure"]);
+}
+
+#[test]
+fn a_document_type_without_entities_is_harmless() {
+    let place = Place::new();
+    place.write("world.toml", TURN);
+    place.write("arm.urdf", format!("<?xml version=\"1.0\"?>\n<!DOCTYPE robot>\n{}", arm("velocity=\"1\"")));
+    place.run(&["arm.urdf", "world.toml"], "--quiet").found(&[]);
+    place.write(
+        "arm.urdf",
+        format!("<!DOCTYPE robot SYSTEM \"urdf.dtd\" [<!ELEMENT robot ANY>]>\n{}", arm("velocity=\"1\"")),
+    );
+    place.run(&["arm.urdf", "world.toml"], "--quiet").found(&[]);
+    let bomb = "<!DOCTYPE robot [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;\">]>\n";
+    place.write("arm.urdf", format!("{bomb}{}", arm("velocity=\"1\"")));
+    place.run(&["arm.urdf", "world.toml"], "").refused(1, &["arm.urdf", "line 1", "entit", "cure"]);
+}

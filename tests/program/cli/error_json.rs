@@ -1,0 +1,77 @@
+//! Errors as scripts see them: with `--json` one JSON object on stdout, whatever is wrong.
+
+use super::{Done, FREE, Place, shelf, shipped};
+
+impl Done {
+    /// An error object of a kind, with these parts in its message; the object.
+    fn error(&self, code: i32, kind: &str, parts: &[&str]) -> serde_json::Value {
+        assert_eq!(self.code, code, "{}{}", self.stdout, self.stderr);
+        let json = self.json();
+        assert_eq!((&json["status"], &json["kind"]), (&"error".into(), &kind.into()), "{json}");
+        for key in ["file", "line", "message", "cure"] {
+            assert!(json.get(key).is_some(), "no {key} in {json}");
+        }
+        let message = json["message"].as_str().unwrap();
+        for part in parts {
+            assert!(message.contains(part), "{part:?} is not in {message}");
+        }
+        json
+    }
+}
+
+#[test]
+fn kinds_tell_what_is_wrong() {
+    let place = Place::new();
+    let post = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
+    let json = place.plan(&post, "--json").error(1, "start", &["hits obstacle \"post\"", "deep"]);
+    assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &2.into()));
+    assert!(json["cure"].as_str().unwrap().contains("move it away"));
+    place.plan(FREE, "--json --start 9,0").error(1, "start", &["--start", "exceeds its limits"]);
+    place.plan("[goal]\njoints = [0, 0]\n", "--json").error(1, "start", &["there is no start"]);
+    place.plan(FREE, "--json --goal 9,0").error(1, "goal", &["--goal", "exceeds its limits"]);
+    place.plan(FREE, "--json --goal-tip 9,9").error(1, "goal", &["out of reach"]);
+    place.plan("[start]\njoints = [0, 0]\n", "--json").error(1, "goal", &["there is no goal"]);
+    let json = place.plan("[start\n", "--json").error(1, "input", &[]);
+    assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &1.into()));
+    place.write("world.toml", FREE);
+    place.run(&["none.urdf", "world.toml"], "--json").error(1, "input", &["cannot be read"]);
+    // All that is wrong, where it is more than one thing.
+    let two = format!("{FREE}[robot]\nvelocity = {{ a = 1, b = 2 }}\n");
+    let json = place.plan(two, "--json").error(1, "input", &["no joint \"a\""]);
+    assert_eq!(json["defects"].as_array().unwrap().len(), 2);
+}
+
+#[test]
+fn a_wrong_command_line_is_json_too() {
+    let place = Place::new();
+    let json = place.run(&shelf(), "--json --planer visibility").error(2, "usage", &["unexpected argument '--planer'"]);
+    assert!(json["cure"].as_str().unwrap().contains("--planner"), "{json}");
+    place.run(&shelf(), "--json --planner best").error(2, "usage", &["invalid value 'best'"]);
+    place.run::<&str>(&[], "--json").error(2, "usage", &["required"]);
+    place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png or .html"]);
+    // Without the flag nothing is on stdout; help is no error.
+    place.run(&shelf(), "--planner best").refused(2, &["invalid value"]);
+    let help = place.run::<&str>(&[], "--json --help");
+    assert_eq!(help.code, 0);
+    assert!(help.stdout.contains("Usage:"), "{}", help.stdout);
+}
+
+#[test]
+fn every_command_with_json_answers_in_json() {
+    let place = Place::new();
+    place.write("world.toml", "[start\n");
+    place.write("motion.csv", "time,shoulder,elbow\n0,0,0\n1,0,0\n");
+    let robot = shipped("robots/planar_2r.urdf");
+    let cases: [&[&str]; 3] = [
+        &["compare", &robot, "world.toml"],
+        &["check", &robot, "world.toml", "--at", "0,0"],
+        &["verify", &robot, "world.toml", "motion.csv"],
+    ];
+    for words in cases {
+        place.run(words, "--json").error(1, "input", &[]);
+    }
+    // The report of a robot that cannot be planned with is the answer, and has its defects.
+    let json = place.run(&["inspect", "none.urdf"], "--json");
+    assert_eq!(json.code, 1);
+    assert_eq!(json.json()["plannable"], false);
+}
