@@ -30,6 +30,11 @@ pub struct TurnContact {
 /// Halvings of the interval in which the clearance of a turn is sought.
 const HALVINGS: usize = 16;
 
+/// To how many metres the clearance of a free turn is known, if it is below the arm's reach.
+pub(super) fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
+    (clearance + arm.reach()) / f64::from(1u32 << (HALVINGS - 1))
+}
+
 /// A turn about the tip from one orientation to another while the arm stands at `q`: the shorter way if that is free, else
 /// the longer; none if neither is. See [`given_turn`].
 #[must_use]

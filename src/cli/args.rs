@@ -369,9 +369,18 @@ pub struct VerifyArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
-    /// Start of a task instead of the world's, such as 0.3,-1 or 20deg,-60deg.
-    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    /// Where it is to begin instead of the world's start, such as 0.3,-1 or 20deg,-60deg.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub start: Option<JointValues>,
+    /// Where it is to end instead of the world's goal.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with_all = ["goal_tip", "anywhere"])]
+    pub goal: Option<JointValues>,
+    /// Where the tip is to end instead of the world's goal, metres.
+    #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
+    pub goal_tip: Option<TipPoint>,
+    /// Let a motion begin and end anywhere, whatever the world's start and goal.
+    #[arg(long)]
+    pub anywhere: bool,
     /// Let joints without limits go the short way from sample to sample: for angles recorded within one turn.
     #[arg(long)]
     pub unwrap: bool,

@@ -9,7 +9,7 @@ use crate::cspace::{CObstacle, NearestFree, nearest_free};
 use crate::draw::Picture;
 use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use crate::input::{self, LoadedScene};
-use crate::model::{Contact, Scene};
+use crate::model::{Contact, Scene, plain_line};
 use crate::space::Configuration;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -89,6 +89,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     if let Some(clearance) = args.clearance {
         loaded.scene.workspace.clearance = clearance;
     }
+    output::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm.joints, "--at").map_err(input::InputError::from)?;
@@ -101,9 +102,9 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     }
     if args.json {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print(&(json + "\n"))?;
+        output::print_json(&(json + "\n"))?;
     } else {
-        output::print(&text(&loaded, q, &findings))?;
+        output::tell(&text(&loaded, q, &findings))?;
     }
     Ok(DONE)
 }
@@ -190,7 +191,7 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut line = |key: &str, value: String| {
-        let _ = writeln!(text, "{key:<10} {value}");
+        let _ = writeln!(text, "{key:<10} {}", plain_line(&value));
     };
     line("arm", format!("{} ({})", arm.name, arm.kind()));
     let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);

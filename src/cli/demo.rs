@@ -57,7 +57,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
         )
     })?;
     if code == DONE && !args.plan.quiet && !args.plan.json {
-        output::print(&next(&picture))?;
+        output::tell(&next(&picture))?;
     }
     Ok(code)
 }

@@ -208,7 +208,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
         (schema_file.clone(), schema::text()),
     ];
     write_whole_set(&files)?;
-    output::print(&told(&robot, &world, &schema_file))?;
+    output::tell(&told(&robot, &world, &schema_file))?;
     Ok(DONE)
 }
 

@@ -37,6 +37,7 @@ struct DefectEntry<'a> {
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
     let inspection = input::inspect(&args.urdf, args.world.as_deref());
+    output::spare_inputs(sinks.iter().map(Sink::path))?;
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
         match posture(&inspection) {
@@ -48,9 +49,9 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
         let defects = inspection.errors.iter().flat_map(|e| e.defects()).map(entry).collect();
         let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, defects };
         let json = serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print(&(json + "\n"))?;
+        output::print_json(&(json + "\n"))?;
     } else {
-        output::print(&text(&inspection))?;
+        output::tell(&text(&inspection))?;
     }
     match inspection.errors.into_iter().next() {
         None => Ok(DONE),

@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, Ending, Picture, Posture, TaskPicture, View};
-use crate::model::{Problem, Scene};
+use crate::input::{FileIdentity, read_from};
+use crate::model::{Problem, Scene, plain, plain_json};
 use crate::task::TaskVerdict;
 use crate::trajectory::{Format, Report, check_writable, write_whole};
 use std::io::{ErrorKind, Write};
@@ -67,7 +68,39 @@ pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Fai
         sinks.push(Sink::Picture(picture_format(path)?, path.clone()));
     }
     sinks.iter().try_for_each(|sink| check_writable(sink.path()))?;
+    distinct(sinks.iter().map(Sink::path))?;
     Ok(sinks)
+}
+
+/// Refuses to write two outputs onto one file, however they are spelt.
+///
+/// # Errors
+/// When two are one; both are named.
+pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
+    let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
+    for path in outputs {
+        let Some(identity) = FileIdentity::of(path) else { continue };
+        if let Some((other, _)) = known.iter().find(|(_, other)| other.is(&identity)) {
+            let (one, other) = (path.display(), other.display());
+            let message = format!("the outputs {other} and {one} are one file; nothing was written");
+            return Err(Failure::Option(format!("{message}\n  cure: give each a file of its own")));
+        }
+        known.push((path, identity));
+    }
+    Ok(())
+}
+
+/// Refuses to overwrite what has been read, also through links: to be asked when all inputs have been.
+///
+/// # Errors
+/// When an output is an input; both are named.
+pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
+    let onto = outputs.find_map(|path| Some((path, read_from(path)?)));
+    onto.map_or(Ok(()), |(path, input)| {
+        let (path, input) = (path.display(), input.display());
+        let message = format!("the output {path} is the input {input}; nothing was written");
+        Err(Failure::Option(format!("{message}\n  cure: give the output a file of its own")))
+    })
 }
 
 /// The format that a picture's extension stands for.
@@ -207,7 +240,23 @@ pub fn save_posture(format: PictureFormat, path: &Path, posture: &Posture) -> Re
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.
 pub fn say(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+    let _ = writeln!(std::io::stderr(), "{}", plain(text));
+}
+
+/// Prints for people on stdout: as [`print`], but what names hold that would act on a terminal is seen instead.
+///
+/// # Errors
+/// I/O.
+pub fn tell(text: &str) -> Result<(), Failure> {
+    print(&plain(text))
+}
+
+/// Prints JSON on stdout, in which names do nothing to a terminal, either.
+///
+/// # Errors
+/// I/O.
+pub fn print_json(json: &str) -> Result<(), Failure> {
+    print(&plain_json(json))
 }
 
 /// Prints on stdout. A reader that has seen enough (`cplan ... | head`) is no error.

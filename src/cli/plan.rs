@@ -37,6 +37,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
     let mut clock = Clock::start();
     let loaded = load()?;
+    output::spare_inputs(sinks.iter().map(Sink::path))?;
     if loaded.has_steps() {
         return task::run(loaded, args, field, &sinks, clock);
     }
@@ -85,9 +86,9 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     }
     clock.stage("write");
     if args.json {
-        output::print(&report.json())?;
+        output::print_json(&report.json())?;
     } else if !args.quiet {
-        output::print(&summary::text(&loaded, &planned, &sinks, &clock))?;
+        output::tell(&summary::text(&loaded, &planned, &sinks, &clock))?;
     }
     Ok(match answer.verdict {
         Verdict::Found(_) => DONE,

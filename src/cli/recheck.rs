@@ -5,7 +5,7 @@ use super::args::RecheckArgs;
 use super::failure::Failure;
 use super::output;
 use crate::certify::{read_proof, recheck};
-use crate::input;
+use crate::input::{self, Source};
 
 /// Checks the proof in a result file against the two input files. That it was made for them is not taken on trust.
 ///
@@ -15,8 +15,8 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
-    let text = std::fs::read_to_string(&args.proof).map_err(|e| failed(e.to_string()))?;
-    let boxes = read_proof(&text).map_err(|e| failed(e.to_string()))?;
+    let source = Source::read(&args.proof)?;
+    let boxes = read_proof(source.text()).map_err(|e| failed(e.to_string()))?;
     let problem = &loaded.problem;
     recheck(&boxes, &problem.scene, problem.start, &problem.goals, problem.scene.workspace.clearance)
         .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;

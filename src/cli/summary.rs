@@ -4,7 +4,7 @@ use super::output::Sink;
 use super::planned::Planned;
 use crate::certify::CertifiedCurve;
 use crate::input::Loaded;
-use crate::model::{Arm, Joint, Scene};
+use crate::model::{Arm, Joint, Scene, plain_line};
 use crate::solve::{Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric, Segment};
 use std::fmt::Write;
@@ -172,7 +172,7 @@ pub fn laid_out(lines: &[Line]) -> String {
     for (key, line) in lines {
         let shown = if *key == before { "" } else { key };
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{shown:<10} {line}");
+        let _ = writeln!(text, "{shown:<10} {}", plain_line(line));
         before = key;
     }
     text

@@ -62,9 +62,9 @@ pub fn run(
     }
     clock.stage("write");
     if args.json {
-        output::print(&report.json())?;
+        output::print_json(&report.json())?;
     } else if !args.quiet {
-        output::print(&task_summary::text(&loaded, &answer, &report, field.as_ref(), &written, &clock))?;
+        output::tell(&task_summary::text(&loaded, &answer, &report, field.as_ref(), &written, &clock))?;
     }
     Ok(match answer.verdict {
         TaskVerdict::Done => DONE,

@@ -35,9 +35,12 @@ impl TaskFiles {
             let message = "--per-step needs an --output of motions alone: .csv or .yaml";
             return Err(Failure::Usage(message.into()));
         }
-        for path in parted {
-            (1..=steps).try_for_each(|number| check_writable(&files.part(path, number)))?;
-        }
+        let parts: Vec<PathBuf> =
+            parted.iter().flat_map(|path| (1..=steps).map(|number| files.part(path, number))).collect();
+        parts.iter().try_for_each(|part| check_writable(part))?;
+        let others = sinks.iter().map(Sink::path).filter(|path| !per_step || !parted.contains(path));
+        output::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
+        output::spare_inputs(parts.iter().map(PathBuf::as_path))?;
         Ok(files)
     }
 

@@ -1,6 +1,7 @@
 //! Errors in what the user wrote: where, what, and the cure.
 
 use super::source::Position;
+use crate::model::{plain, plain_line};
 use std::fmt;
 use thiserror::Error;
 
@@ -62,16 +63,16 @@ impl Defect {
 
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.origin)?;
+        write!(f, "{}", plain_line(&self.origin))?;
         if let Some(Position { line, column }) = self.position {
             write!(f, ": line {line}, column {column}")?;
         }
-        write!(f, ": {}", self.message)?;
+        write!(f, ": {}", plain_line(&self.message))?;
         if let Some(excerpt) = &self.excerpt {
             write!(f, "\n{excerpt}")?;
         }
         if let Some(cure) = &self.cure {
-            write!(f, "\n  cure: {cure}")?;
+            write!(f, "\n  cure: {}", plain(cure))?;
         }
         Ok(())
     }

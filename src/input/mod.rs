@@ -13,8 +13,10 @@
 //! ```
 
 mod cure;
+mod ends;
 mod error;
 mod group;
+mod identity;
 mod inspection;
 mod line_map;
 mod map_text;
@@ -46,6 +48,7 @@ mod world_map;
 mod wrist;
 
 pub use error::{Defect, DefectKind, InputError};
+pub use identity::{FileIdentity, read_from};
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
     RateEntry, RateSource, ReachEntry, Role,

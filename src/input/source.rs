@@ -1,6 +1,7 @@
 //! A text file and positions in it.
 
 use super::error::{Defect, InputError};
+use super::identity::note_read;
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -73,6 +74,7 @@ const LARGEST_FILE: u64 = 256 << 20;
 /// I/O, and a file larger than [`LARGEST_FILE`].
 pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
+    note_read(path);
     File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(io::Error::other(format!("it is larger than {} MiB", LARGEST_FILE >> 20)));
@@ -82,6 +84,17 @@ pub(super) fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
 
 /// Bytes from one place whose line and column are known to the next.
 const MILE: usize = 4096;
+
+/// The same with the error that users see.
+///
+/// # Errors
+/// As [`read_bounded`].
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Defect> {
+    read_bounded(path).map_err(|error| {
+        Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
+            .cure("check the path and the file's permissions")
+    })
+}
 
 /// Characters of a long source line that an excerpt shows on either side of the place.
 const EXCERPT_REACH: usize = 60;
@@ -112,10 +125,7 @@ impl Source {
     /// # Errors
     /// A file that cannot be read, is larger than 256 MiB, or is no UTF-8.
     pub fn read(path: &Path) -> Result<Self, InputError> {
-        let bytes = read_bounded(path).map_err(|error| {
-            Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
-                .cure("check the path and the file's permissions")
-        })?;
+        let bytes = read_bytes(path)?;
         let text = String::from_utf8(bytes).map_err(|error| {
             Defect::new(
                 path.display().to_string(),

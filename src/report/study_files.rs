@@ -6,6 +6,7 @@ use super::row::{Outcome, Row};
 use super::study::{Refusal, Study};
 use super::table::{Align, Column, Table, quoted};
 use super::words::words;
+use crate::model::plain_line;
 use serde_json::{Value, json};
 
 /// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.
@@ -19,7 +20,7 @@ impl Study {
     /// more than start and goal; then the summary in words. Ends in a newline.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let mut text = format!("{}\n", self.title);
+        let mut text = format!("{}\n", plain_line(&self.title));
         for (heading, table) in self.tables() {
             text += &format!("\n{heading}\n{}", table.to_text());
         }

@@ -1,5 +1,7 @@
 //! Text tables.
 
+use crate::model::plain_line;
+
 /// Side to which a column's cells are moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
@@ -47,26 +49,26 @@ pub struct Table {
 impl Table {
     /// Columns two spaces apart, a rule under the header, no trailing spaces.
     pub fn to_text(&self) -> String {
-        let widths = self.widths();
+        let table = self.with_cells(|cell| plain_line(cell).into_owned());
+        let widths = table.widths();
         let line = |cells: Vec<String>| format!("{}\n", cells.join("  ").trim_end());
-        let mut text = line(self.padded(&self.header(), &widths));
+        let mut text = line(table.padded(&table.header(), &widths));
         text += &line(widths.iter().map(|&w| "-".repeat(w)).collect());
-        for row in &self.rows {
-            text += &line(self.padded(&shown(row), &widths));
+        for row in &table.rows {
+            text += &line(table.padded(&shown(row), &widths));
         }
         text
     }
 
+    /// The same with other cells.
+    fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
+        let row = |row: &Vec<Option<String>>| row.iter().map(|cell| cell.as_deref().map(&change)).collect();
+        Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
+    }
+
     /// A table of GitHub's Markdown, aligned in the source too.
     pub fn to_markdown(&self) -> String {
-        let escaped = Self {
-            columns: self.columns.clone(),
-            rows: self
-                .rows
-                .iter()
-                .map(|r| r.iter().map(|c| c.as_ref().map(|c| c.replace('|', "\\|"))).collect())
-                .collect(),
-        };
+        let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|")).into_owned());
         // A rule needs three characters.
         let widths: Vec<usize> = escaped.widths().into_iter().map(|w| w.max(3)).collect();
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));

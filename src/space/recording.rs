@@ -19,6 +19,8 @@ pub struct Recording {
     velocity: Option<Vec<Configuration>>,
     acceleration: Option<Vec<Configuration>>,
     interpolation: Interpolation,
+    /// Samples after which nothing joins, ascending.
+    rests: Vec<usize>,
 }
 
 /// Why samples are no motion. Samples count from 0.
@@ -116,7 +118,7 @@ impl Recording {
             }
         }
         let interpolation = if velocity.is_some() { Interpolation::Cubic } else { Interpolation::Linear };
-        Ok(Self { position, time, velocity, acceleration: None, interpolation })
+        Ok(Self { position, time, velocity, acceleration: None, interpolation, rests: Vec::new() })
     }
 
     /// The same with the accelerations that are stated, and what they make of the motion.
@@ -142,6 +144,15 @@ impl Recording {
             }
         }
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
+    }
+
+    /// The same, straight from each of these samples to the next whatever joins the others: where one motion ends and another
+    /// begins, and the arm stands between them.
+    #[must_use]
+    pub fn resting_after(self, samples: &[usize]) -> Self {
+        let mut rests = samples.to_vec();
+        rests.sort_unstable();
+        Self { rests, ..self }
     }
 
     /// Joint values of the samples; at least one.
@@ -196,6 +207,7 @@ impl Recording {
             velocity: self.velocity.as_ref().map(of),
             acceleration: self.acceleration.as_ref().map(of),
             interpolation: self.interpolation,
+            rests: self.rests.iter().filter(|rest| range.contains(rest)).map(|rest| rest - range.start()).collect(),
         })
     }
 
@@ -208,7 +220,10 @@ impl Recording {
         if q.len() == 1 {
             return vec![Piece::line(at(0), at(0), q[0], q[0])];
         }
-        let piece = |k: usize| match (self.interpolation, &self.velocity, &self.acceleration) {
+        let rule = |k: usize| {
+            if self.rests.binary_search(&k).is_ok() { Interpolation::Linear } else { self.interpolation }
+        };
+        let piece = |k: usize| match (rule(k), &self.velocity, &self.acceleration) {
             (Interpolation::Quintic, Some(v), Some(a)) => {
                 Piece::quintic(at(k), at(k + 1), [q[k], v[k], a[k]], [q[k + 1], v[k + 1], a[k + 1]])
             }

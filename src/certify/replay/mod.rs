@@ -11,15 +11,15 @@ mod state;
 pub use fault::{Departure, Fault};
 
 use super::{Excess, Passage, TurnContact, WristTurn, limits_kept, passage};
+use crate::geometry::{Point, Pose};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
-use crate::space::{Configuration, Recording};
+use crate::space::{Axis, Configuration, Recording};
 use order::{Matched, matched};
 use state::{State, stroke_seconds};
-use std::f64::consts::TAU;
 
 /// Where something is and where it is asked to be may differ by this, metres or radians: a thousand times what inverse
 /// kinematics leaves, and less than any arm repeats.
-const AT: f64 = 1e-6;
+pub(super) const AT: f64 = 1e-6;
 
 /// Times may fall short of what is asked for by this, seconds: far above the rounding of clocks, and of rests that are
 /// too short to be sampled; far below what a gripper needs.
@@ -32,6 +32,24 @@ pub struct ReplayedTurn {
     pub turn: RecordedTurn,
     /// Proven free, or where it first hits something.
     pub verdict: Result<WristTurn, TurnContact>,
+}
+
+/// What the gripper does in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Happening {
+    /// The step's number in the world file, from 1.
+    pub step: usize,
+    /// Which repetition of it, from 1.
+    pub cycle: usize,
+    /// The object that it takes or lets go of.
+    pub object: usize,
+    /// Seconds from the beginning of the record: the end of the motion, of the turn before an object is let go of,
+    /// and of the way down of the tool.
+    pub time: f64,
+    /// Where the tip is.
+    pub tip: Point,
+    /// Where the object lies from then on, if it is let go of.
+    pub pose: Option<Pose>,
 }
 
 /// A step that was judged.
@@ -50,6 +68,10 @@ pub struct ReplayedStep<'a> {
     pub carried: Option<usize>,
     /// Seconds from the beginning to the end of the motion.
     pub seconds: f64,
+    /// Seconds from the beginning of the record to that of the motion, to its end, and to the next motion or the end.
+    pub times: [f64; 3],
+    /// What the gripper does, if anything.
+    pub event: Option<Happening>,
     /// The motion among the obstacles of the scene; moments are the whole recording's.
     pub passage: Passage,
     /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
@@ -91,6 +113,15 @@ pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [Recor
 }
 
 impl Replay<'_> {
+    /// Seconds from the beginning of the record to that of a step's motion, to its end, and to the next one's.
+    fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
+        let times = self.recording.times();
+        let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
+        let last = self.recording.positions().len() - 1;
+        let end = self.recorded.get(index + 1).map_or(last, |next| *next.samples.start());
+        [since(*recorded.samples.start()), since(*recorded.samples.end()), since(end)]
+    }
+
     /// Where the record departs from the sequence of the task; none if it is the whole task.
     #[must_use]
     pub fn departure(&self) -> Option<&Departure> {
@@ -179,7 +210,28 @@ impl<'a> Iterator for Replay<'a> {
             faults.push(Fault::Rest { stood, asked });
         }
         let seconds = motion.duration().unwrap_or(0.0);
-        Some(ReplayedStep { step, recorded, scene, object, carried, seconds, passage, broken, turn, faults })
+        let times = self.times(index, recorded);
+        let event = object.map(|object| {
+            let pose = self.state.pose(object);
+            let turning = pose.and(recorded.turn).map_or(0.0, |turn| turn.seconds);
+            let lowering = stroke_seconds(task, object) / 2.0;
+            let (number, cycle, tip) = (step.number, step.cycle, task.arm.tip_at(to));
+            Happening { step: number, cycle, object, time: (times[1] + turning + lowering).min(times[2]), tip, pose }
+        });
+        Some(ReplayedStep {
+            step,
+            recorded,
+            scene,
+            object,
+            carried,
+            seconds,
+            times,
+            event,
+            passage,
+            broken,
+            turn,
+            faults,
+        })
     }
 }
 
@@ -200,9 +252,8 @@ fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
 }
 
 /// The difference between two orientations, from none to half a turn.
-fn angle_between(a: f64, b: f64) -> f64 {
-    let ahead = (a - b).rem_euclid(TAU);
-    ahead.min(TAU - ahead)
+pub(super) fn angle_between(a: f64, b: f64) -> f64 {
+    Axis::Circle.displacement(b, a).abs()
 }
 
 /// What was found, with the samples counted from the beginning of the whole recording.

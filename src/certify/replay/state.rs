@@ -26,6 +26,11 @@ impl State {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
     }
 
+    /// Where an object lies; none while it is carried.
+    pub fn pose(&self, object: usize) -> Option<Pose> {
+        self.poses[object]
+    }
+
     pub fn carried(&self) -> Option<usize> {
         self.held.as_ref().map(|(object, _)| *object)
     }

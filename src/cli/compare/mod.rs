@@ -31,7 +31,9 @@ use sink::{ReportFormat, report_sinks};
 pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
     let sinks = report_sinks(&args.output)?;
     let pictures = output::sinks(&[], &args.picture)?;
+    output::distinct(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
     let cases = Cases::load(args)?;
+    output::spare_inputs(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
     let entries = entries(args, &cases)?;
     cases.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
@@ -66,12 +68,12 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     let written: Result<Vec<_>, Failure> =
         sinks.iter().map(|sink| Ok((sink.path.clone(), results.content(sink.format)?))).collect();
     write_whole_set(&written?)?;
-    output::print(&match (args.json, args.csv, args.markdown) {
-        (true, ..) => results.content(ReportFormat::Json)?,
-        (_, true, _) => results.content(ReportFormat::Csv)?,
-        (.., true) => results.content(ReportFormat::Markdown)?,
-        _ => results.single().map_or_else(|| study.to_text(), Comparison::to_text),
-    })?;
+    match (args.json, args.csv, args.markdown) {
+        (true, ..) => output::print_json(&results.content(ReportFormat::Json)?)?,
+        (_, true, _) => output::print(&results.content(ReportFormat::Csv)?)?,
+        (.., true) => output::tell(&results.content(ReportFormat::Markdown)?)?,
+        _ => output::tell(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
+    }
     let alarms = study.alarms();
     alarms.iter().for_each(|alarm| output::say(&format!("error: {alarm}")));
     Ok(exit_code(&study, args.is_single()))

@@ -2,7 +2,7 @@
 
 use super::task::StepFinding;
 use crate::certify::{Encounter, Excess, Limit, Moment, Passage};
-use crate::model::{Joint, Scene};
+use crate::model::{Claims, Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;
 
@@ -14,6 +14,10 @@ pub(super) enum Verdict {
     Free,
     /// Neither proven free nor proven to collide.
     Undecided,
+    /// Free, but something that the file says of the motion is false.
+    Claims,
+    /// Not known to collide, but it does not lead from the start to the goal.
+    Ends,
     /// Not known to collide, but a limit is broken.
     Limits,
     /// Not known to collide, but not the task that was asked for.
@@ -31,6 +35,8 @@ impl Verdict {
             Verdict::Limits => "limits",
             Verdict::Undecided => "undecided",
             Verdict::Task => "task",
+            Verdict::Ends => "ends",
+            Verdict::Claims => "claims",
         }
     }
 }
@@ -50,9 +56,12 @@ pub(super) struct Findings {
     #[serde(flatten)]
     pub way: WayFinding,
     pub limits_broken: Vec<LimitFinding>,
-    /// In what a task is not the one asked for.
+    /// In what a motion or a task is not the one asked for, and what the file says of it that is false.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub faults: Vec<String>,
+    /// Members of a result that were not judged.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_judged: Vec<String>,
     /// Of a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
@@ -147,9 +156,25 @@ impl Findings {
             way: WayFinding::default(),
             limits_broken: Vec::new(),
             faults: Vec::new(),
+            not_judged: Vec::new(),
             steps: None,
             notes: Vec::new(),
         }
+    }
+
+    /// With faults of a kind, if there are any.
+    pub fn but(mut self, verdict: Verdict, faults: Vec<impl ToString>) -> Self {
+        if !faults.is_empty() {
+            self.verdict = self.verdict.max(verdict);
+        }
+        self.faults.extend(faults.iter().map(ToString::to_string));
+        self
+    }
+
+    /// With what nobody judges of what a file says.
+    pub fn leaving(mut self, claims: &Claims) -> Self {
+        self.not_judged.clone_from(&claims.unjudged);
+        self
     }
 }
 

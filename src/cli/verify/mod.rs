@@ -10,10 +10,10 @@ use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::value;
 use super::{DONE, REFUTED, UNKNOWN};
-use crate::certify::{limits_kept, passage, replay};
+use crate::certify::{ENDS_WITHIN, claims_kept, ends_kept, limits_kept, passage, replay};
 use crate::draw::Picture;
 use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
-use crate::model::{RecordedStep, Scene};
+use crate::model::{Claims, RecordedStep, Scene};
 use crate::space::Recording;
 use findings::{Findings, Verdict};
 
@@ -29,17 +29,18 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         loaded.scene.workspace.clearance = input::clearance(clearance).map_err(input::InputError::from)?;
     }
     if !args.quiet {
-        loaded.robot.warnings.iter().for_each(|w| eprintln!("warning: {w}"));
+        loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     }
-    let LoadedRecording { mut recording, steps, mut notes } = input::load_recording(&args.trajectory, &loaded)?;
+    let LoadedRecording { mut recording, steps, claims, mut notes } = input::load_recording(&args.trajectory, &loaded)?;
+    output::spare_inputs(sinks.iter().map(Sink::path))?;
     if args.unwrap {
         recording = recording.unwrapped(&loaded.scene.arm.topology());
     }
     notes.extend(turns(&loaded.scene, &recording));
     let scene = loaded.scene.clone();
     let findings = match steps {
-        Some(steps) => judge_task(args, loaded, &recording, &steps, notes)?,
-        None => judge_motion(args, &loaded, &recording, notes)?,
+        Some(steps) => judge_task(args, loaded, &recording, &steps, &claims.unwrap_or_default(), notes)?,
+        None => judge_motion(args, &loaded, &recording, &claims.unwrap_or_default(), notes)?,
     };
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
@@ -48,14 +49,14 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     }
     if args.json {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print(&(json + "\n"))?;
+        output::print_json(&(json + "\n"))?;
     } else if !args.quiet {
-        output::print(&text::summary(&scene.arm, &recording, &findings))?;
+        output::tell(&text::summary(&scene.arm, &recording, &findings))?;
     }
     Ok(match findings.verdict {
         Verdict::Free => DONE,
         Verdict::Undecided => UNKNOWN,
-        Verdict::Collision | Verdict::Limits | Verdict::Task => REFUTED,
+        Verdict::Collision | Verdict::Limits | Verdict::Task | Verdict::Ends | Verdict::Claims => REFUTED,
     })
 }
 
@@ -64,12 +65,9 @@ fn judge_motion(
     args: &VerifyArgs,
     loaded: &LoadedScene,
     recording: &Recording,
+    claims: &Claims,
     mut notes: Vec<String>,
 ) -> Result<Findings, Failure> {
-    if args.start.is_some() {
-        let message = "--start is for results of tasks; a motion begins with its first sample";
-        return Err(Failure::Usage(message.into()));
-    }
     if loaded.has_steps() {
         notes.push(
             "the world has steps, the file none: judged as one motion, empty-handed, with all objects where they lie at \
@@ -78,9 +76,23 @@ fn judge_motion(
         );
     }
     let scene = &loaded.scene;
+    let (start, goal) = if args.anywhere { (None, None) } else { loaded.ends(&overrides(args))? };
+    notes.push(match (start.is_some(), goal.is_some()) {
+        (true, true) => format!("from the start to the goal: both are met within {ENDS_WITHIN}, or that is a fault"),
+        (true, false) => {
+            format!("from the start, which is met within {ENDS_WITHIN}, or that is a fault; there is no goal")
+        }
+        (false, true) => {
+            format!("to the goal, which is met within {ENDS_WITHIN}, or that is a fault; there is no start")
+        }
+        (false, false) => "where it begins and ends is not judged".into(),
+    });
     let passage = passage(scene, recording, scene.workspace.clearance);
     let broken = limits_kept(&scene.arm.joints, recording);
-    Ok(Findings::new(scene, recording, &passage, &broken, notes))
+    let findings = Findings::new(scene, recording, &passage, &broken, notes);
+    let misses = ends_kept(&scene.arm, recording, start, goal);
+    let false_claims = claims_kept(scene, recording, claims, &passage);
+    Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims).leaving(claims))
 }
 
 /// Judges the recording as the task of the world.
@@ -89,21 +101,27 @@ fn judge_task(
     loaded: LoadedScene,
     recording: &Recording,
     steps: &[RecordedStep],
+    claims: &Claims,
     mut notes: Vec<String>,
 ) -> Result<Findings, Failure> {
     if !args.picture.is_empty() {
         let message = "--picture shows one motion, not a task; the main job draws tasks";
         return Err(Failure::Usage(message.into()));
     }
-    let overrides = Overrides { start: args.start, clearance: args.clearance, ..Overrides::default() };
-    let LoadedTask { task, scene, .. } = loaded.recorded_task(&overrides)?;
+    if args.anywhere {
+        return Err(Failure::Usage("--anywhere is for motions; a task begins at its start".into()));
+    }
+    let LoadedTask { task, scene, .. } = loaded.recorded_task(&overrides(args))?;
     notes.push(
         "step by step: that the steps are the world's in an order that it allows, each motion with what is carried and \
-         objects where they lie then, limits, grasps, places, turns and rests; the file's own times, events and clearances \
-         are not used"
+         objects where they lie then, limits, grasps, places, turns and rests; and what the file says of steps and events"
             .into(),
     );
-    Ok(task::judged(&task, &scene, recording, replay(&task, recording, steps), notes))
+    Ok(task::judged(&task, &scene, recording, steps, replay(&task, recording, steps), claims, notes).leaving(claims))
+}
+
+fn overrides(args: &VerifyArgs) -> Overrides {
+    Overrides { start: args.start, goal: args.goal, goal_tip: args.goal_tip, clearance: args.clearance }
 }
 
 /// Steps that look like a seam in wrapped angles.

@@ -1,8 +1,8 @@
 //! What `verify` found of a task, step by step.
 
 use super::findings::{Findings, LimitFinding, Verdict, WayFinding, limits, verdict};
-use crate::certify::{Departure, Replay, ReplayedStep, ReplayedTurn};
-use crate::model::{Scene, Task};
+use crate::certify::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
+use crate::model::{Claims, RecordedStep, Scene, Task};
 use crate::space::Recording;
 use serde::Serialize;
 
@@ -113,10 +113,22 @@ pub(super) fn judged(
     task: &Task,
     scene: &Scene,
     recording: &Recording,
+    recorded: &[RecordedStep],
     mut replay: Replay,
+    claims: &Claims,
     notes: Vec<String>,
 ) -> Findings {
-    let steps: Vec<StepFinding> = replay.by_ref().map(|step| StepFinding::new(task, &step)).collect();
+    let (mut happened, mut false_claims) = (Vec::new(), Vec::new());
+    let mut steps = Vec::new();
+    for (index, step) in replay.by_ref().enumerate() {
+        false_claims.extend(step_claims_kept(task, recording, &step, claims, index));
+        happened.extend(step.event.clone());
+        steps.push(StepFinding::new(task, &step));
+    }
+    // Of a task that breaks off, what is said of the whole is about another one.
+    if replay.departure().is_none() {
+        false_claims.extend(task_claims_kept(task, recording, recorded, &happened, claims));
+    }
     let departure = replay.departure().map(Departure::to_string);
     let of_departure = if departure.is_some() { Verdict::Task } else { Verdict::Free };
     let worst = steps.iter().map(|step| step.verdict).max().unwrap_or(Verdict::Free);
@@ -134,6 +146,7 @@ pub(super) fn judged(
         notes,
         ..Findings::of_nothing(scene, recording)
     }
+    .but(Verdict::Claims, false_claims)
 }
 
 /// What is met on the whole way.

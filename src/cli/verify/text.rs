@@ -21,7 +21,10 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &Findings) -> 
     lines.extend(way(arm, &findings.way, findings.verdict));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
-    lines.extend(findings.faults.iter().map(|fault| ("task", fault.clone())));
+    lines.extend(findings.faults.iter().map(|fault| ("fault", fault.clone())));
+    if !findings.not_judged.is_empty() {
+        lines.push(("not judged", format!("what the file says of {}", findings.not_judged.join(", "))));
+    }
     lines.push(("result", result(findings)));
     laid_out(&lines)
 }
@@ -107,7 +110,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
             (Verdict::Free, Some(clearance)) => format!("clearance {clearance:.4} m"),
             (Verdict::Free, None) => "nothing can be hit".into(),
             (Verdict::Collision, _) => "collides".into(),
-            (Verdict::Task, _) => "not as asked for".into(),
+            (Verdict::Task | Verdict::Ends | Verdict::Claims, _) => "not as asked for".into(),
             (Verdict::Limits, _) => "breaks limits".into(),
             (Verdict::Undecided, _) => "undecided".into(),
         };
@@ -130,6 +133,8 @@ fn result(findings: &Findings) -> String {
         Verdict::Collision if required > 0.0 => "collision, or nearer than the clearance to keep: proven".into(),
         Verdict::Collision => "collision: proven".into(),
         Verdict::Task => "not the task that the world asks for".into(),
+        Verdict::Ends => "does not lead from the start to the goal".into(),
+        Verdict::Claims => "free, but the file says of it what is false".into(),
         Verdict::Limits => "limits are broken".into(),
         Verdict::Undecided => "undecided".into(),
     }

@@ -3,16 +3,21 @@
 //! Names decide which column is which joint, not their order. Every reader makes [`Samples`]; what holds for all of
 //! them (the arm's joints are there, the held joints stand still, times increase) is checked once, here.
 
+#[cfg(feature = "mcap")]
+mod cdr;
+mod claims;
 mod columns;
 mod csv;
 mod document;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod records;
 mod steps;
 
 use super::LoadedScene;
 use super::error::{Defect, InputError, quoted};
 use super::source::Source;
-use crate::model::RecordedStep;
+use crate::model::{Claims, RecordedStep};
 use crate::space::{Configuration, Interpolation, Recording, RecordingDefect};
 use std::ops::Range;
 use std::path::Path;
@@ -32,6 +37,8 @@ pub struct LoadedRecording {
     pub recording: Recording,
     /// The steps of a task: of a result of cplan's for a world that has steps.
     pub steps: Option<Vec<RecordedStep>>,
+    /// What a result of cplan's says besides the samples.
+    pub claims: Option<Claims>,
     /// What the user should know: what was ignored, and which rule joins the samples.
     pub notes: Vec<String>,
 }
@@ -52,6 +59,8 @@ struct Samples {
     joints: Vec<Series>,
     /// How samples are joined that have accelerations, if these do it; see [`Interpolation`].
     joined: Option<Interpolation>,
+    /// Samples after which nothing is joined: the arm stands until the next.
+    rests: Vec<usize>,
     /// How the file calls sample `k`: this, with `k` in brackets.
     what: &'static str,
     /// Where in the text each sample is, if the reader knows.
@@ -59,12 +68,13 @@ struct Samples {
     notes: Vec<String>,
 }
 
-/// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml` or `.yml`.
+/// Reads a joint path or trajectory; the file's extension tells the format: `.json`, `.csv`, `.yaml`, `.yml` or `.mcap`.
 ///
 /// - JSON: a result of cplan's own (its trajectory, else its path), with the steps if it and the world have any; or a ROS 2
 ///   message;
 /// - CSV: a header of names, then a sample a line. A column is a joint's position if its name is the joint's, or the
 ///   joint's with `position` before or after it; velocities likewise; `time`, `t` or `time_from_start` are seconds;
+/// - MCAP (a feature): what ROS 2 recorded on `/joint_trajectory`, else on `/joint_states`;
 /// - YAML: `trajectory_msgs/msg/JointTrajectory`, also as a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
@@ -72,16 +82,20 @@ struct Samples {
 /// are no motion; with the place in the file and the cure.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
-    if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml")) {
+    if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
         return Err(Defect::new(path.display().to_string(), "cannot tell the format of this file")
-            .cure("name it .json (cplan), .csv, or .yaml (ROS 2 JointTrajectory)")
+            .cure("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
     }
-    let source = Source::read(path)?;
     let names = Names {
         arm: scene.scene.arm.joints.each_ref().map(|j| j.name.as_str()),
         held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
+        has_steps: scene.has_steps(),
     };
+    if extension.as_deref() == Some("mcap") {
+        return recorded(path, &names);
+    }
+    let source = Source::read(path)?;
     let samples = match extension.as_deref() {
         Some("json") => document::json(&source)?,
         Some("csv") => csv::read(&source, &names)?,
@@ -91,13 +105,34 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
         Some("json") if scene.has_steps() => steps::json(&source, &samples)?,
         _ => None,
     };
-    Ok(LoadedRecording { steps, ..names.recording(&source, samples)? })
+    let claims = match extension.as_deref() {
+        Some("json") => claims::json(&source, names.arm)?,
+        _ => None,
+    };
+    Ok(LoadedRecording { steps, claims, ..names.recording(&source, samples)? })
+}
+
+/// A recording of topics.
+#[cfg(feature = "mcap")]
+fn recorded(path: &Path, names: &Names) -> Result<LoadedRecording, InputError> {
+    let bytes = super::source::read_bytes(path)?;
+    let source = Source::in_memory(path, "");
+    Ok(names.recording(&source, mcap::read(&source, &bytes)?)?)
+}
+
+/// A recording of topics.
+#[cfg(not(feature = "mcap"))]
+fn recorded(path: &Path, _: &Names) -> Result<LoadedRecording, InputError> {
+    let defect = Defect::new(path.display().to_string(), "this program was built without MCAP");
+    Err(defect.cure("verify a .json, .csv or .yaml, or build with --features mcap").into())
 }
 
 /// The joints that a file can speak of.
 struct Names<'a> {
     arm: [&'a str; 2],
     held: Vec<(&'a str, f64)>,
+    /// Whether the world has steps, in which a wrist turns and a quill goes up and down.
+    has_steps: bool,
 }
 
 impl Names<'_> {
@@ -140,15 +175,16 @@ impl Names<'_> {
         let position = both(&one.position, &two.position);
         let recording = Recording::new(position, samples.time.take(), velocity).and_then(|recording| {
             let rule = samples.joined.unwrap_or(recording.interpolation());
-            match acceleration {
-                Some(acceleration) => recording.accelerated(acceleration, rule),
-                None => Ok(recording),
-            }
+            let recording = match acceleration {
+                Some(acceleration) => recording.accelerated(acceleration, rule)?,
+                None => recording,
+            };
+            Ok(recording.resting_after(&samples.rests))
         });
         let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
         notes.push(rule(&recording).into());
         notes.extend((recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED.into()));
-        Ok(LoadedRecording { recording, steps: None, notes })
+        Ok(LoadedRecording { recording, steps: None, claims: None, notes })
     }
 
     /// Checks a joint that is none of the arm's two.
@@ -160,6 +196,9 @@ impl Names<'_> {
         let moves = |v: &f64| v.is_nan() || (v - held).abs() > STILL;
         match other.position.iter().position(moves) {
             None => Ok(format!("joint \"{name}\" stands still at {held}, as it should: ignored")),
+            Some(_) if self.has_steps => Ok(format!(
+                "joint \"{name}\" moves in the steps: judged as if it stayed at {held}; its own motion is not judged"
+            )),
             Some(sample) => {
                 let value = other.position[sample];
                 let message = format!("joint \"{name}\" is at {value}, but the workspace holds it at {held}");

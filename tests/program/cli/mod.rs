@@ -9,13 +9,16 @@ mod first;
 mod free_joint;
 mod help;
 mod inputs;
+mod large_turns;
 mod many_corners;
 mod mazes;
 mod narrow;
+mod outputs;
 mod path_kind;
 mod proof_sizes;
 mod results;
 mod tasks;
+mod terminal;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

@@ -3,7 +3,8 @@
 use crate::common::{q, rr};
 use cplan::certify::{Excess, Limit, limits_kept};
 use cplan::model::Joint;
-use cplan::space::{Axis, Configuration, Recording};
+use cplan::space::{Axis, Configuration, Derivative, Recording};
+use proptest::prelude::*;
 
 /// Range from -1 to 1, top speed 1, acceleration 4.
 fn joints() -> [Joint; 2] {
@@ -104,5 +105,74 @@ fn one_percent_beyond_the_limit_is_seen_in_numbers_that_can_show_it() {
             (1, 1, 2),
             "{decimals}, {h}: {found:?}"
         );
+    }
+}
+
+#[test]
+fn stated_velocities_are_judged_as_stated_however_close_the_samples() {
+    // Four rows at a microsecond, as six decimals write it, and 1.7 / s against a limit of 1.
+    let times = [0.0, 1e-6, 2e-6, 3e-6];
+    let position = times.map(|t| q(1.7 * t, 0.0)).to_vec();
+    let found = judged(&times, position, Some(vec![q(1.7, 0.0); 4]));
+    let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
+    assert_eq!((speed.joint, speed.allowed, speed.value), (0, 1.0, 1.7));
+}
+
+#[test]
+fn a_real_move_that_is_too_fast_is_so_with_samples_a_microsecond_apart() {
+    // Up to 1.7 / s at 4 / s^2 and down again, sampled finely only where it is faster than allowed. Numbers have six decimals.
+    let (a, top) = (4.0, 1.7 / 4.0);
+    let state = |t: f64| match t <= top {
+        true => (0.5 * a * t * t, a * t),
+        false => (a * (top * top - 0.5 * (2.0 * top - t) * (2.0 * top - t)), a * (2.0 * top - t)),
+    };
+    let round = |v: f64| (v * 1e6).round() / 1e6;
+    let slow = (0..=24).map(|k| f64::from(k) * 0.01);
+    let fast = (0..369_990).step_by(3).map(|k| 0.24 + f64::from(k) * 1e-6 + 1e-6);
+    let down = (0..=24).map(|k| 0.61 + f64::from(k) * 0.01);
+    let times: Vec<f64> = slow.chain(fast).chain(down).map(round).collect();
+    let rows = |f: fn((f64, f64)) -> f64| times.iter().map(|&t| q(round(f(state(t))) - 0.36, 0.0)).collect::<Vec<_>>();
+    let velocity = times.iter().map(|&t| q(round(state(t).1), 0.0)).collect();
+    let found = judged(&times, rows(|s| s.0), Some(velocity));
+    let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
+    assert!(speed.value > 1.6, "{speed:?}");
+    // Where what is stated hides it, the way it goes does not.
+    let hidden = vec![q(0.99, 0.0); times.len()];
+    let found = judged(&times, rows(|s| s.0), Some(hidden));
+    assert!(found.iter().any(|e| e.limit == Limit::Velocity && e.value > 1.1), "{found:?}");
+}
+
+proptest! {
+    #![proptest_config(crate::common::random::cases(64))]
+
+    /// Random cubics with all their digits: what dense samples see beyond a limit is found, and nothing else.
+    #[test]
+    fn speeds_and_accelerations_are_those_of_dense_samples(
+        rows in prop::collection::vec((1e-6..1.0_f64, -0.2..0.2_f64, -1.1..1.1_f64), 2..6),
+    ) {
+        let mut time = 0.0;
+        let times: Vec<f64> = rows.iter().map(|row| { time += row.0; time }).collect();
+        let mut at = 0.0;
+        let position: Vec<Configuration> =
+            rows.iter().map(|row| { at += row.0 * row.1; q(at, 0.0) }).collect();
+        let velocity: Vec<Configuration> = rows.iter().map(|row| q(row.2, 0.0)).collect();
+        let recording = Recording::new(position, Some(times), Some(velocity)).unwrap();
+        let mut seen = [0.0_f64; 2];
+        for piece in recording.pieces() {
+            for i in 0..=500 {
+                let of = |of| piece.derivative(of, f64::from(i) / 500.0)[0].abs();
+                seen = [seen[0].max(of(Derivative::Velocity)), seen[1].max(of(Derivative::Acceleration))];
+            }
+        }
+        let found = limits_kept(&joints(), &recording);
+        let is_found = |limit| found.iter().any(|e| e.joint == 0 && e.limit == limit);
+        for (limit, seen, allowed) in [(Limit::Velocity, seen[0], 1.0), (Limit::Acceleration, seen[1], 4.0)] {
+            if seen > 1.02 * allowed + 1e-3 {
+                prop_assert!(is_found(limit), "{:?} of {}", limit, seen);
+            }
+            if seen < 0.999 * allowed {
+                prop_assert!(!is_found(limit), "{:?} of {}", limit, seen);
+            }
+        }
     }
 }

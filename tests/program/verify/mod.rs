@@ -1,10 +1,12 @@
 //! `cplan verify`: recorded motions against closed forms, dense sampling and tampering.
 
 mod bad_input;
+mod claims;
 mod command;
 mod controller;
 mod dialects;
 mod files;
 mod limits;
 mod motion;
+mod recordings;
 mod tasks;

@@ -1,0 +1,53 @@
+//! Whether a motion leads from where it should begin to where it should end.
+
+use crate::model::{Arm, Goal};
+use crate::space::{Configuration, Recording};
+use thiserror::Error;
+
+/// By how much a motion may miss its start or goal, radians or metres: what six printed decimals make of a tip some metres
+/// from its joints, and less than any arm repeats.
+pub const ENDS_WITHIN: f64 = 1e-5;
+
+/// Where a motion does not begin or end as it should.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Miss {
+    /// It begins elsewhere.
+    #[error("the motion begins at ({}, {}), not at the start ({}, {})", is[0], is[1], start[0], start[1])]
+    Start {
+        /// Where it begins.
+        is: Configuration,
+        /// Where it was to begin.
+        start: Configuration,
+    },
+    /// It ends elsewhere.
+    #[error("the motion ends at ({}, {}), not at the goal ({}, {})", is[0], is[1], goal[0], goal[1])]
+    Goal {
+        /// Where it ends.
+        is: Configuration,
+        /// Where it was to end.
+        goal: Configuration,
+    },
+    /// The tip is not where it was to go.
+    #[error("the motion ends with the tip {off:.6} m from the goal")]
+    Tip {
+        /// How far it is from there, metres.
+        off: f64,
+    },
+}
+
+/// Where a motion misses its start and its goal by more than [`ENDS_WITHIN`], if it has them; whole turns of joints on circles aside.
+#[must_use]
+pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Configuration>, goal: Option<Goal>) -> Vec<Miss> {
+    let positions = recording.positions();
+    let (first, last) = (positions[0], positions[positions.len() - 1]);
+    let misses = |a: Configuration, b: Configuration| !(arm.topology().displacement(a, b).amax() <= ENDS_WITHIN);
+    let start = start.filter(|start| misses(first, *start)).map(|start| Miss::Start { is: first, start });
+    let goal = goal.and_then(|goal| match goal {
+        Goal::Joints(goal) => misses(last, goal).then_some(Miss::Goal { is: last, goal }),
+        Goal::Tip(tip) => {
+            let off = (arm.tip_at(last) - tip).norm();
+            (off > ENDS_WITHIN).then_some(Miss::Tip { off })
+        }
+    });
+    start.into_iter().chain(goal).collect()
+}

@@ -1,0 +1,99 @@
+//! No output overwrites an input or another output, whatever their paths look like.
+
+use super::*;
+
+/// A folder with a robot and a world that can be planned in.
+fn place() -> Place {
+    let place = Place::new();
+    place.write("arm.urdf", std::fs::read(shipped("robots/planar_2r.urdf")).unwrap());
+    place.write("world.json", FREE);
+    std::fs::create_dir(place.path("sub")).unwrap();
+    place
+}
+
+#[track_caller]
+fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
+    let files = ["arm.urdf", "world.json"];
+    let before = files.map(|file| place.read(file));
+    let done = place.run(arguments, "");
+    assert_eq!(done.code, 1, "{arguments:?}: {}", done.stdout);
+    for part in [names, &["nothing was written", "cure:"]].concat() {
+        assert!(done.stderr.contains(part), "no {part} in {}", done.stderr);
+    }
+    assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
+}
+
+#[test]
+fn an_input_is_not_overwritten_by_any_path_to_it() {
+    let place = place();
+    let absolute = place.path("world.json").display().to_string();
+    let mut spellings = vec!["world.json", "./world.json", "sub/../world.json", &absolute];
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("world.json", place.path("soft.json")).unwrap();
+        std::fs::hard_link(place.path("world.json"), place.path("hard.json")).unwrap();
+        spellings.extend(["soft.json", "hard.json"]);
+    }
+    for output in &spellings {
+        refused(&place, &["arm.urdf", "world.json", "--output", output], &["the input world.json", output]);
+    }
+    // By the other name of the world, too.
+    refused(&place, &["arm.urdf", spellings[spellings.len() - 1], "--output", "world.json"], &["world.json"]);
+    refused(&place, &["compare", "arm.urdf", "world.json", "--output", "sub/../world.json"], &["the input"]);
+    assert_eq!(place.run(&["arm.urdf", "world.json", "--output", "new.json"], "").code, 0);
+}
+
+#[test]
+fn pictures_spare_the_files_that_they_show() {
+    let place = place();
+    for name in ["arm.svg", "world.svg"] {
+        let from = if name == "arm.svg" { "arm.urdf" } else { "world.json" };
+        std::fs::copy(place.path(from), place.path(name)).unwrap();
+    }
+    let before = ["arm.svg", "world.svg"].map(|file| place.read(file));
+    place.write("motion.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
+    for arguments in [
+        vec!["inspect", "arm.svg", "--picture", "./arm.svg"],
+        vec!["check", "arm.svg", "world.json", "--at", "0,1", "--picture", "arm.svg"],
+        vec!["verify", "arm.urdf", "world.svg", "motion.csv", "--picture", "world.svg"],
+        vec!["arm.svg", "world.json", "--picture", "arm.svg"],
+    ] {
+        refused(&place, &arguments, &["the input"]);
+        assert_eq!(["arm.svg", "world.svg"].map(|file| place.read(file)), before, "{arguments:?}");
+    }
+}
+
+#[test]
+fn what_an_input_refers_to_is_an_input_too() {
+    let place = Place::new();
+    for file in ["den.toml", "den.yaml", "den.pgm"] {
+        std::fs::copy(shipped(&format!("workspaces/{file}")), place.path(file)).unwrap();
+    }
+    let world = place.read("den.toml");
+    let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap().trim();
+    let urdf = shipped(&format!("robots/{robot}.urdf"));
+    let before = place.read("den.yaml");
+    let done = place.run(&[&urdf, "den.toml", "--output", "den.yaml"], "");
+    assert_eq!(done.code, 1, "{}", done.stdout);
+    assert!(done.stderr.contains("the input den.yaml"), "{}", done.stderr);
+    assert_eq!(place.read("den.yaml"), before);
+}
+
+#[test]
+fn two_outputs_are_two_files() {
+    let place = place();
+    for outputs in [
+        vec!["--output", "a.json", "--output", "./a.json"],
+        vec!["--output", "a.json", "--output", "a.json"],
+        vec!["--picture", "a.svg", "--picture", "sub/../a.svg"],
+    ] {
+        refused(&place, &[&["arm.urdf", "world.json"], &outputs[..]].concat(), &["are one file"]);
+        assert!(!place.path("a.json").exists() && !place.path("a.svg").exists());
+    }
+    refused(
+        &place,
+        &["compare", "arm.urdf", "world.json", "--output", "a.html", "--picture", "./a.html"],
+        &["are one file"],
+    );
+    refused(&place, &["demo", "--output", "./plan.json"], &["are one file"]);
+}

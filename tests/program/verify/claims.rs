@@ -1,0 +1,251 @@
+//! Results in which one thing is false: everything that is judged is found, whatever it is changed to.
+
+use crate::common::random;
+use serde_json::{Value, json};
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn shipped(file: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+/// A robot, a world, and what the program found for them.
+struct Case {
+    robot: String,
+    world: String,
+    result: Value,
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let run = Command::new(env!("CARGO_BIN_EXE_cplan")).current_dir(folder).args(arguments).output();
+    let Output { status, stdout, stderr } = run.unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (status.code().expect("no signal"), text(stdout), text(stderr))
+}
+
+impl Case {
+    fn new(robot: &str, world: &str) -> Self {
+        Self::of(shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml")))
+    }
+
+    /// A shipped task with five steps.
+    fn tower() -> Self {
+        let world = std::fs::read_to_string(shipped("workspaces/tasks/tower.toml")).unwrap();
+        let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
+        Self::new(robot.trim(), "tasks/tower")
+    }
+
+    fn of(robot: String, world: String) -> Self {
+        let (code, json, errors) = run(Path::new("."), &[&robot, &world, "--json", "--quiet"]);
+        assert_eq!(code, 0, "{errors}");
+        Self { robot, world, result: serde_json::from_str(&json).unwrap() }
+    }
+
+    /// The exit code for a result, and what is found.
+    fn judged(&self, result: &Value, options: &[&str]) -> (i32, Value) {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("r.json"), result.to_string()).unwrap();
+        let files = ["verify", &self.robot, &self.world, "r.json", "--json"];
+        let (code, json, errors) = run(folder.path(), &[&files, options].concat());
+        (code, serde_json::from_str(&json).unwrap_or(Value::String(errors)))
+    }
+
+    #[track_caller]
+    fn refused(&self, change: impl FnOnce(&mut Value), verdict: &str, part: &str) {
+        let mut result = self.result.clone();
+        change(&mut result);
+        let (code, found) = self.judged(&result, &[]);
+        assert_eq!((code, &found["verdict"]), (3, &json!(verdict)), "{found:#}");
+        assert!(found["faults"].to_string().contains(part), "{found:#}");
+    }
+}
+
+#[test]
+fn results_as_they_are_have_no_false_claims() {
+    for (robot, world) in [("planar_2r", "shelf"), ("planar_2r", "two_branches"), ("scara", "scara_cell")] {
+        let case = Case::new(robot, world);
+        let (code, found) = case.judged(&case.result, &[]);
+        assert_eq!((code, &found["faults"]), (0, &Value::Null), "{world}: {found:#}");
+        let unjudged = found["not_judged"].to_string();
+        assert!(unjudged.contains("planner") && unjudged.contains("optimum.lower_bound"), "{unjudged}");
+    }
+}
+
+#[test]
+fn a_colliding_path_beside_a_good_trajectory_is_found() {
+    let case = Case::new("planar_2r", "shelf");
+    let ends = [0, case.result["path"].as_array().unwrap().len() - 1].map(|k| case.result["path"][k].clone());
+    let straight = |result: &mut Value| result["path"] = json!(ends);
+    case.refused(straight, "claims", "it is not free");
+    // Even where all that is said of the path goes with it.
+    let straight = |result: &mut Value| {
+        result["path"] = json!(ends);
+        let d: Vec<f64> = (0..2).map(|k| ends[1][k].as_f64().unwrap() - ends[0][k].as_f64().unwrap()).collect();
+        result["length"] = json!(d[0].hypot(d[1]));
+        result["blends"] = json!({"count": 0, "largest_radius": d[0].hypot(d[1])});
+        result.as_object_mut().unwrap().remove("optimum");
+    };
+    case.refused(straight, "claims", "it is not free");
+}
+
+#[test]
+fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let world = folder.path().join("free.toml");
+    std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n").unwrap();
+    let case = Case::of(shipped("robots/planar_2r.urdf"), world.display().to_string());
+    let only = |samples: std::ops::Range<usize>| {
+        let mut result = json!({"joints": case.result["joints"], "trajectory": {}});
+        for key in ["time", "position"] {
+            result["trajectory"][key] = json!(case.result["trajectory"][key].as_array().unwrap()[samples.clone()]);
+        }
+        result
+    };
+    let count = case.result["trajectory"]["time"].as_array().unwrap().len();
+    for (samples, part) in [(1..count, "begins at"), (0..count - 1, "ends at"), (3..4, "begins at")] {
+        let (code, found) = case.judged(&only(samples.clone()), &[]);
+        assert_eq!((code, &found["verdict"]), (3, &json!("ends")), "{found:#}");
+        assert!(found["faults"].to_string().contains(part), "{found:#}");
+        assert_eq!(case.judged(&only(samples), &["--anywhere"]).0, 0);
+    }
+    assert_eq!(case.judged(&only(0..count), &[]).0, 0);
+    assert_eq!(case.judged(&only(0..count), &["--goal", "1.5,0"]).0, 3);
+    assert_eq!(case.judged(&only(0..count), &["--goal-tip", "0.5,0.5"]).0, 3);
+    assert_eq!(case.judged(&only(0..count), &["--start", "0,0"]).0, 3);
+    // A goal of the tip is met in any posture.
+    let case = Case::new("planar_2r", "two_branches");
+    let count = case.result["trajectory"]["time"].as_array().unwrap().len();
+    let (robot, world) = (case.robot.clone(), case.world.clone());
+    let path = case.result["path"].as_array().unwrap();
+    let other = Case { robot, world, result: json!({"joints": case.result["joints"], "path": [path[0], [0.0, 0.0]]}) };
+    assert!(count > 1 && other.judged(&other.result, &[]).1["faults"].to_string().contains("the tip"));
+}
+
+#[test]
+fn each_false_claim_of_a_motion_is_named() {
+    let case = Case::new("planar_2r", "shelf");
+    let kept = case.result["clearance"].as_f64().unwrap();
+    case.refused(|r| r["status"] = json!("infeasible"), "claims", "status");
+    case.refused(|r| r["certified"] = json!(false), "claims", "certified");
+    case.refused(|r| r["units"] = json!(["rad", "m"]), "claims", "units");
+    case.refused(|r| r["length"] = json!(3.0), "claims", "length");
+    case.refused(|r| r["clearance"] = json!(1.2 * kept), "claims", "clearance");
+    case.refused(|r| r["clearance"] = Value::Null, "claims", "nothing can be hit");
+    case.refused(|r| r["duration"] = json!(1.0), "claims", "duration");
+    case.refused(|r| r["blends"]["count"] = json!(500), "claims", "blends.count");
+    case.refused(|r| r["blends"]["largest_radius"] = json!(0.0), "claims", "does not follow");
+    case.refused(|r| r["optimum"]["length"] = json!(3.0), "claims", "optimum.length");
+    case.refused(|r| r["optimum"]["lower_bound"] = json!(9.0), "claims", "optimum.lower_bound");
+    case.refused(|r| r["optimum"]["gap"] = json!(0.25), "claims", "optimum.gap");
+    case.refused(|r| r["optimum"]["metric"] = json!("weighted"), "claims", "optimum.metric");
+    let (code, found) = case.judged(
+        &{
+            let mut less = case.result.clone();
+            less["clearance"] = json!(0.5 * kept);
+            less
+        },
+        &[],
+    );
+    assert_eq!(code, 0, "a weaker claim is true: {found:#}");
+}
+
+#[test]
+fn each_false_claim_of_a_task_is_named() {
+    let case = Case::tower();
+    let (code, found) = case.judged(&case.result, &[]);
+    assert_eq!((code, &found["faults"]), (0, &Value::Null), "{found:#}");
+    case.refused(|r| r["events"][0]["time"] = json!(0.01), "claims", "events[0].time");
+    case.refused(|r| r["events"][0]["event"] = json!("release"), "claims", "events[0].event");
+    case.refused(|r| r["events"][1]["object"] = json!("nothing"), "claims", "events[1].object");
+    case.refused(|r| r["events"][1]["tip"][1] = json!(0.9), "claims", "events[1].tip");
+    case.refused(|r| r["events"][1]["pose"]["at"][0] = json!(0.9), "claims", "events[1].pose.at");
+    case.refused(|r| r["events"][1]["pose"]["angle"] = json!(0.9), "claims", "events[1].pose.angle");
+    case.refused(|r| drop(r["events"].as_array_mut().unwrap().pop()), "claims", "the gripper does");
+    case.refused(|r| r["events"] = json!([]), "claims", "the gripper does");
+    case.refused(|r| r["steps"][0]["action"] = json!("place"), "claims", "steps[0].action");
+    case.refused(|r| r["steps"][1]["carried"] = Value::Null, "claims", "steps[1].carried");
+    case.refused(|r| r["steps"][1]["object"] = json!("nothing"), "claims", "steps[1].object");
+    case.refused(|r| r["steps"][2]["arrival"] = json!(0.0), "claims", "steps[2].arrival");
+    case.refused(|r| r["steps"][2]["clearance"] = json!(1.0), "claims", "steps[2].clearance");
+    case.refused(|r| r["clearance"] = json!(1.0), "claims", "clearance");
+    case.refused(|r| r["steps"][0]["length"] = json!(1.0), "claims", "steps[0].length");
+    case.refused(|r| r["path"][0][0] = json!(1.0), "claims", "path");
+    case.refused(|r| r["trajectory"]["step"][0] = json!(1), "claims", "trajectory.step");
+    case.refused(|r| r["duration"] = json!(1.0), "claims", "duration");
+}
+
+/// All numbers, words and truths that are claims, as pointers into the result.
+fn leaves(value: &Value, at: String, found: &mut Vec<String>) {
+    match value {
+        Value::Object(members) => members.iter().for_each(|(key, value)| leaves(value, format!("{at}/{key}"), found)),
+        Value::Array(items) => items.iter().enumerate().for_each(|(k, item)| leaves(item, format!("{at}/{k}"), found)),
+        Value::Null => {}
+        _ => found.push(at),
+    }
+}
+
+/// Whether a claim is judged whatever it is changed to.
+fn is_judged(pointer: &str) -> bool {
+    let words: Vec<&str> = pointer.split('/').skip(1).collect();
+    let last = words[words.len() - 1];
+    match words[0] {
+        "status" | "certified" | "units" | "length" | "clearance" | "duration" | "events" | "path" => true,
+        "optimum" => matches!(last, "length" | "gap"),
+        "trajectory" => words[1] == "step",
+        "steps" => {
+            let judged = ["action", "object", "carried", "begin", "arrival", "end", "path", "length", "clearance"];
+            judged.contains(&words[2])
+        }
+        _ => false,
+    }
+}
+
+/// Something else in its place: a clearance is a bound, so that only more than there is is false.
+fn changed(value: &Value, pointer: &str, dice: &mut impl FnMut() -> f64) -> Value {
+    match value {
+        Value::Bool(value) => json!(!value),
+        Value::String(text) => json!(format!("{text}x")),
+        Value::Number(number) if number.is_u64() && !pointer.ends_with("length") => {
+            json!(number.as_u64().unwrap() + 1 + (dice() * 3.0) as u64)
+        }
+        Value::Number(number) => {
+            let value = number.as_f64().unwrap();
+            let by = 10f64.powf(-3.0 * dice()) * (1.0 + value.abs());
+            let up = pointer.ends_with("clearance") || dice() < 0.5;
+            json!(if up { value + by + 0.05 * f64::from(u8::from(pointer.ends_with("clearance"))) } else { value - by })
+        }
+        other => other.clone(),
+    }
+}
+
+#[test]
+fn any_judged_claim_that_is_changed_is_found() {
+    let cases = [Case::new("planar_2r", "shelf"), Case::new("scara", "scara_cell"), Case::tower()];
+    let judged: Vec<Vec<String>> = cases
+        .iter()
+        .map(|case| {
+            let mut found = Vec::new();
+            leaves(&case.result, String::new(), &mut found);
+            found.retain(|pointer| is_judged(pointer));
+            found
+        })
+        .collect();
+    for seed in random::seeds(36) {
+        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1);
+        let mut dice = || {
+            // Xorshift (Marsaglia 2003).
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let k = (dice() * cases.len() as f64) as usize;
+        let pointer = &judged[k][(dice() * judged[k].len() as f64) as usize];
+        let mut result = cases[k].result.clone();
+        let place = result.pointer_mut(pointer).unwrap();
+        let other = changed(place, pointer, &mut dice);
+        *place = other.clone();
+        let (code, found) = cases[k].judged(&result, &[]);
+        assert_eq!(code, 3, "seed {seed}: {pointer} as {other}: {found:#}");
+    }
+}
