@@ -348,9 +348,10 @@ pub struct RecheckArgs {
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Between samples the motion is the cubic that positions and velocities imply; without velocities it is straight in
-joint space. CSV columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians
-or metres. In a world with steps a result of cplan's for it (.json) is judged step by step: that the steps are the world's,
+Between samples the motion is what the reader of the format makes of it: of a ROS 2 JointTrajectory a quintic where
+accelerations are stated, of positions and velocities a cubic, of positions alone straight lines in joint space; cplan's JSON
+says it itself. It has to lead from the world's start to its goal, and what a result of cplan's says of it has to be true. CSV
+columns are named after the joints (elbow, elbow_velocity, ...; time in seconds), the values are radians or metres. In a world with steps a result of cplan's for it (.json) is judged step by step: that the steps are the world's,
 each motion with what is carried and objects where they lie then, grasps, places, turns of the wrist and rests.
 
 Examples:
@@ -358,12 +359,12 @@ Examples:
   cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml turns.csv --unwrap --clearance 0.01
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
-Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision, limit broken or not the
-task asked for, 4 undecided.")]
+Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3 proven collision, limit broken, not from
+start to goal, not the task asked for, or something false in the file, 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,
-    /// The motion: .json (a result of cplan), .csv, or .yaml (ROS 2 JointTrajectory).
+    /// The motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
     #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
     pub trajectory: PathBuf,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
