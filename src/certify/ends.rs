@@ -40,7 +40,7 @@ pub enum Miss {
 pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Configuration>, goal: Option<Goal>) -> Vec<Miss> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);
-    let misses = |a: Configuration, b: Configuration| !(arm.topology().displacement(a, b).amax() <= ENDS_WITHIN);
+    let misses = |a: Configuration, b: Configuration| arm.topology().displacement(a, b).amax() > ENDS_WITHIN;
     let start = start.filter(|start| misses(first, *start)).map(|start| Miss::Start { is: first, start });
     let goal = goal.and_then(|goal| match goal {
         Goal::Joints(goal) => misses(last, goal).then_some(Miss::Goal { is: last, goal }),

@@ -53,7 +53,7 @@ impl Ledger {
 
     /// A number that is to be another, up to `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
-        if let Some(stated) = stated.filter(|stated| !((stated - is).abs() <= within)) {
+        if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }

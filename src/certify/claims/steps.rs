@@ -130,7 +130,7 @@ impl Ledger {
                 (Some((at, angle)), Some(pose)) => {
                     self.place("pose.at", at, Point::from(pose.translation.vector));
                     let is = pose.rotation.angle();
-                    if !(angle_between(angle, is) <= AT) {
+                    if angle_between(angle, is) > AT {
                         self.note("pose.angle", format!("stated as {angle}, but it is {is}"));
                     }
                 }
@@ -143,7 +143,7 @@ impl Ledger {
     }
 
     fn place(&mut self, claim: &str, [x, y]: [f64; 2], is: Point) {
-        if !((Point::new(x, y) - is).norm() <= AT) {
+        if (Point::new(x, y) - is).norm() > AT {
             self.note(claim, format!("stated as ({x}, {y}) m, but it is ({}, {}) m", is.x, is.y));
         }
     }
