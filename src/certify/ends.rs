@@ -1,5 +1,6 @@
 //! Whether a motion leads from where it should begin to where it should end.
 
+use crate::geometry::Point;
 use crate::model::{Arm, Goal};
 use crate::space::{Configuration, Recording};
 use thiserror::Error;
@@ -27,6 +28,12 @@ pub enum Miss {
         /// Where it was to end.
         goal: Configuration,
     },
+    /// The tip is not where it was to be at first.
+    #[error("the motion begins with the tip {off:.6} m from the start")]
+    TipAtStart {
+        /// How far it is from there, metres.
+        off: f64,
+    },
     /// The tip is not where it was to go.
     #[error("the motion ends with the tip {off:.6} m from the goal")]
     Tip {
@@ -37,17 +44,18 @@ pub enum Miss {
 
 /// Where a motion misses its start and its goal by more than [`ENDS_WITHIN`], if it has them; whole turns of joints on circles aside.
 #[must_use]
-pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Configuration>, goal: Option<Goal>) -> Vec<Miss> {
+pub fn ends_kept(arm: &Arm, recording: &Recording, start: Option<Goal>, goal: Option<Goal>) -> Vec<Miss> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);
     let misses = |a: Configuration, b: Configuration| arm.topology().displacement(a, b).amax() > ENDS_WITHIN;
-    let start = start.filter(|start| misses(first, *start)).map(|start| Miss::Start { is: first, start });
+    let tip_off = |q: Configuration, tip: Point| Some((arm.tip_at(q) - tip).norm()).filter(|off| *off > ENDS_WITHIN);
+    let start = start.and_then(|start| match start {
+        Goal::Joints(start) => misses(first, start).then_some(Miss::Start { is: first, start }),
+        Goal::Tip(tip) => tip_off(first, tip).map(|off| Miss::TipAtStart { off }),
+    });
     let goal = goal.and_then(|goal| match goal {
         Goal::Joints(goal) => misses(last, goal).then_some(Miss::Goal { is: last, goal }),
-        Goal::Tip(tip) => {
-            let off = (arm.tip_at(last) - tip).norm();
-            (off > ENDS_WITHIN).then_some(Miss::Tip { off })
-        }
+        Goal::Tip(tip) => tip_off(last, tip).map(|off| Miss::Tip { off }),
     });
     start.into_iter().chain(goal).collect()
 }

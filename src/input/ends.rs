@@ -3,7 +3,6 @@
 use super::error::InputError;
 use super::{LoadedScene, Overrides};
 use crate::model::Goal;
-use crate::space::Configuration;
 
 impl LoadedScene {
     /// Start and goal: the command line's, else the world file's, else none. Whether they are free and within the limits is not
@@ -11,11 +10,11 @@ impl LoadedScene {
     ///
     /// # Errors
     /// Values on the command line that are none for these joints.
-    pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Configuration>, Option<Goal>), InputError> {
+    pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Goal>, Option<Goal>), InputError> {
         let joints = &self.scene.arm.joints;
         let start = match &overrides.start {
-            Some(values) => Some(values.resolve(joints, "--start")?),
-            None => self.world.start.as_ref().map(|(values, _)| Configuration::from(*values)),
+            Some(values) => Some(Goal::Joints(values.resolve(joints, "--start")?)),
+            None => self.world.start.as_ref().map(|(start, _)| *start),
         };
         let goal = match (&overrides.goal, &overrides.goal_tip) {
             (Some(values), _) => Some(Goal::Joints(values.resolve(joints, "--goal")?)),
