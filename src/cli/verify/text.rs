@@ -21,7 +21,8 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &Findings) -> 
     lines.extend(way(arm, &findings.way, findings.verdict));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
-    lines.extend(findings.faults.iter().map(|fault| ("fault", fault.clone())));
+    let of = if findings.steps.is_some() { "task" } else { "fault" };
+    lines.extend(findings.faults.iter().map(|fault| (of, fault.clone())));
     if !findings.not_judged.is_empty() {
         lines.push(("not judged", format!("what the file says of {}", findings.not_judged.join(", "))));
     }

@@ -31,7 +31,7 @@ fn verify(robot: &str, world: &str, csv: &str, options: &[&str]) -> (i32, String
 fn exit_codes_and_findings() {
     let shelf = |csv: &str, options: &[&str]| verify("planar_2r", "shelf", csv, options);
     let json = |csv: &str, code: i32| -> Value {
-        let (found, stdout, stderr) = shelf(csv, &["--json"]);
+        let (found, stdout, stderr) = shelf(csv, &["--json", "--anywhere"]);
         assert_eq!(found, code, "{stderr}");
         serde_json::from_str(&stdout).unwrap()
     };

@@ -115,7 +115,8 @@ fn stated_velocities_are_judged_as_stated_however_close_the_samples() {
     let position = times.map(|t| q(1.7 * t, 0.0)).to_vec();
     let found = judged(&times, position, Some(vec![q(1.7, 0.0); 4]));
     let speed = found.iter().find(|e| e.limit == Limit::Velocity).expect("it is too fast");
-    assert_eq!((speed.joint, speed.allowed, speed.value), (0, 1.0, 1.7));
+    assert_eq!((speed.joint, speed.allowed), (0, 1.0));
+    assert!((speed.value - 1.7).abs() < 1e-12, "{speed:?}");
 }
 
 #[test]

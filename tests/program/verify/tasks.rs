@@ -326,8 +326,9 @@ fn a_file_without_steps_is_one_motion() {
     let (_, found) = tower.found();
     assert!(found["steps"].is_null());
     assert!(found["notes"].to_string().contains("the world has steps, the file none"), "{found:#}");
-    let (code, _, error) = tower.said(&["--start", "0,0"]);
-    assert_eq!(code, 2, "{error}");
+    let (code, text, error) = tower.said(&["--start", "0,0"]);
+    assert_eq!(code, 3, "{error}");
+    assert!(text.contains("not at the start (0, 0)"), "{text}");
 }
 
 #[test]
