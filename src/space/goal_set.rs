@@ -124,7 +124,8 @@ mod tests {
         let topology = Topology { axes: [Axis::Circle, Axis::Interval { lower: -2.0, upper: 2.0 }] };
         let goals: GoalSet =
             [Segment::new(at(3.0, -2.0), at(3.0, 2.0)), Segment::point(at(0.0, 0.0))].into_iter().collect();
-        assert_eq!(goals.nearest(&topology, Metric::Euclidean, at(-3.0, 0.7)), Some(at(3.0 - TAU, 0.7)));
+        let nearest = goals.nearest(&topology, Metric::Euclidean, at(-3.0, 0.7)).expect("there are goals");
+        assert!((nearest - at(3.0 - TAU, 0.7)).amax() < 1e-15, "{nearest}");
         assert_eq!(goals.nearest(&topology, Metric::Euclidean, at(-3.0 + TAU, 2.5)), Some(at(3.0, 2.0)));
         assert!(goals.contains(&topology, at(3.0 - 3.0 * TAU, -1.0), 1e-9));
         assert!(!goals.contains(&topology, at(2.9, -1.0), 1e-9));
@@ -139,10 +140,10 @@ mod tests {
         assert_eq!(wrapped(at(1.0, -PI), at(1.0, PI)), [inside]);
         assert_eq!(wrapped(at(PI, 0.5), at(PI, 1.0)), [Segment::new(at(-PI, 0.5), at(-PI, 1.0))]);
         let across = wrapped(at(3.0, 0.5), at(4.0, 0.5));
-        assert_eq!(
-            across,
-            [Segment::new(at(3.0 - TAU, 0.5), at(4.0 - TAU, 0.5)), Segment::new(at(3.0, 0.5), at(4.0, 0.5))]
-        );
+        assert_eq!(across[1..], [Segment::new(at(3.0, 0.5), at(4.0, 0.5))]);
+        // Turns are taken off with more digits than a double 2 pi has.
+        let [from, to] = across[0].ends();
+        assert!((from - at(3.0 - TAU, 0.5)).amax().max((to - at(4.0 - TAU, 0.5)).amax()) < 1e-15, "{across:?}");
     }
 
     #[test]
