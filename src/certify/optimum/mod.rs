@@ -5,6 +5,7 @@ mod refine;
 mod search;
 mod strips;
 
+use crate::certify::vicinity::Vicinity;
 use crate::geometry::Point;
 use crate::model::Scene;
 use crate::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
@@ -71,6 +72,7 @@ pub fn least_length(
         let nearest = copies.iter().map(straight).fold(limit, f64::min);
         return rounded(nearest);
     }
+    let vicinity = Vicinity::new(scene);
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
     let nearest = copies.iter().map(straight).fold(limit, f64::min);
@@ -90,7 +92,7 @@ pub fn least_length(
         if best >= enough || idle >= PATIENCE || strips.are_too_many() {
             break;
         }
-        let passed = passed(scene, clearance, &mut strips, &corners, measure, gap * limit * WORTH);
+        let passed = passed(scene, &vicinity, clearance, &mut strips, &corners, measure, gap * limit * WORTH);
         if passed.is_empty() || !strips.halve(&passed) {
             break;
         }

@@ -3,6 +3,7 @@
 use super::strips::Strips;
 use crate::certify::deviation::{Deviation, Posture};
 use crate::certify::slab::OUTWARD;
+use crate::certify::vicinity::Vicinity;
 use crate::geometry::{Point, Vector, separation};
 use crate::model::{Pair, Scene};
 use crate::space::Measure;
@@ -54,6 +55,7 @@ fn crossings(strips: &Strips, corners: &[Point], beside: &mut Vec<usize>) -> Vec
 /// is overlooked makes no bound wrong, only lower.
 pub(super) fn passed(
     scene: &Scene,
+    vicinity: &Vicinity,
     clearance: f64,
     strips: &mut Strips,
     corners: &[Point],
@@ -72,7 +74,7 @@ pub(super) fn passed(
             measure.norm(via - left) + measure.norm(right - via) - measure.norm(right - left)
         };
         if way_out.is_some_and(|way_out| way_out.map(detour).into_iter().fold(f64::INFINITY, f64::min) > worth)
-            || meets(scene, clearance, [left, right], worth)
+            || meets(scene, vicinity, clearance, [left, right], worth)
         {
             passed.push(index);
         }
@@ -85,7 +87,7 @@ pub(super) fn passed(
 /// Whether a straight motion comes too near an obstacle, as far as looking in places tells: at regular distances, and towards
 /// the ends, where a way may turn at what is closed, closer and closer together. Not where keeping away would make a bulge
 /// of it that is hardly longer, by `worth`.
-fn meets(scene: &Scene, clearance: f64, ends: [Point; 2], worth: f64) -> bool {
+fn meets(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2], worth: f64) -> bool {
     let (way, middle) = (ends[1] - ends[0], nalgebra::center(&ends[0], &ends[1]));
     let length = way.norm();
     let steps = (length / STEP).ceil().max(1.0);
@@ -98,12 +100,14 @@ fn meets(scene: &Scene, clearance: f64, ends: [Point; 2], worth: f64) -> bool {
     let least = clearance - 2.0 * OUTWARD;
     let posture = Posture::new(scene, middle.coords);
     let along = Deviation::Along(way / 2.0);
-    let may_meet = |pair: &&Pair| posture.apart(**pair, along) < least && posture.bound(**pair, along).least < least;
-    scene.pairs().iter().filter(may_meet).any(|&pair| {
+    let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
+    let does_meet = |pair: Pair| {
         shares.iter().any(|&share| {
             let part = scene.part(pair).at(&scene.arm.pose(pair.link, (ends[0] + way * share).coords));
             let bulge = scene.arm.reach() * (worth * length * share.min(1.0 - share)).sqrt();
             separation(&part, scene.piece(pair)).distance < least - bulge
         })
-    })
+    };
+    let apart = |pair: Pair| if may_meet(pair) && does_meet(pair) { Err(()) } else { Ok(()) };
+    vicinity.near(&posture, along, least.max(0.0), apart).is_err()
 }
