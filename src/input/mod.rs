@@ -24,6 +24,7 @@ mod notes;
 mod object;
 mod obstacle;
 mod occupancy;
+mod pallet;
 mod polygon;
 mod posture;
 mod preference;

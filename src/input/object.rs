@@ -2,6 +2,7 @@
 
 use super::error::{Defect, quoted};
 use super::obstacle::{CircleTable, circle};
+use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
 use super::quantity::Written;
 use super::schema::{AngleOrLength, HeldAs, NotNegative, Rings, Two};
@@ -18,9 +19,12 @@ use toml::Spanned;
 /// Something that can be picked and placed; an obstacle wherever it lies.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "object", extend("oneOf" = [{ "required": ["polygon"] }, { "required": ["circle"] }]))]
+#[schemars(rename = "object", extend("allOf" = [
+    { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
+    { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
+]))]
 pub(super) struct ObjectTable {
-    /// A name that no other object or obstacle has.
+    /// A name that no other object or obstacle has; of objects on a pallet, what comes before row and column: "NAME 2,3".
     #[schemars(with = "String")]
     name: Spanned<String>,
     /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
@@ -30,9 +34,12 @@ pub(super) struct ObjectTable {
     /// A disc in its own frame.
     circle: Option<CircleTable>,
     /// Where its origin lies at first, m.
-    #[schemars(with = "Two")]
-    at: Numbers,
-    /// How it is turned at first, rad; by default 0.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// In place of `at`: the pallet on each place of which one lies at first.
+    #[schemars(with = "Option<String>")]
+    pallet: Option<Spanned<String>>,
+    /// How it is turned at first, on a pallet with respect to that, rad; by default 0.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Its extent along the plane's normal where it lies, m; by default all heights.
@@ -80,7 +87,9 @@ pub(super) struct Supports {
 
 /// Numbers of objects and obstacles by name.
 pub(super) struct Names<'a> {
-    objects: BTreeMap<&'a str, usize>,
+    objects: BTreeMap<String, usize>,
+    /// Those on a pallet, by what they have in common.
+    families: BTreeMap<&'a str, Range<usize>>,
     /// Obstacles may share a name.
     obstacles: BTreeMap<&'a str, Vec<usize>>,
     /// How many obstacles stay where they are.
@@ -93,20 +102,34 @@ const LISTED: usize = 12;
 impl<'a> Names<'a> {
     /// # Errors
     /// When two objects, or an object and an obstacle, have the same name.
-    fn of(reader: &Reader, tables: &'a [Spanned<ObjectTable>], obstacles: &'a [Obstacle]) -> Result<Self, Defect> {
-        let mut names = Self { objects: BTreeMap::new(), obstacles: BTreeMap::new(), fixed: obstacles.len() };
+    fn of(reader: &Reader, placed: &[Placed<'a>], obstacles: &'a [Obstacle]) -> Result<Self, Defect> {
+        let mut names = Self {
+            objects: BTreeMap::new(),
+            families: BTreeMap::new(),
+            obstacles: BTreeMap::new(),
+            fixed: obstacles.len(),
+        };
         for (number, obstacle) in obstacles.iter().enumerate() {
             names.obstacles.entry(obstacle.name.as_str()).or_default().push(number);
         }
-        for (number, table) in tables.iter().enumerate() {
-            let name = &table.get_ref().name;
-            let is_obstacle = names.obstacles.contains_key(name.get_ref().as_str());
-            let is_object = names.objects.insert(name.get_ref(), number).is_some();
+        for (number, Placed { table, name, .. }) in placed.iter().enumerate() {
+            let given = &table.get_ref().name;
+            let family = given.get_ref().as_str();
+            let is_obstacle = [name.as_str(), family].iter().any(|name| names.obstacles.contains_key(name));
+            let mut is_object = names.objects.insert(name.clone(), number).is_some();
+            if name == family {
+                is_object |= names.families.contains_key(family);
+            } else {
+                is_object |= names.objects.contains_key(family);
+                let members = names.families.entry(family).or_insert(number..number);
+                is_object |= members.end != number;
+                members.end = number + 1;
+            }
             if is_obstacle || is_object {
                 let other = if is_object { "a second object" } else { "an obstacle" };
-                let message = format!("{other} is named \"{}\"", name.get_ref());
+                let message = format!("{other} is named \"{}\"", if is_object { name.as_str() } else { family });
                 let cure = "steps refer to objects by name: give each a name of its own";
-                return Err(reader.source.defect_at(name.span(), message).cure(cure));
+                return Err(reader.source.defect_at(given.span(), message).cure(cure));
             }
         }
         Ok(names)
@@ -122,11 +145,39 @@ impl<'a> Names<'a> {
             return Ok(*number);
         }
         let message = format!("there is no object \"{wanted}\"");
-        let cure = match self.obstacles.contains_key(wanted) {
-            true => "that is an obstacle, which stays where it is: make it an [[object]]".to_owned(),
-            false => format!("the objects are {}", listed(self.objects.keys())),
+        let cure = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
+            (true, _) => "that is an obstacle, which stays where it is: make it an [[object]]".to_owned(),
+            (_, Some(all)) => format!(
+                "there are {} on a pallet: name one, as \"{wanted} 1,1\"; transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }} moves all",
+                all.len()
+            ),
+            _ => format!("the objects are {}", self.all()),
         };
         Err(reader.source.defect_at(name.span(), message).cure(cure))
+    }
+
+    /// The objects on a pallet that have this in common, row by row.
+    ///
+    /// # Errors
+    /// When there are none.
+    pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Defect> {
+        let wanted = name.get_ref().as_str();
+        if let Some(family) = self.families.get(wanted) {
+            return Ok(family.clone());
+        }
+        let message = format!("there are no objects \"{wanted}\" on a pallet");
+        let cure = match self.objects.contains_key(wanted) {
+            true => format!("that is a single object: pick = \"{wanted}\", then place it"),
+            false if self.families.is_empty() => "give an [[object]] of this name pallet = \"PALLET\"".into(),
+            false => format!("the objects on pallets are {}", listed(self.families.keys().copied())),
+        };
+        Err(reader.source.defect_at(name.span(), message).cure(cure))
+    }
+
+    /// The names to choose from: those on a pallet together.
+    fn all(&self) -> String {
+        let single = self.objects.iter().filter(|(_, number)| !self.families.values().any(|all| all.contains(number)));
+        listed(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
     }
 
     /// The numbers of these obstacles and objects, for something that rests on them.
@@ -137,12 +188,14 @@ impl<'a> Names<'a> {
         let mut numbers = Vec::new();
         for name in list.get_ref() {
             let wanted = name.get_ref().as_str();
-            match (self.obstacles.get(wanted), self.objects.get(wanted)) {
-                (Some(found), _) => numbers.extend(found),
-                (None, Some(object)) => numbers.push(self.fixed + object),
-                (None, None) => {
+            match (self.obstacles.get(wanted), self.objects.get(wanted), self.families.get(wanted)) {
+                (Some(found), _, _) => numbers.extend(found),
+                (None, Some(object), _) => numbers.push(self.fixed + object),
+                (None, None, Some(all)) => numbers.extend(all.clone().map(|object| self.fixed + object)),
+                (None, None, None) => {
                     let message = format!("there is no obstacle and no object \"{wanted}\" to rest on");
-                    let cure = format!("there are {}", listed(self.obstacles.keys().chain(self.objects.keys())));
+                    let names = self.obstacles.keys().copied().chain(self.objects.keys().map(String::as_str));
+                    let cure = format!("there are {}", listed(names));
                     return Err(reader.source.defect_at(name.span(), message).cure(cure));
                 }
             }
@@ -158,30 +211,78 @@ impl<'a> Names<'a> {
     }
 }
 
+/// A table's object, or one of those on a pallet.
+struct Placed<'a> {
+    table: &'a Spanned<ObjectTable>,
+    name: String,
+    /// Where it lies at first.
+    at: Pose,
+}
+
+/// All objects, with where each lies: those of a table on a pallet row by row.
+fn placed<'a>(
+    reader: &Reader,
+    tables: &'a [Spanned<ObjectTable>],
+    pallets: &Pallets,
+) -> Result<Vec<Placed<'a>>, Defect> {
+    let mut all = Vec::new();
+    for table in tables {
+        let given = table.get_ref();
+        let name = given.name.get_ref();
+        let what = format!("object \"{name}\"");
+        let angle =
+            given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
+        let turned = Isometry2::rotation(angle);
+        match (&given.at, &given.pallet) {
+            (Some(at), None) => {
+                let at = reader.point(at, &format!("{what}, at"))?;
+                all.push(Placed { table, name: name.clone(), at: Translation2::from(at.coords) * turned });
+            }
+            (None, Some(pallet)) => {
+                let places = pallets.named(reader, pallet)?.places();
+                all.extend(places.map(|(place, pose)| Placed {
+                    table,
+                    name: format!("{name} {place}"),
+                    at: pose * turned,
+                }));
+            }
+            (at, _) => {
+                let found = if at.is_some() { "both" } else { "neither" };
+                let message = format!("{what} needs either `at` or `pallet`, it has {found}");
+                let cure = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
+                return Err(reader.source.defect_at(table.span(), message).cure(cure));
+            }
+        }
+    }
+    Ok(all)
+}
+
 /// Reads all objects. `default` is how they are held where they do not say it.
 ///
 /// # Errors
-/// On names that are not unique, not exactly one shape, shapes that are none, values that are none, unknown supports.
+/// On names that are not unique, not exactly one shape, not exactly one of a place and a pallet, shapes that are none, values
+/// that are none, unknown pallets and supports.
 pub(super) fn read<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
+    pallets: &Pallets,
     obstacles: &'a [Obstacle],
     default: Holding,
 ) -> Result<(Vec<Movable>, Names<'a>), Defect> {
-    let names = Names::of(reader, tables, obstacles)?;
-    let objects = tables.iter().enumerate().map(|(i, table)| movable(reader, table, i, &names, default));
+    let placed = placed(reader, tables, pallets)?;
+    let names = Names::of(reader, &placed, obstacles)?;
+    let objects = placed.into_iter().enumerate().map(|(i, placed)| movable(reader, placed, i, &names, default));
     Ok((objects.collect::<Result<_, _>>()?, names))
 }
 
 fn movable(
     reader: &Reader,
-    table: &Spanned<ObjectTable>,
+    Placed { table, name, at }: Placed,
     index: usize,
     names: &Names,
     default: Holding,
 ) -> Result<Movable, Defect> {
     let given = table.get_ref();
-    let name = given.name.get_ref().clone();
     let what = format!("object \"{name}\"");
     let (shape, pieces) = match (&given.polygon, &given.circle) {
         (Some(corners), None) => {
@@ -194,8 +295,6 @@ fn movable(
             return Err(reader.source.defect_at(table.span(), message).cure("give it a polygon or a circle"));
         }
     };
-    let at = reader.point(&given.at, &format!("{what}, at"))?;
-    let angle = given.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
     let lift = given.lift.as_ref().map(|l| reader.not_negative(l, &format!("{what}: lift"))).transpose()?;
     let grasp = given.grasp.as_ref().map(|g| reader.point(g, &format!("{what}, grasp"))).transpose()?;
     let supports = match &given.supports {
@@ -212,7 +311,7 @@ fn movable(
         heights: reader.heights(given.height.as_ref(), &what)?,
         lift: lift.unwrap_or(0.0),
         holding: given.payload.as_ref().map(|p| holding(reader, p)).transpose()?.unwrap_or(default),
-        at: placed(at, angle),
+        at,
     };
     Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
 }
@@ -236,13 +335,8 @@ pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding
     }
 }
 
-/// The pose of a frame with this origin and orientation.
-fn placed(at: Point, angle: f64) -> Pose {
-    Translation2::from(at.coords) * Isometry2::rotation(angle)
-}
-
-fn listed<'a>(names: impl Iterator<Item = &'a &'a str>) -> String {
-    let mut names: Vec<&str> = names.copied().take(LISTED + 1).collect();
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let mut names: Vec<&str> = names.take(LISTED + 1).collect();
     let more = names.len() > LISTED;
     names.truncate(LISTED);
     quoted(names) + if more { ", ..." } else { "" }

@@ -3,22 +3,27 @@
 use super::error::Defect;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, NameList, Names};
+use super::pallet::Pallets;
 use super::quantity::Written;
 use super::schema::{AngleOrLength, DoneIn, NotNegative, Share, Two};
 use super::source::Cursor;
 use super::table::Table;
 use super::world::{GoalTable, Number, Numbers, Reader};
+use crate::geometry::Pose;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::Spanned;
 
-/// One thing to do, or a group of steps: exactly one of pick, place, move and steps.
+/// One thing to do, or several: exactly one of pick, place, move, transfer and steps.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "step", extend(
-    "oneOf" = [{ "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["steps"] }],
+    "oneOf" = [
+        { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["transfer"] },
+        { "required": ["steps"] }
+    ],
     "dependencies" = { "grasp": ["pick"], "supports": ["pick"], "repeat": ["steps"], "order": ["steps"] },
 ))]
 pub(super) struct StepTable {
@@ -32,6 +37,9 @@ pub(super) struct StepTable {
     #[serde(rename = "move")]
     #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<Table<GoalTable>>>,
+    /// Picks and places, one after the other: all objects on a pallet, to the places of another.
+    #[schemars(with = "Option<TransferTable>")]
+    transfer: Option<Table<TransferTable>>,
     /// A group; its speed and dwell are the defaults of its steps.
     #[schemars(with = "Option<Vec<StepTable>>", length(min = 1))]
     steps: Option<Vec<Spanned<StepTable>>>,
@@ -55,18 +63,40 @@ pub(super) struct StepTable {
     dwell: Option<Number>,
 }
 
-/// Where an object is placed.
+/// Where an object is placed: at a point, or on a place of a pallet.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(rename = "place")]
+#[schemars(rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }]))]
 struct PlaceTable {
     /// Where the object's origin goes, m.
-    #[schemars(with = "Two")]
-    at: Numbers,
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// The place of a pallet that its origin goes to: "NAME 2,3".
+    #[schemars(with = "Option<String>")]
+    on: Option<Spanned<String>>,
     /// How a level payload is turned there, rad; by default as it was.
     #[schemars(with = "Option<AngleOrLength>")]
     angle: Option<Written>,
     /// Obstacles and objects that it may touch there; by default those of the object.
+    #[schemars(with = "Option<Vec<String>>")]
+    supports: Option<NameList>,
+}
+
+/// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "transfer")]
+struct TransferTable {
+    /// Name of the objects, without row and column.
+    #[schemars(with = "String")]
+    objects: Spanned<String>,
+    /// Name of the pallet that they go to, which has as many places.
+    #[schemars(with = "String")]
+    to: Spanned<String>,
+    /// How level payloads are turned there, rad; by default as they were.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
+    /// Obstacles and objects that they may touch there; by default those of the objects.
     #[schemars(with = "Option<Vec<String>>")]
     supports: Option<NameList>,
 }
@@ -109,6 +139,7 @@ struct Manner<'a> {
 /// Reads the tables of steps.
 pub(super) struct StepReader<'a> {
     reader: &'a Reader<'a>,
+    pallets: &'a Pallets<'a>,
     names: &'a Names<'a>,
     objects: &'a [Movable],
     cursor: Cursor<'a>,
@@ -118,8 +149,8 @@ pub(super) struct StepReader<'a> {
 }
 
 impl<'a> StepReader<'a> {
-    pub fn new(reader: &'a Reader<'a>, names: &'a Names<'a>, objects: &'a [Movable]) -> Self {
-        Self { reader, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
+    pub fn new(reader: &'a Reader<'a>, pallets: &'a Pallets<'a>, names: &'a Names<'a>, objects: &'a [Movable]) -> Self {
+        Self { reader, pallets, names, objects, cursor: reader.source.cursor(), file: reader.source.name(), count: 0 }
     }
 
     /// All steps of the file, of which there is at least one.
@@ -154,7 +185,8 @@ impl<'a> StepReader<'a> {
                 source.defect_at(repeat.span(), message).cure("remove the key for steps that are done once")
             })
         })?;
-        let nodes = tables.iter().map(|table| self.node(table, pace)).collect::<Result<Vec<_>, _>>()?;
+        let nodes = tables.iter().map(|table| self.nodes(table, pace)).collect::<Result<Vec<_>, _>>()?;
+        let nodes: Vec<Node> = nodes.into_iter().flatten().collect();
         let at = manner.repeat.map_or(at, Spanned::span);
         let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
         if length > MOST_STEPS {
@@ -212,34 +244,45 @@ impl<'a> StepReader<'a> {
         Ok(pairs)
     }
 
-    fn node(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Node, Defect> {
+    /// What a table stands for: a step, a group, or the steps of a transfer.
+    fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Defect> {
         let step = table.get_ref();
         let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
         self.require_fitting_keys(step)?;
-        let (at, action) = match (&step.pick, &step.place, &step.goal, &step.steps) {
-            (None, None, None, Some(steps)) => {
+        let one = |at, action| Ok(vec![(at, action)]);
+        let actions = match (&step.pick, &step.place, &step.goal, &step.transfer, &step.steps) {
+            (None, None, None, None, Some(steps)) => {
                 let manner = Manner { repeat: step.repeat.as_ref(), order: step.order.as_ref() };
-                return self.group(steps, &manner, pace, table.span()).map(Node::Group);
+                return self.group(steps, &manner, pace, table.span()).map(|group| vec![Node::Group(group)]);
             }
-            (Some(name), None, None, None) => (name.span(), self.pick(step, name)?),
-            (None, Some(Table(place)), None, None) => (place.at.span(), self.place(place)?),
-            (None, None, Some(goal), None) => {
+            (Some(name), None, None, None, None) => one(name.span(), self.pick(step, name)?),
+            (None, Some(Table(place)), None, None, None) => {
+                self.place(place, table.span()).and_then(|(at, a)| one(at, a))
+            }
+            (None, None, Some(goal), None, None) => {
                 let (goal, at) = self.reader.goal(&goal.get_ref().0, goal.span(), "move")?;
-                (at, LeafAction::Move(goal))
+                one(at, LeafAction::Move(goal))
             }
-            (pick, place, goal, steps) => {
-                let given = [pick.is_some(), place.is_some(), goal.is_some(), steps.is_some()];
+            (None, None, None, Some(Table(transfer)), None) => self.transfer(transfer),
+            (pick, place, goal, transfer, steps) => {
+                let given = [pick.is_some(), place.is_some(), goal.is_some(), transfer.is_some(), steps.is_some()];
                 let count = given.iter().filter(|x| **x).count();
-                let message =
-                    format!("a step needs exactly one of `pick`, `place`, `move` and `steps`, this has {count}");
-                let cure = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, or [[step.steps]]";
+                let message = format!(
+                    "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, this has {count}"
+                );
+                let cure = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
+                            transfer = { objects = \"NAME\", to = \"PALLET\" }, or [[step.steps]]";
                 return Err(self.reader.source.defect_at(table.span(), message).cure(cure));
             }
-        };
-        self.count += 1;
+        }?;
         let position = self.cursor.position(table.span().start);
         let place = format!("{}:{}:{}", self.file, position.line, position.column);
-        Ok(Node::Step(Leaf { number: self.count, place, at, action, speed: pace.speed, dwell: pace.dwell }))
+        let leaf = |(at, action)| {
+            self.count += 1;
+            let (speed, dwell) = (pace.speed, pace.dwell);
+            Node::Step(Leaf { number: self.count, place: place.clone(), at, action, speed, dwell })
+        };
+        Ok(actions.into_iter().map(leaf).collect())
     }
 
     /// Refuses keys that mean nothing where they stand.
@@ -275,11 +318,52 @@ impl<'a> StepReader<'a> {
         })
     }
 
-    fn place(&self, place: &PlaceTable) -> Result<LeafAction, Defect> {
-        let angle =
-            place.angle.as_ref().map(|a| Ok((self.reader.quantity(a, "place, angle")?, a.span()))).transpose()?;
+    /// A place, and what in the file says where; `at` is the step.
+    fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Defect> {
+        let (to, said) = match (&place.at, &place.on) {
+            (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
+            (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
+            (point, _) => {
+                let found = if point.is_some() { "both" } else { "neither" };
+                let message = format!("a place needs either `at` or `on`, this has {found}");
+                let cure = "place = { at = [x, y] }, or place = { on = \"PALLET 1,1\" }";
+                return Err(self.reader.source.defect_at(at, message).cure(cure));
+            }
+        };
+        let angle = self.angle(place.angle.as_ref())?;
         let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
-        Ok(LeafAction::Place { at: self.reader.point(&place.at, "place, at")?, angle, supports })
+        Ok((said, LeafAction::Place { at: to, angle, supports }))
+    }
+
+    fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Defect> {
+        angle.map(|angle| Ok((self.reader.quantity(angle, "place, angle")?, angle.span()))).transpose()
+    }
+
+    /// The steps of a transfer, with what in the file asks for each.
+    fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Defect> {
+        let TransferTable { objects, to, .. } = transfer;
+        let family = self.names.family(self.reader, objects)?;
+        let pallet = self.pallets.named(self.reader, to)?;
+        if family.len() != pallet.count() {
+            let (count, places) = (family.len(), pallet.count());
+            let message = format!(
+                "there are {count} objects \"{}\", and pallet \"{}\" has {places} places",
+                objects.get_ref(),
+                to.get_ref()
+            );
+            let cure = "a transfer fills a pallet: give it as many places, or pick and place the objects one by one";
+            return Err(self.reader.source.defect_at(to.span(), message).cure(cure));
+        }
+        let angle = self.angle(transfer.angle.as_ref())?;
+        let supports = transfer.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
+        let pair = |(object, (_, pose)): (usize, (String, Pose))| {
+            let Movable { grasp, supports: resting, .. } = &self.objects[object];
+            let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone() };
+            let at = pose.translation.vector.into();
+            let place = LeafAction::Place { at, angle: angle.clone(), supports: supports.clone() };
+            [(objects.span(), pick), (to.span(), place)]
+        };
+        Ok(family.zip(pallet.places()).flat_map(pair).collect())
     }
 
     fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Defect> {

@@ -5,6 +5,7 @@ use super::error::{Defect, InputError};
 use super::notes::Taken;
 use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
+use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::quantity::{JointPair, Written};
 use super::schema::{AngleOrLength, HeldAs, NotNegative, Positive, Two};
@@ -160,6 +161,10 @@ pub(super) struct WorldFile {
     #[serde(default)]
     #[schemars(with = "Vec<PreferenceTable>")]
     preference: Vec<Spanned<PreferenceTable>>,
+    /// Places in rows and columns.
+    #[serde(default)]
+    #[schemars(with = "Vec<PalletTable>")]
+    pallet: Vec<Spanned<PalletTable>>,
     /// What steps pick and place.
     #[serde(default)]
     #[schemars(with = "Vec<ObjectTable>")]
@@ -241,8 +246,10 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     });
     let wrist = wrist.transpose()?;
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
-    let (movables, names) = object::read(&reader, &file.object, &obstacles, payload.unwrap_or(Holding::Rigid))?;
-    let steps = steps(&reader, &file, &names, &movables, wrist.is_some())?;
+    let pallets = Pallets::read(&reader, &file.pallet)?;
+    let held = payload.unwrap_or(Holding::Rigid);
+    let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, held)?;
+    let steps = steps(&reader, &file, &pallets, &names, &movables, wrist.is_some())?;
     let stem = source.path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
     let notes = reader.taken.lines();
     Ok(World {
@@ -264,6 +271,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
 fn steps(
     reader: &Reader,
     file: &WorldFile,
+    pallets: &Pallets,
     names: &Names,
     movables: &[Movable],
     has_wrist: bool,
@@ -279,7 +287,7 @@ fn steps(
         return Err(defect.cure("remove [goal]; a [[step]] with move = { joints = [q1, q2] } goes there"));
     }
     let task = file.task.as_ref().map(Spanned::get_ref);
-    let group = StepReader::new(reader, names, movables).all(&file.step, task)?;
+    let group = StepReader::new(reader, pallets, names, movables).all(&file.step, task)?;
     let at = file.step[0].span();
     write_out(reader, names, movables, has_wrist, &group, at).map(Some)
 }

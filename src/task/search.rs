@@ -1,11 +1,9 @@
 //! The search for the fastest sequence of motions.
 
-use super::Manner;
-use super::answer::{Leg, TaskAnswer, TaskVerdict};
+use super::answer::Leg;
 use super::impossible::{Impossible, Refused, Tried, reasons};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
-use super::order;
 use super::outlook::Outlook;
 use super::state::{Candidate, State};
 use super::stroke::least_rest;
@@ -15,49 +13,32 @@ use crate::model::Task;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// Motions that are planned, and nodes that are expanded, while the search insists on the fastest choice: some seconds'
-/// worth. Beyond, what is left counts more than what is done, so that it goes straight for the end.
-const MOST_MOTIONS: usize = 2_000;
-const MOST_EXPANDED: usize = 100_000;
-
-/// States for each step of a task, beside these: long tasks have more of them.
-const EXPANDED_PER_STEP: usize = 16;
-
-/// By how much more what is left counts then.
+/// By how much more what is left counts once the search goes straight for the end.
 const HASTE: f64 = 4.0;
 
 /// Motions between two words on progress.
 const NEWS: usize = 50;
 
-/// The search ends without an answer after so many times the first two numbers.
-const PATIENCE: usize = 10;
+/// When a search leaves off.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Limits {
+    /// Motions that it may plan.
+    pub motions: usize,
+    /// Nodes that it may expand.
+    pub expanded: usize,
+    /// It looks for what takes less than this, seconds.
+    pub below: f64,
+}
 
-/// Plans a task: the fastest sequence of motions over all postures at the targets, turns of the wrist and orders that
-/// are free, up to what [`TaskAnswer`] says of it. `progress` hears of long work.
-#[must_use]
-pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-    let (settled, ordered) = order::settled(task);
-    let outlook = Outlook::new(&settled);
-    let start = State::at_start(&settled);
-    // An order that was settled on bounds nothing but itself.
-    let lower_bound = match ordered {
-        true => Outlook::new(task).remaining(task.start, State::at_start(task).progress),
-        false => outlook.remaining(start.q, start.progress),
-    };
-    let mut search = Search {
-        task: &settled,
-        outlook: &outlook,
-        legs: Legs::new(&settled, *manner),
-        nodes: Vec::new(),
-        open: BinaryHeap::new(),
-        closed: BTreeSet::new(),
-        haste: 1.0,
-        refused: Vec::new(),
-        exact: !ordered,
-        complete: !ordered,
-        expanded: 0,
-    };
-    search.run(start, lower_bound, progress)
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// At a node in which all is done.
+    Done(usize),
+    /// There is nothing left to look at.
+    Dry,
+    /// At a limit.
+    Spent,
 }
 
 /// A way to a state.
@@ -81,10 +62,13 @@ enum Stage<'a> {
 /// By least total time; of equals the one that is farther, then the earlier found.
 type Entry = Reverse<(Ordered, Reverse<usize>, usize)>;
 
-struct Search<'a> {
+/// A search over all postures at the targets, turns of the wrist and orders that a task leaves free.
+pub(super) struct Search<'a, 'l> {
     task: &'a Task,
     outlook: &'a Outlook<'a>,
-    legs: Legs<'a>,
+    legs: &'l mut Legs,
+    /// Motions planned when it began.
+    planned: usize,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Entry>,
     closed: BTreeSet<Vec<i64>>,
@@ -92,32 +76,45 @@ struct Search<'a> {
     haste: f64,
     /// Steps that could not be done.
     refused: Vec<Refused<'a>>,
-    /// Whether what is found is the fastest of all that is looked at.
-    exact: bool,
     /// Whether all there is is looked at.
     complete: bool,
     expanded: usize,
 }
 
-impl<'a> Search<'a> {
-    fn run(&mut self, start: State, lower_bound: f64, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-        self.push(Node { parent: None, depth: 0, seconds: 0.0, stage: Stage::Reached(Box::new(start), None) });
+impl<'a, 'l> Search<'a, 'l> {
+    pub fn new(task: &'a Task, outlook: &'a Outlook<'a>, legs: &'l mut Legs) -> Self {
+        let mut search = Self {
+            task,
+            outlook,
+            planned: legs.planned(),
+            legs,
+            nodes: Vec::new(),
+            open: BinaryHeap::new(),
+            closed: BTreeSet::new(),
+            haste: 1.0,
+            refused: Vec::new(),
+            complete: true,
+            expanded: 0,
+        };
+        let stage = Stage::Reached(Box::new(State::at_start(task)), None);
+        search.push(Node { parent: None, depth: 0, seconds: 0.0, stage });
+        search
+    }
+
+    /// Goes on up to the limits; what is found is the fastest, if it did not [`Search::hurry`].
+    pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
         let mut told = 0;
-        let budget = MOST_EXPANDED + EXPANDED_PER_STEP * self.task.steps().count();
-        while let Some(Reverse((_, _, index))) = self.open.pop() {
+        while let Some(Reverse((Ordered(least), _, index))) = self.open.pop() {
             checkpoint();
-            if self.legs.planned() >= told + NEWS {
-                told = self.legs.planned();
-                progress(&format!("{told} motions planned, {} states seen", self.expanded));
+            let planned = self.legs.planned() - self.planned;
+            if planned >= told + NEWS {
+                told = planned;
+                progress(&format!("{} motions planned, {} states seen", self.legs.planned(), self.expanded));
             }
-            let patience = if self.haste > 1.0 { PATIENCE } else { 1 };
-            if self.legs.planned() > patience * MOST_MOTIONS || self.expanded > patience * budget {
-                (self.exact, self.complete) = (false, false);
-                if self.haste > 1.0 {
-                    self.give_up();
-                    break;
-                }
-                self.hurry();
+            if planned > limits.motions || self.expanded > limits.expanded || least >= limits.below {
+                // It may be run again, with other limits.
+                self.open.push(self.entry(&self.nodes[index], index));
+                return Ending::Spent;
             }
             let Stage::Reached(state, _) = &self.nodes[index].stage else {
                 self.settle(index);
@@ -128,11 +125,21 @@ impl<'a> Search<'a> {
             }
             self.expanded += 1;
             if state.is_done(self.task) {
-                return self.answer(TaskVerdict::Done, index, lower_bound);
+                return Ending::Done(index);
             }
             self.expand(index);
         }
-        self.failure(lower_bound)
+        Ending::Dry
+    }
+
+    /// Nodes expanded so far.
+    pub fn expanded(&self) -> usize {
+        self.expanded
+    }
+
+    /// Seconds to a node.
+    pub fn seconds(&self, index: usize) -> f64 {
+        self.nodes[index].seconds
     }
 
     fn push(&mut self, node: Node<'a>) {
@@ -149,15 +156,15 @@ impl<'a> Search<'a> {
         Reverse((Ordered(node.seconds + self.haste * left), Reverse(node.depth), index))
     }
 
-    /// Gives up on the fastest choice.
-    fn hurry(&mut self) {
+    /// Gives up on the fastest choice: from now on what is left counts more than what is done.
+    pub fn hurry(&mut self) {
         self.haste = HASTE;
         let open = std::mem::take(&mut self.open);
         self.open = open.into_iter().map(|Reverse((_, _, index))| self.entry(&self.nodes[index], index)).collect();
     }
 
     /// Leaves off: what comes after the farthest state reached could not be done in time.
-    fn give_up(&mut self) {
+    pub fn give_up(&mut self) {
         let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
         let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
         let next = farthest.zip(farthest.and_then(|node| self.state(node)?.candidates(self.task).into_iter().next()));
@@ -177,7 +184,7 @@ impl<'a> Search<'a> {
         };
         let candidate = *candidate;
         let Stage::Reached(from, _) = &self.nodes[parent].stage else { return };
-        match self.legs.motion(from, &candidate) {
+        match self.legs.motion(self.task, from, &candidate) {
             Ok(motion) => {
                 let seconds = motion.seconds() + candidate.step.dwell;
                 let state = from.after(self.task, &candidate, motion.timed.curve.curve().path().goal());
@@ -207,7 +214,7 @@ impl<'a> Search<'a> {
                 self.refused.push(Refused { depth, node: index, step: candidates.step, posture: None, refusal });
             }
             for way in candidates.ways {
-                let turn = way.turn.map_or(0.0, |turn| self.legs.least_turn(turn));
+                let turn = way.turn.map_or(0.0, |turn| Legs::least_turn(self.task, turn));
                 let least = least_time(&self.task.arm, from, way.to, way.step.speed) + turn;
                 let least = least + least_rest(self.task, way.step, way.event.map(|event| event.object()));
                 let stage = Stage::Pending(way);
@@ -217,7 +224,7 @@ impl<'a> Search<'a> {
     }
 
     /// The steps up to a node.
-    fn answer(&mut self, verdict: TaskVerdict, index: usize, lower_bound: f64) -> TaskAnswer {
+    pub fn legs(&mut self, index: usize) -> Vec<Leg> {
         let mut legs = Vec::new();
         let mut at = Some(index);
         while let Some(node) = at.map(|index| &self.nodes[index]) {
@@ -229,7 +236,7 @@ impl<'a> Search<'a> {
             {
                 legs.push(Leg {
                     step: candidate.step.clone(),
-                    scene: self.legs.scene(from, candidate.step),
+                    scene: self.legs.scene(self.task, from, candidate.step),
                     carried: from.held.as_ref().map(|held| held.object),
                     timed: motion.timed.clone(),
                     turn: motion.turn,
@@ -241,18 +248,11 @@ impl<'a> Search<'a> {
             at = node.parent;
         }
         legs.reverse();
-        TaskAnswer {
-            verdict,
-            legs,
-            lower_bound,
-            exact: self.exact,
-            motions: self.legs.planned(),
-            expanded: self.expanded,
-        }
+        legs
     }
 
-    /// What can be done, and why no more.
-    fn failure(&mut self, lower_bound: f64) -> TaskAnswer {
+    /// Why no more can be done than the steps to a node, and whether that is proven of all there is, if the search ran dry.
+    pub fn failure(&mut self) -> (Impossible, usize, bool) {
         // Of the places where it ends, the farthest; of these the one reached first.
         let depth = self.refused.iter().map(|refused| refused.depth).max().unwrap_or(0);
         let farthest = || self.refused.iter().filter(|refused| refused.depth == depth);
@@ -276,13 +276,12 @@ impl<'a> Search<'a> {
         let impossible = Impossible {
             step: step.clone(),
             reasons: reasons(&self.task.arm, &tried),
-            scene: self.legs.scene(&from, step),
+            scene: self.legs.scene(self.task, &from, step),
             from: from.q,
             postures,
         };
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
-        let verdict = if proven { TaskVerdict::Infeasible(impossible) } else { TaskVerdict::Unknown(impossible) };
-        self.answer(verdict, node, lower_bound)
+        (impossible, node, proven)
     }
 
     /// The state that a node has reached.

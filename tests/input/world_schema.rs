@@ -114,6 +114,17 @@ payload = "rigid"
 grasp = [0, 0.005]
 supports = ["table"]
 renew = true
+[[pallet]]
+name = "store"
+rows = 2
+columns = 3
+pitch = [0.1, -0.1]
+at = [0.5, 0.5]
+angle = 0.5
+[[object]]
+name = "lid"
+circle = { center = [0, 0], radius = 0.01 }
+pallet = "store"
 [[object]]
 name = "coin"
 circle = { center = [0, 0], radius = 0.01 }
@@ -136,6 +147,12 @@ speed = 1
 pick = "coin"
 [[step.steps]]
 place = { at = [0.2, 0.3] }
+[[step]]
+pick = "lid 1,1"
+[[step]]
+place = { on = "store 1,1" }
+[[step]]
+transfer = { objects = "lid", to = "store", angle = 0.5, supports = ["table"] }
 [task]
 repeat = 10
 order = "fixed"
@@ -236,6 +253,15 @@ fn broken_worlds_are_not_valid() {
         "[[step]]\npick = \"a\"\nspeed = 1.5",
         "[[step]]\npick = \"a\"\nspeed = 0",
         "[[step]]\npick = \"a\"\ndwell = -1",
+        "[[pallet]]\nname = \"a\"\nrows = 1\ncolumns = 1\nat = [0, 0]",
+        "[[pallet]]\nname = \"a\"\nrows = 0\ncolumns = 1\npitch = [1, 1]\nat = [0, 0]",
+        "[[pallet]]\nname = \"a\"\nrows = 1\ncolumns = 1.5\npitch = [1, 1]\nat = [0, 0]",
+        "[[object]]\nname = \"a\"\ncircle = { center = [0, 0], radius = 1 }\nat = [0, 0]\npallet = \"b\"",
+        "[[step]]\nplace = { at = [0, 0], on = \"a 1,1\" }",
+        "[[step]]\nplace = { angle = 1 }",
+        "[[step]]\ntransfer = \"a\"",
+        "[[step]]\ntransfer = { objects = \"a\" }",
+        "[[step]]\npick = \"a\"\ntransfer = { objects = \"a\", to = \"b\" }",
         "[task]\nrepeat = 2",
         "[goal]\njoints = [0, 0]\n[[step]]\nmove = { joints = [0, 0] }",
         "[[step]]\nmove = { joints = [0, 0] }\n[task]\nrepeat = 0",

@@ -20,7 +20,7 @@ fn healthy() -> String {
     format!("{CELL}{STEPS}")
 }
 
-fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
+pub fn refused(world: &str, overrides: &Overrides, parts: &[&str]) {
     let error = task_of(world, overrides).expect_err("should be refused").to_string();
     for part in parts {
         assert!(error.contains(part), "no \"{part}\" in:\n{error}");
@@ -44,7 +44,7 @@ fn objects_that_are_none() {
     let polygon = "polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]";
     for (from, to, parts) in [
         ("name = \"part\"\n", "", &["line 9", "missing key `name`"][..]),
-        ("at = [1.0, 1.0]\n", "", &["line 9", "missing key `at`"]),
+        ("at = [1.0, 1.0]\n", "", &["line 9", "needs either `at` or `pallet`, it has neither", "cure: "]),
         ("at = [1.0, 1.0]", "at = [1.0]", &["line 12, column 6", "object \"part\", at: expected two numbers"]),
         ("at = [1.0, 1.0]", "at = [1.0, inf]", &["line 12, column 12", "not a finite number"]),
         ("angle = 0.5", "angle = nan", &["line 19", "object \"cup\", angle", "not a finite number"]),
@@ -101,7 +101,11 @@ fn wrists_that_are_none() {
 fn steps_that_do_not_do_exactly_one_thing() {
     let (pick, place) = ("pick = \"part\"", "place = { at = [0.5, 1.5] }");
     for (from, to, parts) in [
-        (pick, "", &["line 24", "exactly one of `pick`, `place`, `move` and `steps`", "this has 0", "cure: "][..]),
+        (
+            pick,
+            "",
+            &["line 24", "exactly one of `pick`, `place`, `move`, `transfer` and `steps`", "this has 0", "cure: "][..],
+        ),
         (pick, "pick = \"part\"\nmove = { tip = [1, 1] }", &["line 24", "this has 2"]),
         (pick, "grab = \"part\"", &["line 25, column 1", "unknown key `grab`"]),
         (pick, "pick = 1", &["line 25, column 8"]),
@@ -120,7 +124,7 @@ fn steps_that_do_not_do_exactly_one_thing() {
         ),
         (place, "place = [0.5, 1.5]", &["line 27, column 9", "sequence, expected a table: { key = value }"]),
         ("move = { joints = [0.1, 0.2] }", "move = [0.1, 0.2]", &["line 33, column 8", "expected a table"]),
-        (place, "place = { angle = 1 }", &["line 27", "missing key `at`"]),
+        (place, "place = { angle = 1 }", &["line 26", "either `at` or `on`, this has neither"]),
         (place, "place = { at = [0.5, 1.5], speed = 1 }", &["line 27", "unknown key `speed`"]),
         ("move = { joints = [0.1, 0.2] }", "move = {}", &["line 33, column 8", "the move needs either", "neither"]),
         (pick, "pick = \"part\"\nspeed = 0", &["line 26, column 9", "speed must be more than 0", "cure: "]),

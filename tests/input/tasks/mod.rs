@@ -8,6 +8,7 @@ use std::fs;
 use std::path::Path;
 
 mod errors;
+mod pallets;
 mod written_out;
 
 /// Objects, and where the arm starts; steps follow.
@@ -240,7 +241,7 @@ fn the_readme_shows_what_can_be_written() {
     let readme = include_str!("../../../README.md");
     let block = readme.split("```toml\n").map(|b| b.split("```").next().unwrap_or_default());
     let block = block.filter(|b| b.contains("[[step]]")).collect::<Vec<_>>();
-    let [block] = block[..] else { panic!("one block with steps") };
+    let [block, pallets] = block[..] else { panic!("two blocks with steps") };
     let circle = |table: &str, name: &str, center: &str| {
         format!("[[{table}]]\nname = \"{name}\"\ncircle = {{ center = {center}, radius = 0.02 }}\n")
     };
@@ -253,4 +254,7 @@ fn the_readme_shows_what_can_be_written() {
     let loaded = task_of(&format!("{block}{}", rest.concat()), &Overrides::default()).unwrap();
     assert_eq!(loaded.task.steps().count(), 10 * (3 + 2 * 100));
     assert_eq!(loaded.task.items.iter().filter(|item| matches!(item, Item::AnyOrder(_))).count(), 1000);
+    let feeder = "[[pallet]]\nname = \"feeder\"\nrows = 5\ncolumns = 4\npitch = [0.05, 0.05]\nat = [1.0, 0.5]\n";
+    let scene = with_world(&format!("{pallets}{feeder}"), load_scene).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(scene.world.objects.len(), 20);
 }

@@ -6,7 +6,7 @@
 mod flood;
 mod judged;
 pub mod replay;
-mod task;
+pub mod task;
 
 use crate::common::random::seeds;
 use cplan::solve::{Effort, Method};

@@ -1,0 +1,238 @@
+//! Groups in free order of which not every order can be done: what is placed, or not yet picked, is in the way of others.
+
+use crate::common::random::{seeds, times};
+use crate::random_tasks::replay;
+use crate::random_tasks::task::Dice;
+use assert_cmd::Command;
+use cplan::geometry::Point;
+use cplan::input::{Overrides, load_scene};
+use cplan::model::{Action, Heights, Item, Object, Step, Task};
+use cplan::solve::{Effort, Method};
+use cplan::task::{Manner, TaskAnswer, TaskVerdict, plan};
+use cplan::trajectory::Drive;
+use nalgebra::Isometry2;
+use serde_json::Value;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Arm, start and seven posts, all as high as each other: whatever lies somewhere is in the way.
+const CELL: &str = r#"name = "tray"
+[robot]
+payload = "level"
+[start]
+joints = [-0.9, 1.8]
+"#;
+const POSTS: [(f64, f64, f64); 7] = [
+    (1.55, 0.0, 0.05),
+    (-1.2, 0.9, 0.1),
+    (-1.2, -0.9, 0.1),
+    (0.1, 1.7, 0.04),
+    (0.1, -1.7, 0.04),
+    (-0.5, 0.3, 0.05),
+    (-0.5, -0.3, 0.05),
+];
+const ROWS: usize = 4;
+
+fn robot() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("robots/planar_2r.urdf")
+}
+
+/// A place of a tray that lies round the arm: in rows, the innermost first, and columns, that nearest to the x axis first.
+fn spot(index: usize) -> [f64; 2] {
+    let (angle, radius) = (25.0 + 11.0 * (index / ROWS) as f64, 0.95 + 0.16 * (index % ROWS) as f64);
+    [radius * angle.to_radians().cos(), radius * angle.to_radians().sin()]
+}
+
+/// The cell with parts of two kinds and this size, each at a point and to be placed at another.
+fn sized_world(order: &str, size: f64, parts: &[[[f64; 2]; 2]]) -> String {
+    let mut world = format!("{CELL}[task]\norder = \"{order}\"\ndwell = 0.1\n");
+    for (x, y, radius) in POSTS {
+        let _ = writeln!(world, "[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}");
+    }
+    for (index, [[x, y], _]) in parts.iter().enumerate() {
+        let shape = match index % 2 {
+            0 => format!("circle = {{ center = [0, 0], radius = {size} }}"),
+            _ => format!("polygon = [[-{size}, -{size}], [{size}, -{size}], [{size}, {size}], [-{size}, {size}]]"),
+        };
+        let _ = writeln!(world, "[[object]]\nname = \"part {index}\"\n{shape}\nat = [{x}, {y}]");
+    }
+    for (index, [_, [x, y]]) in parts.iter().enumerate() {
+        let _ = writeln!(world, "[[step]]\npick = \"part {index}\"\n[[step]]\nplace = {{ at = [{x}, {y}] }}");
+    }
+    world
+}
+
+fn world(order: &str, parts: &[[[f64; 2]; 2]]) -> String {
+    sized_world(order, 0.028, parts)
+}
+
+/// Parts from a store to its mirror image, in an order that can be done: the innermost and nearest are picked first, the
+/// outermost and farthest places are filled first.
+fn tray(count: usize) -> Vec<[[f64; 2]; 2]> {
+    let mut picks: Vec<usize> = (0..count).collect();
+    picks.sort_by_key(|index| (index % ROWS, index / ROWS));
+    let mut places: Vec<usize> = (0..count).collect();
+    places.sort_by_key(|index| (std::cmp::Reverse(index % ROWS), std::cmp::Reverse(index / ROWS)));
+    let mirrored = |[x, y]: [f64; 2]| [x, -y];
+    picks.into_iter().zip(places).map(|(pick, place)| [spot(pick), mirrored(spot(place))]).collect()
+}
+
+/// What the program says of a world, and its exit code.
+fn asked(world: &str) -> (Value, i32) {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, result) = (folder.path().join("world.toml"), folder.path().join("result.json"));
+    std::fs::write(&file, world).unwrap();
+    let mut command = Command::cargo_bin("cplan").unwrap();
+    let done = command.arg(robot()).arg(&file).args(["--json", "--output"]).arg(&result).output().unwrap();
+    let answer: Value = serde_json::from_slice(&done.stdout).unwrap();
+    let code = done.status.code().unwrap();
+    if code == 0 {
+        let mut judge = Command::cargo_bin("cplan").unwrap();
+        judge.arg("verify").arg(robot()).arg(&file).arg(&result).assert().code(0);
+    }
+    (answer, code)
+}
+
+fn number(answer: &Value, key: &str) -> f64 {
+    answer[key].as_f64().unwrap_or_else(|| panic!("{key}: {}", answer[key]))
+}
+
+#[test]
+fn a_free_order_is_found_where_that_of_the_file_can_be_done() {
+    for count in [14, 16, 20] {
+        let parts = tray(count);
+        let (fixed, code) = asked(&world("fixed", &parts));
+        assert_eq!(code, 0, "{count}: {}", fixed["reason"]);
+        let (free, code) = asked(&world("free", &parts));
+        assert_eq!(code, 0, "{count}: {}", free["reason"]);
+        assert_eq!((&free["certified"], &free["choice"]), (&Value::Bool(true), &"good".into()));
+        assert!(number(&free, "duration") <= number(&fixed, "duration"), "{count}: the file's order is faster");
+        assert!(number(&free, "lower_bound") < number(&free, "duration"), "{count}");
+        assert_eq!(free["steps"].as_array().unwrap().len(), 2 * count);
+    }
+}
+
+#[test]
+fn a_free_order_is_found_where_that_of_the_file_cannot_be_done() {
+    for seed in 0..2 {
+        let mut parts = tray(20);
+        let mut dice = Dice::new(seed);
+        for last in (1..parts.len()).rev() {
+            parts.swap(last, dice.below(last + 1));
+        }
+        let (fixed, code) = asked(&world("fixed", &parts));
+        assert_eq!(code, 3, "{seed}: {}", fixed["reason"]);
+        let (free, code) = asked(&world("free", &parts));
+        assert_eq!(code, 0, "{seed}: {}", free["reason"]);
+    }
+}
+
+#[test]
+fn what_no_order_can_do_is_proven_of_large_groups_too() {
+    // Two parts that change places without room to put one aside.
+    let mut swapped = tray(14);
+    let [first, second] = [swapped[0][0], swapped[4][0]];
+    (swapped[0][1], swapped[4][1]) = (second, first);
+    // A place inside a post.
+    let mut blocked = tray(14);
+    blocked[3][1] = [1.55, 0.0];
+    for (parts, named) in [(swapped, ["\"part 0\"", "\"part 4\""]), (blocked, ["\"part 3\"", ""])] {
+        let (answer, code) = asked(&world("free", &parts));
+        assert_eq!(code, 3, "{}", answer["reason"]);
+        let reasons = answer["failed"]["reasons"].to_string().replace('\\', "");
+        assert!(reasons.contains("in any order") && named.iter().all(|name| reasons.contains(name)), "{reasons}");
+    }
+}
+
+/// The task of a world, if the arm is free at first.
+fn task(world: &str) -> Option<Task> {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("world.toml");
+    std::fs::write(&file, world).unwrap();
+    Some(load_scene(&robot(), &file).unwrap().task(&Overrides::default()).ok()?.task)
+}
+
+fn planned(task: &Task) -> TaskAnswer {
+    let drive = Drive { period: 0.1, ..Drive::default() };
+    plan(task, &Manner { method: Method::Visibility, effort: Effort::default(), drive }, &mut |_| {})
+}
+
+/// All orders of three things.
+const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+
+/// The task with a group of nine pairs more, of things that nothing hits and that lie where the tip is at first: it can be
+/// done if and only if the task can, and is too large to try all orders.
+fn among_many(task: &Task, pairs: &[[Step; 2]]) -> Task {
+    let mut many = task.clone();
+    let mut group = pairs.to_vec();
+    let at = task.arm.tip_at(task.start);
+    for number in 0_u32..9 {
+        let object = many.objects.len();
+        // Neither the arm nor each other.
+        let below = Heights { lower: -10.0 - f64::from(number), upper: -9.5 - f64::from(number) };
+        let lies = Isometry2::new(at.coords, 0.0);
+        many.objects.push(Object { name: format!("{number}"), heights: below, at: lies, ..task.objects[0].clone() });
+        let pick = Action::Pick { object, grasp: Point::origin(), supports: Vec::new() };
+        let place = Action::Place { at, angle: None, supports: Vec::new() };
+        let [first, second] = &pairs[0];
+        let step = |action, step: &Step| Step { action, number: step.number + 2 * object, ..step.clone() };
+        group.push([step(pick, first), step(place, second)]);
+    }
+    many.items = vec![Item::AnyOrder(group)];
+    many
+}
+
+/// Three parts in each other's way, by themselves and among many, against each of all orders.
+#[test]
+fn free_orders_agree_with_trying_all() {
+    let (mut some, mut file_fails, mut none, mut proven) = (0, 0, 0, 0);
+    for seed in seeds(24) {
+        let mut dice = Dice::new(seed);
+        let mut free: Vec<usize> = (0..2 * ROWS).collect();
+        let mut draw = || free.swap_remove(dice.below(free.len()));
+        let mut parts: Vec<[usize; 2]> = (0..3).map(|_| [draw(), draw()]).collect();
+        // Often a place where another part lies at first.
+        for part in 0..3 {
+            if dice.chance(0.4) {
+                parts[part][1] = parts[(part + 1) % 3][0];
+            }
+        }
+        let parts: Vec<[[f64; 2]; 2]> = parts.into_iter().map(|part| part.map(spot)).collect();
+        let Some(free) = task(&sized_world("free", 0.05, &parts)) else { continue };
+        let Item::AnyOrder(pairs) = &free.items[0] else { unreachable!("one group") };
+        let by_order = ORDERS.map(|order| {
+            let items = order.iter().flat_map(|&pair| pairs[pair].clone().map(Item::Step)).collect();
+            let answer = planned(&Task { items, ..free.clone() });
+            (answer.verdict == TaskVerdict::Done).then(|| answer.duration())
+        });
+        let best = by_order.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+        let answer = planned(&free);
+        let done = answer.verdict == TaskVerdict::Done;
+        assert_eq!(done, best.is_finite(), "seed {seed}: {:?} for {by_order:?}", answer.verdict);
+        if let Err(violation) = replay::replay(&free, &answer, done) {
+            panic!("seed {seed}: {violation}");
+        }
+        assert!(!done || answer.exact && (answer.duration() - best).abs() < 1e-9, "seed {seed}: {best}");
+
+        let many = among_many(&free, pairs);
+        let answer = planned(&many);
+        match &answer.verdict {
+            TaskVerdict::Done => assert!(done, "seed {seed}: done, but no order can be"),
+            TaskVerdict::Infeasible(_) => assert!(!done, "seed {seed}: infeasible, but {by_order:?}"),
+            TaskVerdict::Unknown(why) => assert!(!done, "seed {seed}: {by_order:?}, but {why:?}"),
+        }
+        if let Err(violation) = replay::replay(&many, &answer, done) {
+            panic!("seed {seed}, many: {violation}");
+        }
+        some += u64::from(done && by_order.contains(&None));
+        file_fails += u64::from(done && by_order[0].is_none());
+        none += u64::from(!done);
+        proven += u64::from(matches!(answer.verdict, TaskVerdict::Infeasible(_)));
+    }
+    println!(
+        "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"
+    );
+    let all = times(24);
+    assert!(all < 24 || 10 * some >= all && 20 * file_fails >= all, "{some} and {file_fails} of {all}");
+    assert!(all < 24 || 10 * none >= all && 2 * proven >= none, "{none} of {all}, {proven} proven");
+}
