@@ -3,11 +3,14 @@
 use super::Verdict;
 use super::ladder::explain;
 use super::subdivision::certified;
-use crate::certify::{Connectivity, Disconnection, slab_connectivity};
+use crate::certify::{Connectivity, Disconnection, connectivity, slab_connectivity};
 use crate::model::Problem;
 
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 pub(super) const SLABS: usize = 10_000;
+
+/// Boxes of a proof by boxes, where slabs find that there is no way but cannot say so in fewer than a few hundred thousand.
+const BOXES: usize = 20_000;
 
 /// Answers `problem` by [`slab_connectivity`] with at most `slabs` slabs: a path, pulled taut in the channel of free
 /// boxes that they make, or a proof. Both have passed a check that shares no code with the search.
@@ -26,7 +29,12 @@ pub fn decide(problem: &Problem, slabs: usize) -> Verdict {
         Connectivity::Disconnected(proof) => checked(problem, proof)
             .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
         Connectivity::Undecided { boxes } => {
-            Verdict::Unknown(format!("{boxes} slabs do not tell whether there is a path"))
+            let proof = match connectivity(scene, problem.start, &problem.goals, clearance, BOXES) {
+                Connectivity::Disconnected(proof) => checked(problem, proof),
+                _ => None,
+            };
+            let unknown = || Verdict::Unknown(format!("{boxes} slabs do not tell whether there is a path"));
+            proof.map_or_else(unknown, Verdict::Infeasible)
         }
     }
 }

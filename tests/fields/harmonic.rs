@@ -264,8 +264,10 @@ fn paths_are_streamlines_of_a_known_function() {
             fine.push(at);
         }
         for p in &streamline.points {
+            // The goals' cells are known, not where in them the goals are: the last rows are nearly level along the limit.
+            let allowed = if p[0] < rows as f64 - 3.0 { 0.1 } else { 0.2 };
             let nearest = fine.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
-            assert!(nearest < 0.1, "{p:?} is {nearest} cells off the streamline from {start:?}");
+            assert!(nearest < allowed, "{p:?} is {nearest} cells off the streamline from {start:?}");
         }
     }
 }

@@ -306,7 +306,8 @@ fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
     let end = Configuration::new(-3.0 + tau, 2.9 - tau);
     for planner in BOTH {
         let path = found(&run(planner, &open, &query, PathKind::Taut));
-        assert_eq!((path.start(), path.goal()), (query.start, end));
+        assert_eq!(path.start(), query.start);
+        assert!((path.goal() - end).norm() < 1e-14, "{}", path.goal());
         assert!((path.length() - (end - query.start).norm()).abs() < 1e-12);
         // A start beyond a turn stays there.
         let turned = Query { start: query.start + Configuration::new(tau, 0.0), ..query.clone() };

@@ -19,7 +19,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::common::random::cases(60))]
 
     /// Term by term: the short way round circles, with a frame of one cell beyond high limits.
     #[test]

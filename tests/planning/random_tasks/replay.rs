@@ -94,7 +94,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             }
         }
         q = *t.position.last().ok_or_else(|| say("has no samples"))?;
-        clock += t.duration() + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds);
+        let strokes = leg.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
+        clock += t.duration() + leg.step.dwell + leg.turn.map_or(0.0, |(_, seconds)| seconds) + strokes;
         let then = next_supports(task, answer, index);
         world
             .finish(q, &leg.step, &then, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep)
@@ -156,6 +157,10 @@ fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>,
 
 /// Position and velocity between samples, as the documentation of trajectories says.
 fn state(t: &cplan::trajectory::Trajectory, time: f64) -> (V, V) {
+    // Nothing moves where there is but one sample.
+    if let [at] = &t.position[..] {
+        return ([at[0], at[1]], [0.0; 2]);
+    }
     let k = t.time.partition_point(|&at| at <= time).clamp(1, t.time.len() - 1) - 1;
     let (h, s) = (t.time[k + 1] - t.time[k], time - t.time[k]);
     let mut position = [0.0; 2];
