@@ -111,7 +111,10 @@ impl<'a, 'l> Search<'a, 'l> {
                 told = planned;
                 progress(&format!("{} motions planned, {} states seen", self.legs.planned(), self.expanded));
             }
-            if planned > limits.motions || self.expanded > limits.expanded || (least >= limits.below && limits.below.is_finite()) {
+            if planned > limits.motions
+                || self.expanded > limits.expanded
+                || (least >= limits.below && limits.below.is_finite())
+            {
                 // It may be run again, with other limits.
                 self.open.push(self.entry(&self.nodes[index], index));
                 return Ending::Spent;

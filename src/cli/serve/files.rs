@@ -35,6 +35,7 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
         let manner = Manner { method: options.method(), effort, drive: options.drive() };
         let answer = crate::task::plan(&loaded.task, &manner, &mut |_| ());
         let mut report = TaskReport::new(options.method().name(), &loaded.task, &answer);
+        report.assumed = loaded.robot.assumed.clone();
         let named = report.name_joints(&loaded.robot.joints, &loaded.task, &answer, false);
         named.map_err(|error| in_words(&error))?;
         return match kind {
@@ -54,6 +55,7 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
         Kind::Result(format) => {
             let mut report: Report = planned.report.clone();
             report.robot = loaded.robot.joints.clone();
+            report.assumed = loaded.robot.assumed.clone();
             format.bytes(&report).ok_or_else(nothing)
         }
         Kind::Picture(format) => planned.bytes(format).map_err(|error| in_words(&error)),
