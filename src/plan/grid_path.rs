@@ -118,7 +118,7 @@ pub(super) fn along<G: Guide>(
     kind: PathKind,
 ) -> Result<Path, G::Stuck> {
     let center = unwrap(grid, &[home], query.start)[0];
-    let from = if joined.start.contained { to_lattice(grid, query.start) } else { center };
+    let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
     // Cells are counted from their corners here, from their centres there.
     let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
     let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
@@ -140,6 +140,13 @@ pub(super) fn along<G: Guide>(
         PathKind::Taut => shortcut::shortcut(grid, &line),
     };
     Ok(between(grid, query.start, &line, goal.0))
+}
+
+/// A point of the closed cell about `center`, off the sides that it shares with cells after it: those may be blocked, or beyond a
+/// limit.
+fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
+    const HALF: f64 = 0.5 - 1e-9;
+    [0, 1].map(|k| at[k].clamp(center[k] - HALF, center[k] + HALF))
 }
 
 /// The line with its end moved to `goal`, and what is before it by the less the farther it is away; the line itself where

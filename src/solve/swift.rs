@@ -9,8 +9,8 @@ use crate::model::Problem;
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 pub(super) const SLABS: usize = 10_000;
 
-/// Boxes of a proof by boxes, where slabs find that there is no way but cannot say so in fewer than a few hundred thousand.
-const BOXES: usize = 20_000;
+/// Boxes of the search where slabs find that there is no way, but could only say so in hundreds of thousands of boxes.
+const BOXES: usize = 200_000;
 
 /// Answers `problem` by [`slab_connectivity`] with at most `slabs` slabs: a path, pulled taut in the channel of free
 /// boxes that they make, or a proof. Both have passed a check that shares no code with the search.

@@ -77,16 +77,17 @@ impl<'a> Oracle<'a> {
         };
         let source = *free.iter().min_by(nearest).unwrap();
         oracle.values[source] = 1.0;
-        // Over-relaxation, row by row and back, until no value changes by more than a millionth of itself.
+        // Over-relaxation, row by row and back, until no value changes by more than a millionth of itself; far below those along
+        // a path they need not.
         let neighbors: Vec<[Option<usize>; 4]> = (0..oracle.values.len()).map(|cell| oracle.around(cell)).collect();
-        for sweep in 0..4000 {
+        for sweep in 0..20_000 {
             let mut change = 0.0_f64;
             let mut relax = |cell: usize| {
                 if cell != source {
                     let value = |next: Option<usize>| next.map_or(0.0, |next| oracle.values[next]);
                     let mean = neighbors[cell].map(value).iter().sum::<f64>() / 4.0;
                     let new = (oracle.values[cell] + 1.8 * (mean - oracle.values[cell])).max(0.0);
-                    change = change.max((new - oracle.values[cell]).abs() / new.max(1e-300));
+                    change = change.max((new - oracle.values[cell]).abs() / new.max(1e-100));
                     oracle.values[cell] = new;
                 }
             };

@@ -245,7 +245,7 @@ fn the_readme_shows_what_can_be_written() {
     // The robot of these tests has no joint that could lower a tool.
     let stroke = |line: &&str| line.starts_with("stroke = ") || line.contains("default: no stroke");
     assert_eq!(block.lines().filter(stroke).count(), 2);
-    let block = block.lines().filter(|line| !stroke(line)).collect::<Vec<_>>().join("\n");
+    let block: String = block.lines().filter(|line| !stroke(line)).map(|line| format!("{line}\n")).collect();
     let circle = |table: &str, name: &str, center: &str| {
         format!("[[{table}]]\nname = \"{name}\"\ncircle = {{ center = {center}, radius = 0.02 }}\n")
     };
