@@ -14,7 +14,7 @@ pub const MOST_CORNERS: usize = 64;
 ///
 /// A triangulation by a sweep, then removal of every diagonal that no reflex corner needs (S. Hertel, K. Mehlhorn, *Fast
 /// Triangulation of Simple Polygons*, 1983): at most four times as many as the least possible number. Pieces with too many
-/// corners are cut once more (see [`cut_up`]). All corners are corners of the polygon, so with the exact predicates the
+/// corners are cut once more (`cut_up`). All corners are corners of the polygon, so with the exact predicates the
 /// union is the polygon itself, without rounding. Straight corners of a piece are dropped. `O(n log n)`.
 #[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
