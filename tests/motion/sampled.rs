@@ -8,6 +8,9 @@ use cplan::space::{Configuration, HAIR, Recording};
 use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
 use proptest::prelude::*;
 
+/// Samples lie at whole nanoseconds, as near as that to where phases of the motion begin. Seconds.
+const HALF_A_NANOSECOND: f64 = 0.5e-9;
+
 pub fn as_vector(row: [f64; 2]) -> Configuration {
     q(row[0], row[1])
 }
@@ -98,11 +101,12 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
         // On the curve and within the limits, between samples too. What rounded positions say of accelerations gets
         // lost in intervals as short as can be.
         step += 1;
+        // At a sample the acceleration is that of the interval which begins within half a nanosecond.
+        let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
         for share in [0.0, 0.3, 0.7, 1.0] {
             let [at, speed, pull] = between(trajectory, k, share * h);
             if step % 5 == 0 {
-                // At a sample the acceleration is that of the interval which begins within half a nanosecond.
-                assert!(off(curve, at) <= 1e-10 * size, "{} off at {k} + {share}", off(curve, at));
+                assert!(off(curve, at) <= 1e-10 * size + late, "{} off at {k} + {share}", off(curve, at));
             }
             let rounding = 16.0 * f64::EPSILON * size;
             for i in 0..2 {
@@ -117,9 +121,12 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
     assert_eq!(limits_kept(joints, &recording), []);
     let largest = curve.curve().radii().iter().copied().fold(0.0, f64::max);
     for (k, piece) in recording.pieces().iter().enumerate() {
-        let there = between(trajectory, k, (piece.to - piece.from) / 2.0)[0];
-        let apart = (piece.at(0.5) - there).amax();
-        assert!(apart <= HAIR * largest + 1e-13 * size, "{apart} at {k}");
+        // A hair for each joint.
+        let hair = 1.5 * HAIR * largest + 1e-13 * size;
+        let (there, h) = (between(trajectory, k, (piece.to - piece.from) / 2.0)[0], piece.to - piece.from);
+        let late = HALF_A_NANOSECOND * joints[0].acceleration.max(joints[1].acceleration) * h;
+        let (apart, aside) = ((piece.at(0.5) - there).amax(), off(curve, piece.at(0.5)));
+        assert!(apart <= hair + late && aside <= hair, "{apart}, {aside} aside at {k}");
     }
 }
 
