@@ -43,6 +43,11 @@ pub fn seed() -> u64 {
     from_environment("CPLAN_SEED", 0)
 }
 
+/// Whether the cases are those of every run: of others a test does not know how many of each kind there are.
+pub fn usual() -> bool {
+    seed() == 0 && times(1 << 20) == 1 << 20
+}
+
 fn from_environment<T: FromStr>(name: &str, usual: T) -> T {
     match std::env::var(name) {
         Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is no number: {text:?}")),

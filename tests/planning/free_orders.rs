@@ -1,6 +1,6 @@
 //! Groups in free order of which not every order can be done: what is placed, or not yet picked, is in the way of others.
 
-use crate::common::random::{seeds, times};
+use crate::common::random::{seeds, usual};
 use crate::random_tasks::replay;
 use crate::random_tasks::task::Dice;
 use assert_cmd::Command;
@@ -232,7 +232,6 @@ fn free_orders_agree_with_trying_all() {
     println!(
         "{some} with orders that fail, {file_fails} with the file's; {none} without any, {proven} of these proven"
     );
-    let all = times(24);
-    assert!(all < 24 || 10 * some >= all && 20 * file_fails >= all, "{some} and {file_fails} of {all}");
-    assert!(all < 24 || 10 * none >= all && 2 * proven >= none, "{none} of {all}, {proven} proven");
+    // Orders that fail, and tasks without any, a part of them proven.
+    assert!(!usual() || some >= 3 && file_fails >= 2 && none >= 3 && 2 * proven >= none);
 }
