@@ -70,8 +70,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     }
     let (mut report, curve) = report(problem, &answer, &args.motion)?;
     args.message.apply(&mut report, &loaded.robot.joints)?;
-    report.field = field.map(|field| field_report(&field, &answer));
-    report.search = (args.planner == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
+    tell_how(&mut report, &answer, &effort);
     report.assumed = loaded.robot.assumed.clone();
     clock.stage("trajectory");
     if args.timings {
@@ -151,6 +150,12 @@ pub(super) fn report(
         Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
     };
     Ok((report, followed))
+}
+
+/// Adds which field was followed, and how the grid was searched.
+pub(super) fn tell_how(report: &mut Report, answer: &Answer, effort: &Effort) {
+    report.field = effort.field.map(|field| field_report(&field, answer));
+    report.search = (answer.method == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
 }
 
 /// The names of the joints that the goal leaves free.

@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::output::{self, PictureFormat};
 use super::summary;
 use crate::certify::CertifiedCurve;
+use crate::cspace::CObstacle;
 use crate::draw::{Ending, Picture, View, page};
 use crate::model::Problem;
 use crate::plan::FieldPlanner;
@@ -47,25 +48,33 @@ impl Planned<'_> {
     pub fn bytes(&self, format: PictureFormat) -> Result<Vec<u8>, Failure> {
         match format {
             PictureFormat::Html => Ok(page(&self.view()).into_bytes()),
-            _ => self.with_picture(|picture| output::drawn(format, picture)),
+            _ => {
+                let contours = output::contours(&self.problem.scene);
+                self.with_picture(&contours, |picture| output::drawn(format, picture))
+            }
         }
     }
 
     /// What a page shows of it.
     pub fn view(&self) -> View {
+        self.view_among(&output::contours(&self.problem.scene))
+    }
+
+    /// The same, where the contours of the C-obstacles are known.
+    pub fn view_among(&self, contours: &[CObstacle]) -> View {
         let ending = match self.answer.verdict {
             Verdict::Found(_) => Ending::Found,
             Verdict::Infeasible(_) => Ending::Infeasible,
             Verdict::Unknown(_) => Ending::Unknown,
         };
         let trajectory = self.report.trajectory.as_ref();
-        self.with_picture(|picture| View::of_picture(picture, ending, summary::facts(self), trajectory))
+        let view = |picture: &Picture| View::of_picture(picture, ending, summary::facts(self), trajectory);
+        self.with_picture(contours, view)
     }
 
-    fn with_picture<T>(&self, show: impl FnOnce(&Picture) -> T) -> T {
+    fn with_picture<T>(&self, contours: &[CObstacle], show: impl FnOnce(&Picture) -> T) -> T {
         let Self { problem, answer, report, .. } = self;
         let scene = &problem.scene;
-        let contours = output::contours(scene);
         let outline = self.curve.map(|curve| curve.curve().outline());
         let detail = match report.length {
             Some(length) => {
@@ -84,7 +93,7 @@ impl Planned<'_> {
             paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
             trace: Some(&answer.drawn()),
             proof: answer.verdict.proof(),
-            c_obstacles: &contours,
+            c_obstacles: contours,
         })
     }
 }

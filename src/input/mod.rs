@@ -65,7 +65,7 @@ pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint, clearance};
 pub use world::World;
 
-use crate::model::{AssumedLimits, Problem, RobotJoints, Scene};
+use crate::model::{AssumedLimits, Goal, Problem, RobotJoints, Scene};
 use std::path::Path;
 
 /// What the user should know of how the robot was read.
@@ -125,6 +125,12 @@ pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError
 }
 
 impl LoadedScene {
+    /// Start and goal as the world gives them, whether or not anything is wrong with them.
+    #[must_use]
+    pub fn given(&self) -> [Option<Goal>; 2] {
+        [&self.world.start, &self.world.goal].map(|place| place.as_ref().map(|&(goal, _)| goal))
+    }
+
     /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table
     /// says the same: for worlds that are edited.
     ///

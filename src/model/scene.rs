@@ -173,7 +173,8 @@ impl Scene {
     }
 
     /// What a pair's part belongs to, in words: `link "forearm" (body "gripper")`, `payload "part"`.
-    pub(super) fn describe_part(&self, pair: Pair) -> String {
+    #[must_use]
+    pub fn describe_part(&self, pair: Pair) -> String {
         let link = &self.arm.links[pair.link];
         let body = &link.parts[pair.part].body;
         if self.is_payload(pair) {

@@ -114,3 +114,23 @@ def show_file(show):
         return seen
 
     return open_
+
+
+@pytest.fixture
+def serve(show):
+    """Serves files and opens the page; returns it, with its server, once a plan is shown."""
+    from live import Server, settled
+
+    running = []
+
+    def start(*words, **options):
+        server = Server(words)
+        running.append(server)
+        seen = show(server.address, **options)
+        seen.server = server
+        settled(seen)
+        return seen
+
+    yield start
+    for server in running:
+        server.end()

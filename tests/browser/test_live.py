@@ -2,65 +2,12 @@
 
 import json
 import math
-import subprocess
 import time
 import urllib.request
 
 import pytest
-from conftest import PROGRAM, ROOT
-
-PLANAR = [ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml"]
-
-
-@pytest.fixture
-def serve(show):
-    """Serves files and opens the page; returns it once a plan is shown."""
-    running = []
-
-    def start(*words, **options):
-        command = [PROGRAM, "serve", *words, "--port", "0"]
-        server = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        running.append(server)
-        address = server.stdout.readline().strip()
-        assert address.startswith("http://127.0.0.1:"), "loopback alone"
-        seen = show(address, **options)
-        settled(seen)
-        return seen
-
-    yield start
-    for server in running:
-        assert server.poll() is None, "nothing ends the server"
-        server.terminate()
-        assert server.wait(timeout=60) == 0
-
-
-def settled(seen, seconds=90):
-    """Waits until what is shown is the answer to the last thing that was asked."""
-    seen.until("cplan.view && !cplan.link.awaited && !cplan.link.next && cplan.answered.id === cplan.link.id", seconds)
-    return seen.do("cplan.answered")
-
-
-def spot(seen, panel, place):
-    """Where on the screen a place of a panel is."""
-    name = {"workspace": "Workspace", "cspace": "Configuration space"}[panel]
-    canvas = seen.page.locator(f"canvas[aria-label='{name}']")
-    canvas.scroll_into_view_if_needed()
-    box = canvas.bounding_box()
-    x, y = seen.do("([panel, place]) => cplan.view.panels[panel].at(place)", [panel, place])
-    return box["x"] + x, box["y"] + y
-
-
-def drag(seen, panel, from_, to, steps=12):
-    mouse = seen.page.mouse
-    mouse.move(*spot(seen, panel, from_))
-    mouse.down()
-    for i in range(1, steps + 1):
-        mouse.move(*spot(seen, panel, [a + (b - a) * i / steps for a, b in zip(from_, to)]))
-    mouse.up()
-
-
-def path(seen):
-    return seen.do("cplan.view.model.paths[0]?.points ?? null")
+from conftest import ROOT
+from live import PLANAR, drag, path, settled, spot
 
 
 def test_an_obstacle_that_is_dragged_into_the_path_changes_it(serve):
@@ -278,3 +225,35 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
     )
     assert shapes > 5, "it moves while it is dragged"
     seen.shoot("live-ten")
+
+
+def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path):
+    """Drags one of three hundred obstacles, and counts the answers that were drawn in each second."""
+    inside = lambda x, y: 0.25 < math.hypot(x, y) < 1.95 and not (abs(math.atan2(y, x) + 0.75) < 0.35 or abs(math.atan2(y, x) - 1.5) < 0.25)
+    places = [(0.14 * i, 0.14 * k) for i in range(-14, 15) for k in range(-14, 15)]
+    places = sorted((place for place in places if inside(*place)), key=lambda place: -math.hypot(*place))[:300]
+    blocks = [f"[[obstacle]]\npolygon = [[{x:.3f}, {y:.3f}], [{x + 0.02:.3f}, {y:.3f}], [{x:.3f}, {y + 0.02:.3f}]]\n" for x, y in places]
+    assert len(blocks) == 300
+    world = tmp_path / "crowd.toml"
+    world.write_text("[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n" + "".join(blocks))
+    seen = serve(ROOT / "robots/planar_2r.urdf", world)
+    assert seen.do("cplan.view.world.obstacles.length") == 300
+    seen.do("() => { window.drawn = []; const take = cplan.take.bind(cplan); cplan.take = (m) => { take(m); if (!m.final && m.view) drawn.push(performance.now()); }; }")
+    middle = [sum(p[k] for p in seen.do("cplan.scene.obstacles[0].shape.polygon")) / 3 for k in (0, 1)]
+    ends = [spot(seen, "workspace", middle), spot(seen, "workspace", [middle[0] + 0.05, middle[1] + 0.05])]
+    mouse = seen.page.mouse
+    mouse.move(*ends[0])
+    mouse.down()
+    counts = []
+    while len(counts) < 12 and all(count < 10 for count in counts):
+        before, begin = seen.do("drawn.length"), time.monotonic()
+        for count in range(10**6):
+            mouse.move(*ends[(count + 1) % 2], steps=4)
+            if time.monotonic() - begin >= 1:
+                break
+        counts.append((seen.do("drawn.length") - before) / (time.monotonic() - begin))
+        assert "certified" not in seen.page.locator("p.status").inner_text()
+    mouse.up()
+    settled(seen)
+    print(f"\n300 obstacles: {[round(count, 1) for count in counts]} updates in each second")
+    assert counts[-1] >= 10

@@ -1,23 +1,31 @@
 //! What one page works on: a text, changed as the page says, and what comes of it.
 
 use super::Host;
+use super::blocked;
+use super::contours::Contours;
 use super::document::Document;
 use super::files;
+use super::menus;
 use super::options::Options;
-use super::protocol::{AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
+use super::protocol::{About, AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
 use super::result::{self, Found};
 use crate::geometry::Point;
 use crate::input::{LoadedScene, Overrides};
 use crate::interrupt::{Interrupt, Interrupted};
-use crate::model::{Arm, inverse, within};
+use crate::model::{Arm, Goal, Scene, inverse, within};
 use crate::solve::Method;
-use crate::space::{Axis, Configuration, Measure, Metric};
+use crate::space::{Axis, Configuration, Measure, Metric, Segment};
+use std::cell::Cell;
 use std::time::{Duration, Instant};
 
-/// The page is not to wait longer than this for what it shows while something is dragged.
-const DRAG_TIME: Duration = Duration::from_millis(150);
+/// Time for a plan while something is dragged. What is shown then, with or without a plan, takes a little longer: all in all
+/// a page is to follow ten times a second.
+const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Nor than this for the obstacles alone, once the time for a plan is up.
+/// Places on the way for which no plan is tried, after one that was not made in time.
+const UNTRIED: u32 = 7;
+
+/// Time for the obstacles alone, once the time for a plan is up.
 const SHOW_TIME: Duration = Duration::from_secs(5);
 
 /// Bisections towards a place that the tip does not reach.
@@ -30,12 +38,36 @@ pub struct Desk<'a> {
     base: u64,
     document: Document,
     scene: LoadedScene,
+    contours: Contours,
+    pace: Pace,
+}
+
+/// Whether plans keep up with what is dragged. Those that do not would only keep the rest of the page waiting.
+#[derive(Default)]
+struct Pace {
+    untried: Cell<u32>,
+}
+
+impl Pace {
+    /// Plans, unless it is of no use to try.
+    fn tries<T>(&self, plan: impl FnOnce() -> Result<T, Interrupted>) -> Option<Result<T, Interrupted>> {
+        if self.untried.get() > 0 {
+            self.untried.update(|left| left - 1);
+            return None;
+        }
+        let result = plan();
+        if matches!(result, Err(Interrupted::TimeUp)) {
+            self.untried.set(UNTRIED);
+        }
+        Some(result)
+    }
 }
 
 impl<'a> Desk<'a> {
     /// A page that has just been opened: the program's own world.
     pub fn new(host: &'a Host) -> Self {
-        Self { host, base: 1, document: host.document.clone(), scene: host.scene.clone() }
+        let (document, scene) = (host.document.clone(), host.scene.clone());
+        Self { host, base: 1, document, scene, contours: Contours::default(), pace: Pace::default() }
     }
 
     /// The world, for the page to change.
@@ -64,6 +96,7 @@ impl<'a> Desk<'a> {
             joints: [0, 1].map(joint),
             reach: arm.reach(),
             planners: Method::ALL.iter().map(|method| method.name()).collect(),
+            menus: menus::planners(),
             options: id.is_none().then(|| self.host.options.clone()),
             toml: self.document.text().to_owned(),
         }))
@@ -95,60 +128,74 @@ impl<'a> Desk<'a> {
             answer.figures.milliseconds = begun.elapsed().as_secs_f64() * 1e3;
             tell(Reply::Answer(Box::new(answer)));
         };
-        match self.answer(ask, interrupt, &mut tell) {
-            Ok(Some(answer)) => tell(AnswerReply { done: true, ..answer }),
-            Ok(None) => {}
-            Err(error) => tell(AnswerReply { done: true, error: Some(error), ..AnswerReply::default() }),
+        if let Ok(answer) = self.answer(ask, interrupt, &mut tell) {
+            tell(AnswerReply { done: true, ..answer });
         }
     }
 
-    /// The answer; none if it was stopped. Tells the configuration space before it looks for a path, which may take long.
+    /// The answer, unless it was stopped. Tells the configuration space before it looks for a path, which may take long.
     fn answer(
         &self,
         ask: &Ask,
         interrupt: &Interrupt,
         tell: &mut dyn FnMut(AnswerReply),
-    ) -> Result<Option<AnswerReply>, String> {
-        let options = Options::parse(&ask.options)?;
-        let text = self.text(ask)?;
+    ) -> Result<AnswerReply, Interrupted> {
+        let begun = Instant::now();
+        let refused = |about: About, error: String| {
+            Ok(AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() })
+        };
+        let options = match Options::parse(&ask.options) {
+            Ok(options) => options,
+            Err(error) => return refused(About::Options, error),
+        };
+        let text = match self.text(ask) {
+            Ok(text) => text,
+            Err(error) => return refused(About::World, error),
+        };
         let source = self.host.world.with_text(text.as_str());
-        let deadline = Instant::now() + self.time(ask);
-        let limited = interrupt.clone().by(deadline);
-        // Reading takes as long as it takes while something is dragged: without it there is nothing to show.
-        let reading = if ask.is_final { limited.clone() } else { interrupt.clone().by(deadline + self.host.time) };
-        let loaded = match reading.run(|| self.scene.edited(&self.host.urdf, source)) {
-            Ok(loaded) => loaded.map_err(|error| error.to_string())?,
-            Err(Interrupted::Set) => return Ok(None),
-            Err(Interrupted::TimeUp) => return Ok(Some(late(self.time(ask)))),
+        let limited = interrupt.clone().by(begun + self.host.time);
+        // What is shown in place of an answer must not take longer than that did.
+        let showing = interrupt.clone().by(begun + self.host.time + self.host.time.min(SHOW_TIME));
+        let late = || Ok(late(self.host.time));
+        let loaded = match limited.run(|| self.scene.edited(&self.host.urdf, source)) {
+            Ok(Ok(loaded)) => loaded,
+            Ok(Err(error)) => return Ok(blocked::unread(&error)),
+            Err(stopped) => return or_late(stopped, late),
         };
         let toml = ask.is_final.then_some(text);
-        let effort = options.effort(&loaded.scene)?;
+        let effort = match options.effort(&loaded.scene) {
+            Ok(effort) => effort,
+            Err(error) => return refused(About::Options, error),
+        };
         if loaded.has_steps() {
-            let mut loaded = loaded.task(&Overrides::default()).map_err(|error| error.to_string())?;
-            options.override_limits(&mut loaded.task.arm.joints);
-            return match limited.run(|| result::of_task(&loaded, &options, effort)) {
-                Ok(answer) => Ok(Some(AnswerReply { toml, ..answer })),
-                Err(Interrupted::Set) => Ok(None),
-                Err(Interrupted::TimeUp) => Ok(Some(AnswerReply { toml, ..late(self.time(ask)) })),
+            let mut loaded = match loaded.task(&Overrides::default()) {
+                Ok(loaded) => loaded,
+                Err(error) => return refused(About::World, error.to_string()),
             };
+            options.override_limits(&mut loaded.task.arm.joints);
+            let answer = limited.run(|| result::of_task(&loaded, &options, effort));
+            return Ok(AnswerReply { toml, ..answer.or_else(|stopped| or_late(stopped, late))? });
         }
-        // What is shown in place of an answer must not take longer than that did.
-        let showing = interrupt.clone().by(deadline + self.host.time.min(SHOW_TIME));
-        let at = |q: Option<Pair>| q.map_or_else(Configuration::zeros, Configuration::from);
-        let start = ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
+        let bare = |scene: &Scene, ends: (Configuration, &[Segment]), status: &str| {
+            let shown = showing.run(|| result::bare(scene, ends, status, &self.contours));
+            shown.or_else(|stopped| or_late(stopped, || Ok(AnswerReply::default())))
+        };
         let problem = match loaded.clone().problem(&Overrides::default()) {
             Ok(mut read) => {
                 options.override_limits(&mut read.problem.scene.arm.joints);
                 read.problem
             }
             Err(error) => {
-                let error = Some(error.to_string());
-                let shown = match showing.run(|| result::bare(&loaded.scene, at(start), &[], "not planned")) {
-                    Ok(shown) => shown,
-                    Err(Interrupted::Set) => return Ok(None),
-                    Err(Interrupted::TimeUp) => AnswerReply::default(),
+                let start =
+                    ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
+                let at = start.map_or_else(Configuration::zeros, Configuration::from);
+                let refusal = blocked::refusal(&loaded, &error, at);
+                let goal: Vec<_> = match loaded.given() {
+                    [_, Some(Goal::Joints(q))] => vec![Segment::point(q)],
+                    _ => Vec::new(),
                 };
-                return Ok(Some(AnswerReply { error, toml, start, ..shown }));
+                let shown = bare(&loaded.scene, (at, &goal), "not planned")?;
+                return Ok(AnswerReply { toml, start, view: shown.view, ..refusal });
             }
         };
         let (start, goals) = (problem.start, problem.goals.pieces());
@@ -156,36 +203,31 @@ impl<'a> Desk<'a> {
             let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
             AnswerReply { start: Some(start.into()), goals, ..answer }
         };
-        let plan = || match ask.is_final {
-            true => Found::in_full(&problem, &options, &effort).answer(),
-            false => Ok(result::quick(&problem, options.method(), &effort)),
-        };
-        let bare = |status| showing.run(|| result::bare(&loaded.scene, start, goals, status));
-        if ask.is_final {
-            match limited.run(|| result::bare(&loaded.scene, start, goals, "planning")) {
-                Ok(shown) => tell(places(shown)),
-                Err(Interrupted::Set) => return Ok(None),
-                Err(Interrupted::TimeUp) => return Ok(Some(AnswerReply { toml, ..places(late(self.time(ask))) })),
+        let (scene, ends) = (&problem.scene, (start, goals));
+        if !ask.is_final {
+            let planning = interrupt.clone().by(begun + DRAG_TIME);
+            let plan = || result::quick(&problem, options.method(), &effort, &self.contours);
+            return match self.pace.tries(|| planning.run(plan)) {
+                Some(Ok(answer)) => Ok(places(answer)),
+                Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
+                None | Some(Err(Interrupted::TimeUp)) => {
+                    let reason = Some("not decided while something moves".into());
+                    Ok(places(AnswerReply { reason, ..bare(scene, ends, "planning")? }))
+                }
+            };
+        }
+        match limited.run(|| result::bare(scene, ends, "planning", &self.contours)) {
+            Ok(shown) => tell(places(shown)),
+            Err(stopped) => return Ok(AnswerReply { toml, ..places(or_late(stopped, late)?) }),
+        }
+        match limited.run(|| Found::in_full(&problem, &options, &effort).answer(&self.contours)) {
+            Ok(Ok(answer)) => Ok(AnswerReply { toml, ..places(answer) }),
+            Ok(Err(error)) => refused(About::Options, error),
+            Err(stopped) => {
+                let AnswerReply { verdict, reason, .. } = or_late(stopped, late)?;
+                Ok(places(AnswerReply { verdict, reason, toml, ..bare(scene, ends, "unknown")? }))
             }
         }
-        match limited.run(plan) {
-            Ok(answer) => Ok(Some(AnswerReply { toml, ..places(answer?) })),
-            Err(Interrupted::Set) => Ok(None),
-            Err(Interrupted::TimeUp) => {
-                let shown = match bare("unknown") {
-                    Ok(shown) => shown,
-                    Err(Interrupted::Set) => return Ok(None),
-                    Err(Interrupted::TimeUp) => AnswerReply::default(),
-                };
-                let AnswerReply { verdict, reason, .. } = late(self.time(ask));
-                Ok(Some(places(AnswerReply { verdict, reason, toml, ..shown })))
-            }
-        }
-    }
-
-    /// How long a plan may take.
-    fn time(&self, ask: &Ask) -> Duration {
-        if ask.is_final { self.host.time } else { self.host.time.min(DRAG_TIME) }
     }
 
     /// The result as a file: its name and content.
@@ -232,6 +274,11 @@ impl<'a> Desk<'a> {
 /// What is said when the time is up.
 fn late(limit: Duration) -> AnswerReply {
     AnswerReply { verdict: Some("unknown"), reason: Some(time_up(limit)), ..AnswerReply::default() }
+}
+
+/// What to say where the time is up; nothing where something newer was asked.
+fn or_late<T>(stopped: Interrupted, late: impl FnOnce() -> Result<T, Interrupted>) -> Result<T, Interrupted> {
+    if stopped == Interrupted::TimeUp { late() } else { Err(stopped) }
 }
 
 fn time_up(limit: Duration) -> String {

@@ -46,8 +46,10 @@ const HEADERS: [(HeaderName, &str); 6] = [
 ];
 
 /// What moves things in the page, in the order in which one part needs the other.
-const CODE: [&str; 5] = [
+const CODE: [&str; 7] = [
     include_str!("assets/link.js"),
+    include_str!("assets/keep.js"),
+    include_str!("assets/notices.js"),
     include_str!("assets/scene.js"),
     include_str!("assets/edit.js"),
     include_str!("assets/controls.js"),

@@ -8,11 +8,14 @@
 //! The page sends the whole of what it shows each time, as a change of the text that it was given; so any message may be
 //! dropped for a newer one, and the world that is planned in is always read from text by the same code as any file.
 
+mod blocked;
+mod contours;
 mod desk;
 mod document;
 mod files;
 mod http;
 mod mailbox;
+mod menus;
 mod options;
 mod protocol;
 mod result;

@@ -9,7 +9,7 @@ use crate::model::{Joint, Scene};
 use crate::plan::FieldPlanner;
 use crate::solve::{Effort, Method};
 use crate::trajectory::Drive;
-use clap::Parser;
+use clap::{Command, CommandFactory, Parser};
 
 /// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.
 const SHORTEST_PERIOD: f64 = 1e-3;
@@ -40,6 +40,11 @@ struct Grammar {
 }
 
 impl Options {
+    /// The grammar, for menus.
+    pub fn grammar() -> Command {
+        Grammar::command()
+    }
+
     /// Reads `PLANNER OPTIONS`.
     ///
     /// # Errors

@@ -189,10 +189,34 @@ pub struct WorldReply {
     pub reach: f64,
     /// Planners to choose from.
     pub planners: Vec<&'static str>,
+    /// Their menus.
+    pub menus: Vec<PlannerReply>,
     /// Planner and options to begin with; none with a world that was loaded.
     pub options: Option<String>,
     /// The text.
     pub toml: String,
+}
+
+/// The menus of a planner.
+#[derive(Debug, Serialize)]
+pub struct PlannerReply {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// Options that it takes, in the order of their menus.
+    pub options: Vec<OptionReply>,
+}
+
+/// A menu.
+#[derive(Debug, Serialize)]
+pub struct OptionReply {
+    /// As on the command line: `--cells`.
+    pub name: String,
+    /// What to call it.
+    pub label: &'static str,
+    /// What holds where it is not given, in words.
+    pub standard: String,
+    /// Values to choose from, each with what it is called.
+    pub values: Vec<[String; 2]>,
 }
 
 /// One obstacle of a world.
@@ -226,8 +250,12 @@ pub struct AnswerReply {
     pub is_final: bool,
     /// Whether nothing more follows for this request.
     pub done: bool,
-    /// What is wrong with the world, start or goal, in words; then there is no verdict.
+    /// What is wrong with the world, start or goal, in words that need no file to be understood; then there is no verdict.
     pub error: Option<String>,
+    /// What that is about.
+    pub about: Option<About>,
+    /// Postures of the start or the goal that are not free.
+    pub blocked: Vec<BlockedReply>,
     /// `found`, `infeasible` or `unknown`; none with an error, and where the plan is not done.
     pub verdict: Option<&'static str>,
     /// Whether the whole motion is proven free.
@@ -244,6 +272,40 @@ pub struct AnswerReply {
     pub toml: Option<String>,
     /// What to draw; none where there is no scene.
     pub view: Option<Box<RawValue>>,
+}
+
+/// What an error is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum About {
+    /// Planner and options.
+    Options,
+    /// Obstacles and all else of the world.
+    World,
+    /// Where the arm begins.
+    Start,
+    /// Where it is to go.
+    Goal,
+}
+
+/// A posture that is not free.
+#[derive(Debug, PartialEq, Serialize)]
+pub struct BlockedReply {
+    /// Joint values.
+    pub at: Pair,
+    /// What is in the way, deepest first; nothing where the posture is outside the joint limits.
+    pub hits: Vec<HitReply>,
+}
+
+/// A link and an obstacle that meet, or are nearer than the clearance.
+#[derive(Debug, PartialEq, Serialize)]
+pub struct HitReply {
+    /// The link: 0 or 1.
+    pub link: usize,
+    /// The obstacle, as the world counts them.
+    pub obstacle: usize,
+    /// Distance, metres; negative where they meet.
+    pub distance: f64,
 }
 
 /// Figures of a plan.

@@ -1,5 +1,6 @@
 //! Plans as answers to a page.
 
+use super::contours::Contours;
 use super::options::Options;
 use super::protocol::{AnswerReply, Figures};
 use crate::certify::CertifiedCurve;
@@ -18,17 +19,18 @@ use crate::trajectory::Report;
 use serde_json::value::RawValue;
 
 /// A scene with its configuration space, and no path: why not, in a word or two.
-pub fn bare(scene: &Scene, start: Configuration, goals: &[Segment], status: &str) -> AnswerReply {
-    let contours = output::contours(scene);
+pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, contours: &Contours) -> AnswerReply {
+    let contours = contours.of(scene);
+    let (start, goals) = ends;
     let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
     AnswerReply { view: drawn(&View::of_picture(&picture, Ending::Shown, Vec::new(), None)), ..AnswerReply::default() }
 }
 
 /// What can be shown while something moves: a path, certified, but neither its bound nor its motion.
-pub fn quick(problem: &Problem, method: Method, effort: &Effort) -> AnswerReply {
+pub fn quick(problem: &Problem, method: Method, effort: &Effort, contours: &Contours) -> AnswerReply {
     let effort = Effort { bounded: false, gap: None, ..*effort };
     let answer = solve(problem, method, &effort, &mut |_| ());
-    let contours = output::contours(&problem.scene);
+    let contours = contours.of(&problem.scene);
     let mut reply = judged(&answer.verdict);
     reply.figures.size = Some(answer.run.size.to_string());
     let mut picture = Picture {
@@ -105,7 +107,10 @@ impl<'a> Found<'a> {
     /// Plans, bounds and times.
     pub fn in_full(problem: &'a Problem, options: &'a Options, effort: &Effort) -> Self {
         let answer = solve(problem, options.method(), effort, &mut |_| ());
-        let outcome = plan::report(problem, &answer, options.motion()).map_err(|failure| failure.to_string());
+        let mut outcome = plan::report(problem, &answer, options.motion()).map_err(|failure| failure.to_string());
+        if let Ok((report, _)) = &mut outcome {
+            plan::tell_how(report, &answer, effort);
+        }
         Self { problem, answer, outcome, options }
     }
 
@@ -123,7 +128,7 @@ impl<'a> Found<'a> {
     ///
     /// # Errors
     /// As [`Found::planned`].
-    pub fn answer(&self) -> Result<AnswerReply, String> {
+    pub fn answer(&self, contours: &Contours) -> Result<AnswerReply, String> {
         let planned = self.planned()?;
         let report = planned.report;
         let bound = self.answer.bound;
@@ -137,7 +142,12 @@ impl<'a> Found<'a> {
         };
         let judged = judged(&self.answer.verdict);
         let reason = judged.reason.clone().or(report.reason.clone());
-        Ok(AnswerReply { reason, figures, view: drawn(&planned.view()), ..judged })
+        Ok(AnswerReply {
+            reason,
+            figures,
+            view: drawn(&planned.view_among(&contours.of(&self.problem.scene))),
+            ..judged
+        })
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod client;
 mod endurance;
+mod pace;
 mod pages;
 mod plans;
 mod refusals;

@@ -71,7 +71,13 @@ fn a_start_in_an_obstacle_is_explained_and_drawn() {
     for is_final in [false, true] {
         let id = page.post(Some(shelf_state(blocking.clone())), is_final, "visibility");
         let answer = page.answer(id);
-        assert!(error_of(&answer).contains("the start"), "{answer}");
+        // In words of what is seen: the page's user knows of no file.
+        let error = error_of(&answer);
+        assert!(error.starts_with("The start is blocked: link \"upper_arm\" is "), "{error}");
+        assert!(error.contains(" deep in \"shelf\"") && !error.contains("line") && !error.contains(".toml"), "{error}");
+        assert_eq!((&answer["about"], &answer["blocked"][0]["at"]), (&json!("start"), &json!([-0.9, 0.4])));
+        let hit = &answer["blocked"][0]["hits"][0];
+        assert!(hit["obstacle"] == 0 && hit["distance"].as_f64().unwrap() < -0.01, "{hit}");
         assert!(answer["verdict"].is_null() && answer["certified"] == false, "{answer}");
         let world = &answer["view"]["worlds"][0];
         assert!(!world["c_obstacles"].as_array().unwrap().is_empty(), "the page shows where it is");

@@ -1,19 +1,13 @@
 // The controls: what can be added, the planner and its options, files.
 'use strict';
 
-/** Options with a control of their own: which planners have them, and their values. */
-const OPTIONS = {
-  '--gap': { label: 'proven within', planners: ['visibility'], values: { '': 'as it comes', 0.01: '1 %', 0.001: '0.1 %', 0.0001: '0.01 %' } },
-  '--metric': { label: 'short means', planners: ['visibility'], values: { '': 'length', time: 'travel time' } },
-  '--cells': { label: 'cells', planners: ['wavefront', 'harmonic'], values: { 64: '64', 128: '128', '': '256', 512: '512', 1024: '1024' } },
-  '--path': { label: 'path', planners: ['trapezoid', 'wavefront', 'harmonic', 'subdivision'], values: { '': "planner's default", own: 'its own', taut: 'pulled taut' } },
-  '--search': { label: 'search', planners: ['wavefront'], values: { '': 'wave', bfs: 'bfs', dfs: 'dfs', dijkstra: 'dijkstra', astar: 'A*' } },
-  '--neighbors': { label: 'neighbours', planners: ['wavefront'], values: { '': '4', 8: '8' } },
-};
-const FILES = {
-  toml: 'world (.toml)', json: 'result (.json)', csv: 'trajectory (.csv)', yaml: 'trajectory (.yaml, ROS 2)', svg: 'picture (.svg)',
-  png: 'picture (.png)', html: 'page (.html)',
-};
+const FILES = [
+  ['toml', 'world (.toml)'], ['json', 'result (.json)'], ['csv', 'trajectory (.csv)'], ['yaml', 'trajectory (.yaml, ROS 2)'],
+  ['svg', 'picture (.svg)'], ['png', 'picture (.png)'], ['html', 'page (.html)'],
+];
+
+/** Entries of a menu: values and what they are called, in this order. */
+const entries = (pairs) => pairs.map(([value, text]) => element('option', { value }, text));
 
 class Controls {
   /** `live` is what the buttons call: see there. */
@@ -21,24 +15,19 @@ class Controls {
     this.live = live;
     const button = (text, label, action) => element('button', { type: 'button', class: 'button', 'aria-label': label, title: label, onclick: action }, text);
     const { editor } = live;
-    this.things = element('select', { 'aria-label': 'selected', onchange: (event) => this.choose(event.target.value) });
+    this.things = element('select', { class: 'things', 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
     this.remove = button('Delete', 'delete what is selected', () => editor.remove());
     this.corner = button('+ corner', 'add a corner to the longest side', () => editor.insertCorner());
     this.undo = button('\u21b6', 'undo', () => live.turn('undo'));
     this.redo = button('\u21b7', 'redo', () => live.turn('redo'));
     this.clearance = element('input', {
-      type: 'number', min: '0', step: '1', inputmode: 'decimal', 'aria-label': 'clearance in millimetres',
+      type: 'number', min: '0', step: '1', inputmode: 'decimal', autocomplete: 'off', 'aria-label': 'clearance in millimetres',
       onchange: () => live.keep(Math.max(0, Number(this.clearance.value) || 0) / 1000),
     });
-    this.planner = element('select', { 'aria-label': 'planner', onchange: () => this.replan() });
-    this.options = {};
-    const options = Object.entries(OPTIONS).map(([name, { label, values }]) => {
-      const entries = Object.entries(values).map(([value, text]) => element('option', { value }, text));
-      this.options[name] = element('select', { onchange: () => this.replan(), 'data-option': name }, ...entries);
-      return element('label', {}, `${label} `, this.options[name]);
-    });
+    this.planner = element('select', { 'aria-label': 'planner', autocomplete: 'off', onchange: () => this.replan(true) });
+    this.menus = element('div', { class: 'group menus' });
     this.more = element('input', {
-      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', placeholder: '--field oriented --epsilon 0.5 --direction 0,-1',
+      type: 'text', class: 'more', spellcheck: 'false', autocomplete: 'off', autocapitalize: 'off', placeholder: '--field oriented --epsilon 0.5 --direction 0,-1',
       'aria-label': 'more options, as on the command line', onchange: () => this.replan(),
     });
     this.command = element('code', {});
@@ -51,81 +40,139 @@ class Controls {
     this.root = element(
       'section', { class: 'controls', 'aria-label': 'World and planner' },
       this.edit,
-      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), ...options, element('label', {}, 'more ', this.more)),
+      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, element('label', {}, 'more ', this.more)),
     );
+    this.files = this.filePart();
     this.world = this.textPart(button);
   }
 
-  /** The world as text, and files. */
+  /** The world as text. */
   textPart(button) {
     const { live } = this;
-    this.text = element('textarea', { rows: '16', spellcheck: 'false', autocomplete: 'off', 'aria-label': 'world as TOML' });
-    this.file = element('input', { type: 'file', accept: '.toml', hidden: true, onchange: () => this.open() });
-    this.format = element('select', { 'aria-label': 'file to save' }, ...Object.entries(FILES).map(([value, text]) => element('option', { value }, text)));
+    this.text = element('textarea', {
+      rows: '16', spellcheck: 'false', autocomplete: 'off', 'aria-label': 'world as TOML',
+      oninput: () => {
+        this.isTyped = true;
+        live.notices.say('text', null);
+      },
+    });
     return element(
       'details', { class: 'world' },
       element('summary', {}, 'World as text'),
       element('p', {}, element('label', {}, this.text)),
+      live.notices.places.text,
       button('Plan in this world', 'take the text for the world', () => live.load(this.text.value)),
     );
   }
 
   /** Buttons for files, which are always at hand. */
-  get files() {
+  filePart() {
     const { live } = this;
-    const button = (text, action) => element('button', { type: 'button', class: 'button', onclick: action }, text);
+    const button = (text, action, label) => element('button', { type: 'button', class: 'button', title: label, onclick: action }, text);
+    this.file = element('input', { type: 'file', accept: '.toml', hidden: true, onchange: () => this.open() });
+    this.format = element('select', { 'aria-label': 'file to save', autocomplete: 'off' }, ...entries(FILES));
+    this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
     return element(
       'div', { class: 'group files' }, button('Open world\u2026', () => this.file.click()), this.file, this.format,
-      button('Save', () => live.save(this.format.value)), element('span', { class: 'command' }, 'as a command: ', this.command),
+      button('Save', () => live.save(this.format.value)),
+      button('Start again', () => live.reset(), 'back to the world that cplan was started with'),
+      this.remarks, element('span', { class: 'command' }, 'as a command: ', this.command),
     );
   }
 
   async open() {
     const [file] = this.file.files;
     this.file.value = '';
-    if (file) this.live.load(await file.text());
+    if (file) this.live.load(await file.text(), true);
+  }
+
+  /** Shows the world's text, unless somebody types there. */
+  type(text) {
+    if (this.isTyped && this.text.value !== this.shownText) return;
+    this.isTyped = false;
+    this.shownText = text;
+    this.text.value = text;
+  }
+
+  remark(text) {
+    this.remarks.textContent = text;
+  }
+
+  /** Marks the options that are typed as wrong, or not. */
+  complain(isWrong) {
+    if (isWrong) this.more.setAttribute('aria-invalid', 'true');
+    else this.more.removeAttribute('aria-invalid');
+  }
+
+  /** Follows another world. */
+  use(world, scene) {
+    this.planners = world.menus;
+    this.planner.replaceChildren(...entries(this.planners.map(({ name }) => [name, name])));
+    this.read(this.live.words);
+    this.edit.hidden = world.has_steps;
+    this.isTyped = false;
+    this.showClearance(scene);
+    this.show();
+  }
+
+  showClearance(scene) {
+    this.clearance.value = String(+(scene.clearance * 1000).toFixed(3));
   }
 
   /** Takes planner and options apart into the controls. */
-  use(world) {
-    this.planner.replaceChildren(...world.planners.map((name) => element('option', { value: name }, name)));
-    if (world.options) {
-      const [planner, ...words] = world.options.split(/\s+/);
-      this.planner.value = planner;
-      const rest = [];
-      while (words.length) {
-        const word = words.shift();
-        const [name, ...joined] = word.split('=');
-        const control = this.options[name];
-        const value = joined.length ? joined.join('=') : words[0];
-        if (control && [...control.options].some((option) => option.value === value)) {
-          control.value = value;
-          if (!joined.length) words.shift();
-        } else rest.push(word);
-      }
-      this.more.value = rest.join(' ');
-    } else this.planner.value = this.chosen ?? this.planner.value;
-    this.edit.hidden = world.has_steps;
-    this.clearance.value = String(+(world.clearance * 1000).toFixed(3));
-    this.show();
+  read(text) {
+    const [planner, ...words] = text.split(/\s+/);
+    this.planner.value = planner;
+    const chosen = new Map();
+    const rest = [];
+    const options = this.options;
+    while (words.length) {
+      const word = words.shift();
+      const [name, ...joined] = word.split('=');
+      const option = options.find((one) => one.name === name);
+      const value = joined.length ? joined.join('=') : words[0];
+      const isListed = option && (value === option.standard || option.values.some(([one]) => one === value));
+      if (isListed && !chosen.has(name)) {
+        chosen.set(name, value);
+        if (!joined.length) words.shift();
+      } else rest.push(word);
+    }
+    this.more.value = rest.join(' ');
+    this.offer(chosen);
+  }
+
+  /** Menus that the chosen planner has. */
+  get options() {
+    return this.planners.find(({ name }) => name === this.planner.value)?.options ?? [];
+  }
+
+  /** Makes the planner's menus. What is not chosen is left to the program: that entry sends nothing. Numbers ascend. */
+  offer(chosen) {
+    this.selects = this.options.map(({ name, label, standard, values }) => {
+      const size = Number.parseFloat(standard);
+      const larger = values.findIndex(([value]) => Number(value) >= size);
+      const pairs = values.toSpliced(Math.max(0, larger), 0, ['', standard]);
+      const select = element('select', { autocomplete: 'off', 'data-option': name, onchange: () => this.replan() }, ...entries(pairs));
+      select.value = values.some(([value]) => value === chosen.get(name)) ? chosen.get(name) : '';
+      return [name, select, element('label', {}, `${label} `, select)];
+    });
+    this.menus.replaceChildren(...this.selects.map(([, , label]) => label));
   }
 
   /** Planner and options as on the command line. */
   get words() {
-    const planner = this.planner.value;
-    const of = ([name, { planners }]) => (planners.includes(planner) && this.options[name].value !== '' ? [name, this.options[name].value] : []);
-    return [planner, ...Object.entries(OPTIONS).flatMap(of), ...this.more.value.trim().split(/\s+/).filter(Boolean)].join(' ');
+    const chosen = this.selects.flatMap(([name, { value }]) => (value === '' ? [] : [name, value]));
+    return [this.planner.value, ...chosen, ...this.more.value.trim().split(/\s+/).filter(Boolean)].join(' ');
   }
 
-  replan() {
+  /** Plans with what is chosen now; with another planner its own menus come up, with what was chosen in others of that name. */
+  replan(isOther = false) {
+    if (isOther) this.offer(new Map(this.selects.map(([name, { value }]) => [name, value])));
     this.show();
-    this.live.plan(true);
+    this.live.choose(this.words);
   }
 
-  /** Which options there are depends on the planner. */
   show() {
-    this.chosen = this.planner.value;
-    for (const [name, { planners }] of Object.entries(OPTIONS)) this.options[name].parentElement.hidden = !planners.includes(this.planner.value);
     this.command.textContent = `cplan ROBOT.urdf WORLD.toml --planner ${this.words}`;
   }
 
@@ -134,7 +181,7 @@ class Controls {
   choose(value) {
     const [kind, index] = value.split(' ');
     this.live.editor.select(!kind ? null : kind === 'obstacle' ? { kind, index: Number(index), corner: null } : { kind });
-    this.live.view.panels.workspace.canvas.focus({ preventScroll: true });
+    this.live.editor.focus();
   }
 
   /** Follows the editor. */
@@ -142,11 +189,11 @@ class Controls {
     const { scene, selection } = this.live.editor;
     if (!scene) return;
     const value = !selection ? '' : selection.kind === 'obstacle' ? `obstacle ${selection.index}` : selection.kind;
-    const entries = [['', 'nothing selected'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
-    const signature = JSON.stringify(entries);
+    const pairs = [['', 'nothing selected'], ['start', 'start'], ['goal', 'goal'], ...scene.obstacles.map(({ name }, i) => [`obstacle ${i}`, name])];
+    const signature = JSON.stringify(pairs);
     if (signature !== this.signature) {
       this.signature = signature;
-      this.things.replaceChildren(...entries.map(([of, text]) => element('option', { value: of }, text)));
+      this.things.replaceChildren(...entries(pairs));
     }
     this.things.value = value;
     const shape = this.live.editor.obstacle?.shape;

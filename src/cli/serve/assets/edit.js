@@ -3,11 +3,17 @@
 
 /** How near a pointer has to be, pixels: a mouse, a finger. */
 const GRASP = { mouse: 9, pen: 12, touch: 20 };
+/** Time between the taps of a double tap, milliseconds. */
+const DOUBLE = 350;
 
 class Editor {
-  /** `changed(final)` is called when the scene has changed; `selected()` when something else is selected. */
-  constructor(view, { changed, selected, postures }) {
-    Object.assign(this, { view, changed, selected, postures });
+  /**
+   * `changed(final)` is called when the scene has changed; `selected()` when something else is selected; `used(panel)` when a
+   * panel is. `postures()` are the start and goals of the last answer, `blocked()` those that are not free, each with what is
+   * in the way; `isDrawn(obstacle)` says whether an obstacle is seen where it is.
+   */
+  constructor(view, { changed, selected, used, postures, blocked, isDrawn }) {
+    Object.assign(this, { view, changed, selected, used, postures, blocked, isDrawn });
     this.scene = null;
     /** What is selected: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
@@ -15,8 +21,12 @@ class Editor {
     view.tool = {
       down: (panel, value, event) => this.down(panel, value, event),
       move: (panel, value, event) => this.move(panel, value, event),
-      up: (panel, value, event) => this.up(event),
+      up: (panel, value, event) => this.up(panel, value, event),
+      tap: (panel) => this.tap(panel),
+      grasps: (panel, value, event) => Boolean(this.reached(panel, value, event)),
     };
+    /** When a finger last tapped without moving anything. */
+    this.tapped = { at: -Infinity };
     const { workspace, cspace } = view.panels;
     workspace.overlays.push((context, panel) => this.drawWorkspace(context, panel));
     cspace.overlays.push((context, panel) => this.drawCSpace(context, panel));
@@ -38,6 +48,11 @@ class Editor {
 
   redraw() {
     for (const panel of Object.values(this.view.panels)) panel.draw();
+  }
+
+  /** Keys go to the workspace. */
+  focus() {
+    this.view.panels.workspace.canvas.focus({ preventScroll: true });
   }
 
   get obstacle() {
@@ -100,12 +115,19 @@ class Editor {
     return is(this.start) ? { kind: 'start' } : null;
   }
 
+  /** What a pointer in one of the panels would take. */
+  reached(panel, value, event) {
+    if (!this.scene || this.scene.world.has_steps) return null;
+    return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findPosture(panel, event);
+  }
+
   down(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps || event.button > 0) return false;
-    const inWorkspace = panel === this.view.panels.workspace;
-    const found = inWorkspace ? this.find(panel, value, event) : this.findPosture(panel, event);
+    this.used(panel);
+    const found = this.reached(panel, value, event);
     if (!found) {
-      if (inWorkspace) this.select(null);
+      // A finger may be about to scroll.
+      if (event.pointerType === 'mouse') this.tap(panel);
       return false;
     }
     this.view.pause();
@@ -117,12 +139,14 @@ class Editor {
     return true;
   }
 
+  /** A click or tap on nothing. */
+  tap(panel) {
+    if (panel === this.view.panels.workspace && this.selection) this.select(null);
+  }
+
   move(panel, value, event) {
     if (!this.held) {
-      if (!this.scene || this.scene.world.has_steps || event.pointerType !== 'mouse') return false;
-      const inWorkspace = panel === this.view.panels.workspace;
-      const found = inWorkspace ? this.find(panel, value, event) : this.findPosture(panel, event);
-      panel.canvas.style.cursor = found ? 'grab' : '';
+      if (event.pointerType === 'mouse') panel.canvas.style.cursor = this.reached(panel, value, event) ? 'grab' : '';
       return false;
     }
     if (this.held.panel !== panel) return true;
@@ -133,13 +157,22 @@ class Editor {
     return true;
   }
 
-  up() {
+  up(panel, value, event) {
     if (!this.held) return false;
-    const { moved, panel } = this.held;
+    const { moved } = this.held;
+    this.held.panel.canvas.style.cursor = '';
     this.held = null;
-    panel.canvas.style.cursor = '';
     if (moved) this.changed(true);
+    else if (event.pointerType === 'touch') this.tapTwice(panel, value);
     return true;
+  }
+
+  /** Two taps of a finger are a double click, which browsers do not make of what begins on a handle. */
+  tapTwice(panel, value) {
+    const now = performance.now();
+    const isSecond = now - this.tapped.at < DOUBLE && panel === this.view.panels.workspace;
+    this.tapped = { at: isSecond ? -Infinity : now };
+    if (isSecond) this.insertCorner(value, panel);
   }
 
   /** Puts what is held to a place. */
@@ -212,6 +245,8 @@ class Editor {
     };
     const index = this.scene.add(kind === 'polygon' ? 'block' : kind === 'circle' ? 'disc' : 'wall', this.room(makers[kind]));
     this.select({ kind: 'obstacle', index, corner: null });
+    // Arrow keys move it, Delete deletes it.
+    this.focus();
     this.changed(true);
   }
 
@@ -294,6 +329,8 @@ class Editor {
     if (!this.scene || this.scene.world.has_steps) return;
     const { theme } = panel;
     const { tips, selection, obstacle } = this;
+    for (const other of this.scene.obstacles) if (other.shape && other !== obstacle && !this.isDrawn(other)) this.drawOutline(context, panel, other.shape);
+    this.drawBlocked(context, panel);
     if (obstacle?.shape) this.drawSelected(context, panel, obstacle.shape);
     if (tips.goal) {
       const [x, y] = panel.at(tips.goal);
@@ -316,16 +353,36 @@ class Editor {
     }
   }
 
-  drawSelected(context, panel, shape) {
+  /** Postures that are not free: the links that hit something red, and what they hit. */
+  drawBlocked(context, panel) {
     const { theme } = panel;
+    const { world } = this.view;
+    for (const { hits } of this.blocked()) {
+      for (const { obstacle } of hits) if (world.obstacles[obstacle]) Workspace.struck(context, panel, world.obstacles[obstacle]);
+    }
+    for (const { at, hits } of this.blocked()) {
+      Workspace.arm(context, panel, this.view, world, at, {
+        fill: theme.paper, touch: Theme.mixed(theme.barred, theme.paper, 0.25), touching: new Set(hits.map(({ link }) => link)),
+        line: theme.barred, width: 1.6, alpha: 0.85, joints: true,
+      });
+    }
+  }
+
+  /** Where an obstacle is that the picture shows elsewhere, or not at all. */
+  drawOutline(context, panel, shape) {
     context.beginPath();
     if (shape.circle) rounded(context, panel, { core: shape.circle.center, radius: shape.circle.radius });
     else trace(context, panel, Shapes.corners(shape).flat(), Boolean(shape.polygon));
     context.setLineDash([5, 4]);
     context.lineWidth = 2;
-    context.strokeStyle = theme.accent;
+    context.strokeStyle = panel.theme.accent;
     context.stroke();
     context.setLineDash([]);
+  }
+
+  drawSelected(context, panel, shape) {
+    const { theme } = panel;
+    this.drawOutline(context, panel, shape);
     const { center, radius } = shape.circle ?? {};
     const handles = shape.circle ? [[center[0] + radius, center[1]]] : Shapes.corners(shape);
     handles.forEach((p, i) => {
@@ -339,6 +396,7 @@ class Editor {
   }
 
   drawCSpace(context, panel) {
+    for (const { at } of this.blocked()) this.drawBarred(context, panel, CSpace.place(this.view, panel, at));
     const kind = this.selection?.kind;
     if (kind !== 'start' && kind !== 'goal') return;
     const q = this[kind];
@@ -349,5 +407,16 @@ class Editor {
     context.strokeStyle = panel.theme.accent;
     context.lineWidth = 2.5;
     context.stroke();
+  }
+
+  /** A configuration that is not free: a cross in a ring. */
+  drawBarred(context, panel, [x, y]) {
+    for (const [width, color] of [[6, panel.theme.paper], [3, panel.theme.barred]]) {
+      [context.lineWidth, context.strokeStyle] = [width, color];
+      context.beginPath();
+      context.arc(x, y, 9, 0, 2 * Math.PI);
+      context.stroke();
+      for (const side of [1, -1]) line(context, [[x - 6, y - 6 * side], [x + 6, y + 6 * side]]);
+    }
   }
 }

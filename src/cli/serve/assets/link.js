@@ -1,8 +1,6 @@
 // The connection: one request under way at a time, the latest state next.
 'use strict';
 
-/** A plan that takes longer than this while something moves is given up for a newer place, milliseconds. */
-const PATIENCE = 250;
 /** First and longest pause before the next attempt to connect, milliseconds. */
 const PAUSES = [250, 4000];
 
@@ -11,15 +9,22 @@ class Link {
   constructor({ hear, file, state }) {
     Object.assign(this, { hear, file, state });
     this.id = 0;
-    /** The request whose answer is awaited. */
+    /** The request whose answer is awaited: its number, what it is (plan, load, download), whether it is final, and what it is about. */
     this.awaited = null;
     /** What is to be asked next: a function that makes the request, and whether it is final. */
     this.next = null;
+    /** Whether a plan was dropped for something that may leave the world as it is. */
+    this.owed = false;
     this.pause = PAUSES[0];
     this.connect();
+    // Whoever comes back to the page does not wait for the end of a pause.
+    for (const [target, name] of [[window, 'online'], [window, 'focus'], [document, 'visibilitychange']]) {
+      target.addEventListener(name, () => !document.hidden && this.retry());
+    }
   }
 
   connect() {
+    clearTimeout(this.later);
     const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
@@ -28,39 +33,41 @@ class Link {
     };
     socket.onmessage = ({ data }) => (typeof data === 'string' ? this.message(JSON.parse(data)) : this.content(data));
     socket.onclose = () => {
-      this.awaited = null;
+      [this.awaited, this.next, this.owed] = [null, null, false];
       this.state(false);
-      setTimeout(() => this.connect(), this.pause);
+      this.later = setTimeout(() => this.connect(), this.pause);
       this.pause = Math.min(2 * this.pause, PAUSES[1]);
     };
     this.socket = socket;
+  }
+
+  /** Tries to connect now rather than later. */
+  retry() {
+    if (this.socket.readyState === WebSocket.CLOSED) this.connect();
   }
 
   get isUp() {
     return this.socket.readyState === WebSocket.OPEN;
   }
 
-  /** Asks for a plan of what `make` returns when its turn comes; what waited before is forgotten. */
+  /** Asks for a plan of what `make` returns when its turn comes (and what that is about, for the answer); what waited before is forgotten. */
   plan(make, final) {
+    if (!this.isUp) return;
     this.next = { make, final: final || (this.next?.final ?? false) };
     this.pump();
   }
 
   pump() {
-    clearTimeout(this.timer);
     if (!this.next || !this.isUp) return;
-    const now = performance.now();
-    if (this.awaited) {
-      // What the user stopped at is asked at once; so is whatever follows something that the user has left.
-      const left = this.awaited.since + PATIENCE - now;
-      if (!this.next.final && !this.awaited.final && left > 0) {
-        this.timer = setTimeout(() => this.pump(), left + 1);
-        return;
-      }
-    }
+    const { awaited } = this;
+    // A text that is loaded has to be there first. On the way from place to place the server answers as soon as it can: to ask
+    // before it has would only stop it. What the user stopped at is asked at once; so is whatever follows something left.
+    if (awaited?.kind === 'load') return;
+    if (awaited && !this.next.final && !awaited.final) return;
     const { make, final } = this.next;
     this.next = null;
-    this.send({ do: 'plan', ...this.ask(make(), final) }, final);
+    const { body, about } = make();
+    this.send('plan', { do: 'plan', ...this.ask(body, final) }, { final, ...about });
   }
 
   ask(body, final) {
@@ -71,29 +78,34 @@ class Link {
   /** Takes another text for the world. */
   load(text, options) {
     this.id += 1;
+    this.owed ||= Boolean(this.next);
     this.next = null;
-    this.send({ do: 'load', id: this.id, text, options }, true);
+    this.send('load', { do: 'load', id: this.id, text, options }, { final: true });
   }
 
   download(body, format) {
     const ask = this.ask(body, true);
-    this.send({ do: 'download', ask, format }, true);
+    this.send('download', { do: 'download', ask, format }, { final: true });
   }
 
-  send(request, final) {
+  send(kind, request, about) {
     if (!this.isUp) return;
-    this.awaited = { id: this.id, final, since: performance.now() };
+    if (kind !== 'plan' && this.awaited?.kind === 'plan') this.owed = true;
+    if (kind === 'plan') this.owed = false;
+    this.awaited = { id: this.id, kind, since: performance.now(), ...about };
     this.socket.send(JSON.stringify(request));
   }
 
   message(message) {
     const isLast = message.kind === 'failed' || message.done;
-    const isAwaited = this.awaited && (message.id === this.awaited.id || message.id === 0);
-    const since = this.awaited?.since;
+    const { awaited } = this;
+    const isAwaited = Boolean(awaited && (message.id === awaited.id || message.id === 0));
+    // Once a text is loaded, what follows is its plan.
+    if (isAwaited && message.kind === 'world') Object.assign(awaited, { kind: 'plan' });
     if (isLast && isAwaited) this.awaited = null;
     // The next plan is made while this one is drawn.
     this.pump();
-    this.hear(message, { isAwaited, since });
+    this.hear(message, { ...awaited, isAwaited });
   }
 
   /** A file: four bytes tell the length of its head. */

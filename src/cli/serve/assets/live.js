@@ -1,16 +1,25 @@
 // The live page: a world that is moved by hand, and the plan that follows.
 'use strict';
 
-/** Time after which a plan that is awaited is said to be, milliseconds. */
+/** Time after which a plan that is awaited makes the picture pale, milliseconds. */
 const NOTICED = 150;
 
 class Live {
   constructor(root) {
     this.root = root;
     this.waiting = element('p', { class: 'waiting', role: 'status' }, 'Connecting\u2026');
-    root.append(this.waiting);
+    this.line = element(
+      'div', { class: 'line', role: 'alert', hidden: true }, element('span', {}),
+      element('button', { type: 'button', class: 'button', onclick: () => this.link.retry() }, 'Try now'),
+    );
+    root.append(this.waiting, this.line);
     /** Times at which answers came while something moved. */
     this.beats = [];
+    /** Number of what the page shows: each change makes it larger. */
+    this.edition = 1;
+    /** What the picture is the answer to: the edition, whether all is known of it, how it ended. None while there is no line. */
+    this.shown = null;
+    this.notices = new Notices();
     /** For whoever watches the page from outside. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
     this.link = new Link({
@@ -18,6 +27,7 @@ class Live {
       file: (head, content) => this.hand(head, content),
       state: (isUp) => this.lineIs(isUp),
     });
+    window.addEventListener('pagehide', () => this.keepEdits());
   }
 
   /** Answers a second, while something is dragged. */
@@ -32,19 +42,23 @@ class Live {
   build(model) {
     this.waiting.remove();
     this.view = new View(this.root, model);
+    this.view.judged = true;
     this.editor = new Editor(this.view, {
       changed: (final) => this.changed(final),
       selected: () => this.controls?.follow(),
+      used: (panel) => this.notices.over(panel),
       postures: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
+      blocked: () => this.blocked ?? [],
+      isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
     });
     this.controls = new Controls(this);
-    this.message = element('pre', { class: 'message', role: 'alert', hidden: true });
     this.figures = element('p', { class: 'figures' });
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
-    const header = this.root.querySelector('header');
-    header.after(this.controls.root);
-    this.root.querySelector('.panels').after(this.message, this.figures, this.spoken, this.controls.files);
+    const { places } = this.notices;
+    this.root.querySelector('header').after(this.controls.root, places.options);
+    this.root.querySelector('.panels').after(this.figures, this.spoken, this.controls.files, places.files);
     this.root.querySelector('.help').before(this.controls.world);
+    this.notices.over(this.view.panels.workspace);
     this.root.querySelector('.help dl').prepend(...[
       ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
       ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
@@ -55,61 +69,156 @@ class Live {
       ['Ctrl+Z, Ctrl+Y', 'undo, redo'],
     ].flatMap(([keys, what]) => [element('dt', {}, keys), element('dd', {}, what)]));
     document.addEventListener('keydown', (event) => this.key(event));
-    this.begin();
+    this.dress();
   }
 
   key(event) {
-    if (!(event.ctrlKey || event.metaKey) || event.target.matches?.('textarea, input')) return;
+    if (event.target.matches?.('textarea, input:not([type=checkbox]):not([type=range])')) return;
+    // What is selected can be deleted wherever the focus is.
+    if ((event.key === 'Delete' || event.key === 'Backspace') && this.editor.obstacle) {
+      event.preventDefault();
+      this.editor.remove();
+      return;
+    }
+    if (!(event.ctrlKey || event.metaKey)) return;
     const key = event.key.toLowerCase();
     if (key !== 'z' && key !== 'y') return;
     event.preventDefault();
     this.turn(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   }
 
-  /** Begins anew with a world. */
-  begin() {
+  /** Begins anew with a world, or with what was kept of edits of it. */
+  begin(record = null) {
     this.scene = new Scene(this.world);
-    this.changedSince = false;
-    this.controls.use(this.world);
-    this.controls.text.value = this.world.toml;
+    if (record) this.scene.restore(record);
+    this.changedSince = this.scene.isChanged;
+    this.edition += 1;
+    if (this.view) this.dress();
+  }
+
+  /** Puts the world into the controls. */
+  dress() {
+    this.controls.use(this.world, this.scene);
+    this.controls.type(this.world.toml);
     this.editor.use(this.scene);
-    this.tell(null);
+    for (const place of ['picture', 'options', 'text', 'files']) this.notices.say(place, null);
+  }
+
+  // Edits that outlive the page and the server.
+
+  /** What is to be kept: the text that the edits are changes of, and the edits. */
+  get record() {
+    return { text: this.world.toml, words: this.words, ...this.scene.record };
+  }
+
+  keepEdits() {
+    if (!this.scene) return;
+    const isOther = this.scene.isChanged || this.world.toml !== this.first.toml || this.words !== this.first.options;
+    if (isOther) Keep.write(this.origin, this.record);
+    else Keep.forget(this.origin);
+  }
+
+  /** The server's first words, on a line that is new. */
+  greeted(world) {
+    const origin = `${world.robot}\n${world.toml}`;
+    if (origin !== this.origin) {
+      const hadAnother = Boolean(this.origin && this.scene?.isChanged);
+      [this.origin, this.first] = [origin, world];
+      const record = Keep.read(origin);
+      this.words = record?.words ?? world.options;
+      this.takeUp(world, record);
+      if (record) this.remark('Your edits of last time are back.');
+      else if (hadAnother) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
+    } else if (this.scene) {
+      // What was edited while there was no line is sent now.
+      this.continued = true;
+      this.takeUp(world, this.record);
+    }
+  }
+
+  /** Goes on with edits of a world that the server begins with, or has to be given. */
+  takeUp(world, record) {
+    if (record && record.text !== world.toml) {
+      this.restoring = record;
+      this.fallback = world;
+      this.link.load(record.text, record.words);
+      return;
+    }
+    this.adopt(world, record);
+    this.plan(true);
+  }
+
+  /** Takes a world of the server's for the one that the page changes. */
+  adopt(world, record) {
+    this.world = world;
+    if (record && this.continued && this.scene) {
+      this.scene.world = world;
+      this.continued = false;
+      return;
+    }
+    this.continued = false;
+    this.places = { start: world.start, goals: [] };
+    this.begin(record);
+  }
+
+  /** Says something by the way, beside the files. */
+  remark(text) {
+    this.remarked = text;
+    this.controls?.remark(text);
   }
 
   // From the server.
 
   hear(message, about) {
-    if (message.kind === 'world') {
-      this.takeWorld(message);
-    } else if (message.kind === 'failed') {
-      this.answered = { ...this.answered, id: message.id, error: message.error };
-      this.tell(message.error);
-      this.mark();
-    } else if (about.isAwaited) {
+    if (message.kind === 'world') this.takeWorld(message);
+    else if (message.kind === 'failed') this.fail(message, about);
+    else if (about.isAwaited) {
       clearTimeout(this.soon);
-      if (!message.done) this.soon = setTimeout(() => this.preview(message), NOTICED);
+      if (!message.done) this.soon = setTimeout(() => this.preview(message, about), NOTICED);
       else if (message.final || !this.view) this.show(message, about);
       else this.showSoon(message, about);
     }
+    this.mark();
   }
 
   takeWorld(world) {
-    const lost = world.id === null && this.text;
-    this.world = world;
-    if (lost) {
-      // The server has forgotten the page while the line was down.
-      this.link.load(this.text, this.controls.words);
+    if (world.id === null) {
+      this.greeted(world);
       return;
     }
-    this.places = { start: world.start, goals: [] };
-    if (this.view) this.begin();
-    if (world.id === null) this.plan(true);
+    const record = this.restoring;
+    this.restoring = null;
+    this.adopt(world, record);
+    // The plan that follows is that of the text.
+    if (this.link.awaited?.id === world.id) Object.assign(this.link.awaited, this.about);
+    if (record) this.plan(true);
+    this.notices.say('text', null);
+    this.notices.say('files', null);
+    if (!record) this.keepEdits();
+  }
+
+  /** What was asked is not done; the page keeps what it has. */
+  fail({ id, error }, about) {
+    this.answered = { ...this.answered, id, error };
+    if (about.kind === 'load') {
+      if (this.restoring) {
+        // What was kept is of no use to this server.
+        this.restoring = null;
+        this.adopt(this.fallback, null);
+        this.remark('Your edits of last time cannot be used any more.');
+        this.plan(true);
+      } else this.notices.say(this.opened ? 'files' : 'text', error);
+    } else if (about.kind === 'download') this.notices.say('files', error);
+    else {
+      this.shown = { edition: about.edition, final: true, error: 'not planned' };
+      this.troubled('picture', error);
+    }
+    if (this.link.owed) this.plan(true);
   }
 
   /** The configuration space before its plan, which takes long. */
-  preview(message) {
-    this.take(message);
-    this.figures.textContent = 'planning\u2026';
+  preview(message, about) {
+    this.draw(message, about.shapes);
   }
 
   /** Draws the latest answer with the next picture of the screen. */
@@ -121,37 +230,66 @@ class Live {
       const show = this.latest;
       this.latest = null;
       show?.();
+      this.mark();
     });
   }
 
-  show(message, { since }) {
+  show(message, { since, edition, shapes }) {
     this.latest = null;
     if (!message.final) this.beats.push(performance.now());
     this.took = performance.now() - since;
-    this.take(message);
+    this.draw(message, shapes);
     const { id, verdict, certified, error } = message;
     this.answered = { id, verdict, certified, final: message.final, error, figures: message.figures };
-    if (message.toml) {
-      this.text = message.toml;
-      if (document.activeElement !== this.controls.text) this.controls.text.value = message.toml;
-    }
-    this.tell(error);
+    this.shown = { edition, final: message.final, error: error && Live.trouble(message), ...Live.ending(message) };
+    if (message.toml) this.controls?.type(message.toml);
+    this.troubled(message.about === 'options' ? 'options' : 'picture', error);
     this.sum(message);
-    this.mark();
+  }
+
+  /** How a plan ended, for the badge: certified only where the server says so of all of it. */
+  static ending({ verdict, certified, view }) {
+    if (verdict === 'found' && certified) return { ending: 'found', status: view?.status ?? 'found, certified' };
+    if (verdict === 'infeasible') return { ending: 'infeasible', status: view?.status ?? 'no path: proven' };
+    return { ending: 'unknown', status: 'unknown' };
+  }
+
+  /** What is wrong, in a word or two. */
+  static trouble({ about, blocked }) {
+    const places = { start: 'start', goal: 'goal' };
+    if (places[about]) return blocked?.some(({ hits }) => hits.length) ? `${places[about]} blocked` : `${places[about]} not possible`;
+    return 'not planned';
+  }
+
+  /** Says what is wrong with a plan, at one of two places. */
+  troubled(place, error) {
+    for (const one of ['picture', 'options']) this.notices.say(one, one === place ? error : null);
+    this.controls?.complain(place === 'options' && Boolean(error));
+    if (!this.view && error) this.waiting.textContent = error;
   }
 
   /** Draws an answer. */
+  draw(message, shapes) {
+    this.take(message);
+    if (message.view) this.drawn = shapes;
+  }
+
+  /** Takes an answer for what is seen. */
   take(message) {
     if (message.start) {
       this.places = { start: message.start, goals: message.goals };
       // Where the tip was dragged to, the arm is now.
       const { scene } = this;
-      if (scene?.start?.tip && message.final && message.done) {
+      if (scene?.start?.tip && message.final && message.done && !this.editor?.held) {
         scene.start = { joints: message.start };
         scene.kept = scene.snapshot();
       }
     }
-    if (!message.view) return;
+    this.blocked = message.blocked ?? [];
+    if (!message.view) {
+      this.editor?.redraw();
+      return;
+    }
     if (!this.view) this.build(message.view);
     else {
       const light = !message.final || !message.done;
@@ -166,70 +304,116 @@ class Live {
 
   /** The figures, in a line. */
   sum({ figures, reason, final, verdict, certified, error }) {
-    this.root.classList.toggle('known', final && !error);
+    if (!this.figures) return;
     if (error) {
       this.figures.textContent = '';
+      if (final) this.spoken.textContent = '';
       return;
     }
     const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
+    const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'no path: proven', unknown: 'unknown' };
     const parts = [
-      verdict && (certified ? 'found and certified' : verdict === 'infeasible' ? 'no path: proven' : verdict),
+      final ? verdicts[verdict] : 'following',
       length && `length ${length.toFixed(4)}`,
       bound && `at most ${(100 * Math.max(0, length / bound - 1)).toPrecision(2)} % longer than the shortest`,
-      clearance && `clearance ${(1000 * clearance).toPrecision(3)} mm proven`,
+      final && clearance && `clearance ${(1000 * clearance).toPrecision(3)} mm proven`,
       duration && `motion ${duration.toFixed(3)} s`,
       size,
-      `planned in ${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`,
+      `${final ? 'planned' : 'answered'} in ${milliseconds.toFixed(milliseconds < 10 ? 1 : 0)} ms`,
       !final && `${this.updatesPerSecond} updates/s`,
-      verdict !== 'found' && reason,
+      final && verdict !== 'found' && reason,
     ].filter(Boolean);
     this.figures.textContent = parts.join(' \u00b7 ');
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
   }
 
-  /** A message about what is wrong; none for none. */
-  tell(error) {
-    if (!this.message) {
-      if (error) this.waiting.textContent = error;
-      return;
-    }
-    this.message.hidden = !error;
-    if (this.message.textContent !== (error ?? '')) this.message.textContent = error ?? '';
-  }
-
   lineIs(isUp) {
     this.isUp = isUp;
-    if (this.view) this.tell(isUp ? null : 'The connection to cplan is lost; trying again\u2026');
-    else if (!isUp) this.waiting.textContent = 'cplan does not answer; trying again\u2026';
+    // Whatever answers next may be another server.
+    this.shown = null;
+    clearTimeout(this.soon);
+    this.latest = null;
+    this.line.hidden = isUp || !this.view;
+    const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
+    this.line.firstChild.textContent = this.line.hidden ? '' : lost;
+    if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
     this.mark();
   }
 
-  /** Says so when what is shown is not what is asked for. */
+  // What can be said of what is seen.
+
+  /** Whether the picture is the last word on what the page shows now. */
+  get isCurrent() {
+    return Boolean(this.isUp && this.shown?.final && this.shown.edition === this.edition && this.link.awaited?.kind !== 'load' && !this.restoring);
+  }
+
+  /** The badge: colour and words. */
+  get badge() {
+    if (!this.isUp) return ['unknown', 'no connection'];
+    if (!this.isCurrent) return ['waiting', 'planning\u2026'];
+    const { error, ending, status } = this.shown;
+    return error ? ['infeasible', error] : [ending, status];
+  }
+
+  /** Says what holds, at once; what is seen goes pale a little later, so as not to flicker. */
   mark() {
+    if (!this.view) return;
     clearTimeout(this.late);
-    const isBehind = Boolean(this.link?.awaited || this.link?.next);
-    const show = (behind) => this.root.classList.toggle('behind', behind || !this.isUp);
-    if (isBehind) this.late = setTimeout(() => show(true), NOTICED);
-    else show(false);
+    this.view.say(...this.badge);
+    const { classList } = this.root;
+    const { isCurrent } = this;
+    classList.toggle('known', isCurrent && !this.shown.error);
+    classList.toggle('lost', !this.isUp);
+    // What follows the hand is up to date but for the places that are on their way.
+    const isFollowing = Boolean(this.isUp && this.editor.held && this.updatesPerSecond);
+    classList.toggle('following', isFollowing);
+    const isBehind = !isCurrent && !isFollowing;
+    const show = (behind) => {
+      if (classList.contains('behind') === behind) return;
+      classList.toggle('behind', behind);
+      this.editor.redraw();
+    };
+    if (isBehind && this.isUp) this.late = setTimeout(() => show(true), NOTICED);
+    else show(isBehind);
   }
 
   // To the server.
 
+  /** What an answer to what is asked now is about. */
+  get about() {
+    return { edition: this.edition, shapes: new Set(this.scene.obstacles.map(({ shape }) => shape)) };
+  }
+
   get body() {
     const state = this.changedSince && !this.world.has_steps ? this.scene.request() : null;
-    return { base: this.world.base, state, options: this.controls ? this.controls.words : this.world.options };
+    return { base: this.world.base, state, options: this.words };
   }
 
   plan(final) {
-    this.link.plan(() => this.body, final);
+    this.link.plan(() => ({ body: this.body, about: this.about }), final);
     this.mark();
   }
 
   changed(final) {
     this.changedSince = true;
-    if (final) this.scene.settle();
+    this.edition += 1;
+    if (final) {
+      this.scene.settle();
+      this.keepEdits();
+    }
+    // Whoever goes on has left a text or file that did not do.
+    for (const place of ['text', 'files']) this.notices.say(place, null);
     this.controls.follow();
     this.plan(final);
+  }
+
+  /** Other options. */
+  choose(words) {
+    if (words === this.words) return;
+    this.words = words;
+    this.edition += 1;
+    this.keepEdits();
+    this.plan(true);
   }
 
   /** Keeps that far from obstacles, metres. */
@@ -241,17 +425,36 @@ class Live {
   turn(way) {
     if (!this.scene[way]()) return;
     this.changedSince = true;
-    this.controls.clearance.value = String(+(this.scene.clearance * 1000).toFixed(3));
+    this.edition += 1;
+    this.keepEdits();
+    this.controls.showClearance(this.scene);
     this.editor.select(null);
     this.plan(true);
   }
 
-  load(text) {
-    this.link.load(text, this.controls.words);
+  /** Takes a text for the world; from a file or from the page. */
+  load(text, opened = false) {
+    this.opened = opened;
+    this.remark('');
+    if (!this.isUp) {
+      this.notices.say(opened ? 'files' : 'text', 'There is no connection to cplan: try again when it is back.');
+      return;
+    }
+    this.link.load(text, this.words);
     this.mark();
   }
 
+  /** Back to what the program was started with. */
+  reset() {
+    this.load(this.first.toml);
+  }
+
   save(format) {
+    this.notices.say('files', null);
+    if (!this.isUp) {
+      this.notices.say('files', 'There is no connection to cplan: save when it is back.');
+      return;
+    }
     this.link.download(this.body, format);
     this.mark();
   }
@@ -260,6 +463,7 @@ class Live {
     const address = URL.createObjectURL(new Blob([content]));
     element('a', { href: address, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(address), 10000);
+    if (this.link.owed) this.plan(true);
     this.mark();
   }
 }

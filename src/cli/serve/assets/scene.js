@@ -16,11 +16,28 @@ class Scene {
     this.past = [];
     this.future = [];
     this.kept = this.snapshot();
+    this.first = this.kept;
   }
 
   snapshot() {
     const { obstacles, start, goal, clearance } = this;
     return JSON.stringify({ obstacles, start, goal, clearance });
+  }
+
+  /** What is to be kept of it. */
+  get record() {
+    const { kept, past, future } = this;
+    return { scene: kept, past, future };
+  }
+
+  /** Takes up what was kept. */
+  restore({ scene, past, future }) {
+    Object.assign(this, { kept: scene, past, future }, JSON.parse(scene));
+  }
+
+  /** Whether anything differs from the text. */
+  get isChanged() {
+    return this.kept !== this.first;
   }
 
   /** Takes note of what the user has stopped at. Whether it differs from what was there before. */

@@ -2,14 +2,21 @@
 'use strict';
 
 const CSpace = (() => {
-  const { TURN, wrap, pointsOf } = Geometry;
+  const { TURN, wrap } = Geometry;
+
+  /** More obstacles than this are a crowd. */
+  const CROWD = 100;
 
   function bounds(flat) {
-    const box = [[Infinity, -Infinity], [Infinity, -Infinity]];
-    for (const q of pointsOf(flat)) {
-      for (const k of [0, 1]) box[k] = [Math.min(box[k][0], q[k]), Math.max(box[k][1], q[k])];
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (let i = 0; i + 1 < flat.length; i += 2) {
+      const [x, y] = [flat[i], flat[i + 1]];
+      if (x < x0) x0 = x;
+      if (x > x1) x1 = x;
+      if (y < y0) y0 = y;
+      if (y > y1) y1 = y;
     }
-    return box;
+    return [[x0, x1], [y0, y1]];
   }
 
   /** Shifts by whole turns that bring a part of a shape into view, along axes that repeat. */
@@ -37,19 +44,26 @@ const CSpace = (() => {
 
   function cObstacles(context, panel, view, world) {
     const repeats = turning(view);
-    world.obstacles.forEach((obstacle, index) => {
-      if (view.hidden.has(obstacle.name)) return;
-      const contours = world.c_obstacles.filter((c) => c.obstacle === index);
-      if (!contours.length) return;
-      const { fill, line: edge } = panel.theme.obstacle(obstacle.color);
+    // Of a crowd, all that has a colour is drawn as one, with hairlines round it: browsers do that in a fraction of the time.
+    const isCrowd = world.obstacles.length > CROWD;
+    const groups = new Map();
+    for (const { obstacle, contour } of world.c_obstacles) {
+      const { name, color } = world.obstacles[obstacle];
+      if (view.hidden.has(name)) continue;
+      const key = isCrowd ? color : obstacle;
+      if (!groups.has(key)) groups.set(key, { color, contours: [] });
+      groups.get(key).contours.push(contour);
+    }
+    for (const { color, contours } of groups.values()) {
+      const { fill, line: edge } = panel.theme.obstacle(color);
       context.beginPath();
-      for (const { contour } of contours) shifted(context, panel, contour, repeats, true);
-      context.lineWidth = 2;
+      for (const contour of contours) shifted(context, panel, contour, repeats, true);
+      context.lineWidth = isCrowd ? 1 : 2;
       context.strokeStyle = edge;
       context.stroke();
       context.fillStyle = fill;
       context.fill();
-    });
+    }
   }
 
   function rectangles(context, panel, boxes, least = 0) {
@@ -226,7 +240,8 @@ const CSpace = (() => {
     if (seen) above(context, panel, view, seen);
     if (view.shows('regions')) regions(context, panel, view, world);
     if (view.shows('proof') && world.proof.length) proof(context, panel, world.proof);
-    if (view.shows('names') && view.shows('c-obstacles')) names(context, panel, view, world);
+    // Numbers of many would only flicker while something moves.
+    if (view.shows('names') && view.shows('c-obstacles') && (view.named || !view.light)) names(context, panel, view, world);
     if (view.shows('path')) {
       for (const path of view.pathsHere()) {
         pathLine(context, panel.theme, path, () => {

@@ -30,7 +30,9 @@ const LAYERS = [
   ['names', 'names', true],
   ['frames', 'frames', true],
 ];
-const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022' };
+const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
+/** A finger that moves less than this has tapped; one that begins this near to the cross takes it. Pixels. */
+const [TAP, NEAR] = [10, 24];
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
 /** More obstacles than this are numbered, not named. */
 const NAMED = 16;
@@ -45,8 +47,13 @@ class View {
     this.speed = 1;
     this.probe = null;
     this.pinned = false;
-    /** Who takes the pointer before the view does: { down, move, up }, each called with panel, value and event. */
+    /**
+     * Who takes the pointer before the view does: { down, move, up }, each called with panel, value and event; `tap(panel)` is a
+     * finger's tap on nothing, `grasps(panel, value, event)` says whether there is something to take.
+     */
     this.tool = null;
+    /** Whether somebody else says how it ended: see `say`. */
+    this.judged = false;
     /** Whether to leave out what takes long to draw, while something moves. */
     this.light = false;
     this.build();
@@ -218,9 +225,16 @@ class View {
     const { parts } = this;
     parts.title.textContent = title[0] ?? '';
     parts.lines.replaceChildren(...title.slice(1).map((text) => element('p', {}, text)));
-    parts.status.dataset.ending = ending;
-    parts.status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${status}`);
+    if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)]));
+  }
+
+  /** How it ended: for colour and symbol, and in words. */
+  say(ending, words) {
+    const { status } = this.parts;
+    if (status.dataset.ending === ending && status.dataset.words === words) return;
+    Object.assign(status.dataset, { ending, words });
+    status.replaceChildren(element('span', { 'aria-hidden': 'true' }, SYMBOLS[ending]), ` ${words}`);
   }
 
   /** Layers that there are, and obstacles. */
@@ -345,25 +359,57 @@ class View {
   listen(panel) {
     const { canvas } = panel;
     const asTool = (name, event) => this.tool?.[name]?.(panel, panel.value(panel.spot(event)), event);
+    const isCSpace = panel === this.panels.cspace;
+    /** Where a finger began, and whether it took the cross. */
+    let finger = null;
     canvas.addEventListener('pointerdown', (event) => {
+      finger = null;
       if (asTool('down', event)) {
         canvas.setPointerCapture(event.pointerId);
         event.preventDefault();
-      } else if (panel === this.panels.cspace && panel.contains(panel.spot(event))) {
-        this.pinned = event.pointerType === 'mouse' ? !this.pinned : true;
+      } else if (event.pointerType !== 'mouse') {
+        finger = { from: panel.spot(event), holds: isCSpace && this.isAtCross(panel.spot(event)) };
+      } else if (isCSpace && panel.contains(panel.spot(event))) {
+        this.pinned = !this.pinned;
         this.examine(panel.value(panel.spot(event)));
       }
     });
     canvas.addEventListener('pointermove', (event) => {
-      if (asTool('move', event) || panel !== this.panels.cspace) return;
-      const held = event.pointerType !== 'mouse' && event.buttons;
-      if (panel.contains(panel.spot(event)) && (held || !this.pinned)) this.examine(panel.value(panel.spot(event)));
+      if (asTool('move', event) || !isCSpace || !panel.contains(panel.spot(event))) return;
+      if (event.pointerType === 'mouse' ? !this.pinned : finger?.holds) this.examine(panel.value(panel.spot(event)));
     });
-    canvas.addEventListener('pointerup', (event) => asTool('up', event));
-    canvas.addEventListener('pointercancel', (event) => asTool('up', event));
+    canvas.addEventListener('pointerup', (event) => {
+      if (asTool('up', event) || !finger) return;
+      const spot = panel.spot(event);
+      const isTap = Math.hypot(spot[0] - finger.from[0], spot[1] - finger.from[1]) < TAP;
+      const { holds } = finger;
+      finger = null;
+      if (!isTap) return;
+      this.tool?.tap(panel);
+      if (!isCSpace || !panel.contains(spot)) return;
+      this.pinned = !holds;
+      this.examine(holds ? null : panel.value(spot));
+    });
+    canvas.addEventListener('pointercancel', (event) => {
+      finger = null;
+      asTool('up', event);
+    });
     canvas.addEventListener('pointerleave', () => {
-      if (panel === this.panels.cspace && !this.pinned) this.examine(null);
+      if (isCSpace && !this.pinned) this.examine(null);
     });
+    // What begins on a handle does not scroll the page.
+    const takes = ({ clientX, clientY }) => {
+      const touch = { clientX, clientY, pointerType: 'touch' };
+      return asTool('grasps', touch) || (isCSpace && this.isAtCross(panel.spot(touch)));
+    };
+    canvas.addEventListener('touchstart', (event) => event.touches.length === 1 && takes(event.touches[0]) && event.preventDefault(), { passive: false });
+  }
+
+  /** Whether a finger there takes the cross in the configuration space. */
+  isAtCross([x, y]) {
+    if (!this.pinned || !this.probe) return false;
+    const at = this.panels.cspace.at(this.probe.q);
+    return Math.hypot(at[0] - x, at[1] - y) < NEAR;
   }
 
   /** Puts the arm to q, to see what it would touch; without q, no more. */

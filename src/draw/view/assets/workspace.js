@@ -203,6 +203,14 @@ const Workspace = (() => {
     if (view.shows('frames')) for (const frame of model.frames) axes(context, panel, frame);
   }
 
+  /** The outline of an obstacle that is hit. */
+  function struck(context, panel, obstacle) {
+    outline(context, panel, obstacle);
+    context.lineWidth = 4;
+    context.strokeStyle = panel.theme.barred;
+    context.stroke();
+  }
+
   /** What moves: the arm, and the one that is tried. */
   function moving(context, panel, view) {
     const { theme } = panel;
@@ -210,12 +218,7 @@ const Workspace = (() => {
     if (!view.probe) return;
     const { contacts, q } = view.probe;
     const hits = contacts.filter((c) => c.distance <= 0);
-    for (const { obstacle } of hits) {
-      outline(context, panel, view.world.obstacles[obstacle]);
-      context.lineWidth = 4;
-      context.strokeStyle = theme.barred;
-      context.stroke();
-    }
+    for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
     arm(context, panel, view, view.world, q, {
       fill: theme.free,
@@ -251,7 +254,7 @@ const Workspace = (() => {
     label(context, panel.theme, frame.name, x + 30, y + 18);
   }
 
-  return { still, moving, labels };
+  return { still, moving, labels, arm, struck };
 })();
 
 /** A path or trace: in its colour, visible on any ground by the broad line of paper under it. */

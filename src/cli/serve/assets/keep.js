@@ -1,0 +1,88 @@
+// Edits kept by the browser: they outlive a reload of the page and the end of the server.
+'use strict';
+
+/** Worlds whose edits are kept; the oldest go first. */
+const MOST_KEPT = 8;
+/** Steps of undo that are kept with them. */
+const MOST_STEPS = 20;
+
+const Keep = (() => {
+  const PREFIX = 'cplan edits ';
+
+  /** Of this window first, then of any. Browsers may refuse both. */
+  function stores() {
+    try {
+      return [window.sessionStorage, window.localStorage];
+    } catch {
+      return [];
+    }
+  }
+
+  /** Of two worlds the names differ: FNV-1a, twice. */
+  function name(origin) {
+    const hash = (seed) => {
+      let h = seed;
+      for (let i = 0; i < origin.length; i += 1) h = Math.imul(h ^ origin.charCodeAt(i), 16777619);
+      return (h >>> 0).toString(36);
+    };
+    return `${PREFIX}${hash(2166136261)} ${hash(40389)} ${origin.length}`;
+  }
+
+  function tidy(store) {
+    const names = Object.keys(store).filter((key) => key.startsWith(PREFIX));
+    const age = (key) => {
+      try {
+        return JSON.parse(store.getItem(key)).at ?? 0;
+      } catch {
+        return 0;
+      }
+    };
+    if (names.length <= MOST_KEPT) return;
+    names.sort((a, b) => age(b) - age(a)).slice(MOST_KEPT).forEach((key) => store.removeItem(key));
+  }
+
+  /** Keeps the edits of the world that a program began with. */
+  function write(origin, record) {
+    const dated = { at: Date.now(), ...record };
+    const tries = [
+      { ...dated, past: record.past.slice(-MOST_STEPS), future: record.future.slice(-MOST_STEPS) },
+      { ...dated, past: [], future: [] },
+    ];
+    for (const store of stores()) {
+      for (const text of tries.map((one) => JSON.stringify(one))) {
+        try {
+          store.setItem(name(origin), text);
+          tidy(store);
+          break;
+        } catch {
+          // There is no room for so much.
+        }
+      }
+    }
+  }
+
+  /** The edits of the world that a program began with; none for none. */
+  function read(origin) {
+    for (const store of stores()) {
+      try {
+        const record = JSON.parse(store.getItem(name(origin)));
+        if (record) return record;
+      } catch {
+        // Somebody else's.
+      }
+    }
+    return null;
+  }
+
+  function forget(origin) {
+    for (const store of stores()) {
+      try {
+        store.removeItem(name(origin));
+      } catch {
+        // Then it was not kept either.
+      }
+    }
+  }
+
+  return { write, read, forget };
+})();

@@ -1,0 +1,87 @@
+//! Contours of C-obstacles, kept from one answer to the next: of all obstacles one or two have changed.
+
+use crate::cli::output;
+use crate::cspace::CObstacle;
+use crate::geometry::Convex;
+use crate::model::{Arm, Heights, Obstacle, Scene, Workspace};
+use std::cell::RefCell;
+
+/// What a page's worker remembers. The contours of an obstacle depend on nothing but the arm, the clearance and its pieces.
+#[derive(Default)]
+pub struct Contours {
+    known: RefCell<Known>,
+}
+
+#[derive(Default)]
+struct Known {
+    /// What all of them depend on.
+    of: Option<(Arm, f64)>,
+    /// In the order of the last scene's obstacles.
+    entries: Vec<Entry>,
+}
+
+#[derive(Clone)]
+struct Entry {
+    pieces: Vec<Convex>,
+    heights: Heights,
+    /// Of this obstacle, whatever its number.
+    contours: Vec<CObstacle>,
+}
+
+impl Entry {
+    fn is_of(&self, obstacle: &Obstacle) -> bool {
+        self.heights == obstacle.heights && self.pieces == obstacle.pieces
+    }
+}
+
+impl Contours {
+    /// The contours for pictures of a scene without payload, obstacle by obstacle. Time is taken by the obstacles that the
+    /// last scene did not have.
+    pub fn of(&self, scene: &Scene) -> Vec<CObstacle> {
+        let obstacles = &scene.workspace.obstacles;
+        let of = Some((scene.arm.clone(), scene.workspace.clearance));
+        let found = {
+            let mut known = self.known.borrow_mut();
+            if known.of != of {
+                *known = Known { of, entries: Vec::new() };
+            }
+            known.found(obstacles)
+        };
+        let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
+        // Nothing is borrowed while it works, which may be stopped at any time.
+        let mut made = traced(scene, &missing).into_iter();
+        let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
+        let numbered = |(number, entry): (usize, &Entry)| {
+            let numbered = |contour: &CObstacle| CObstacle { obstacle: number, ..contour.clone() };
+            entry.contours.iter().map(numbered).collect::<Vec<_>>()
+        };
+        let contours = entries.iter().enumerate().flat_map(numbered).collect();
+        self.known.borrow_mut().entries = entries;
+        contours
+    }
+}
+
+impl Known {
+    /// What is known of each obstacle. Those that come and go shift the others by a place or two.
+    fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
+        let mut next = 0;
+        let mut one = |obstacle: &Obstacle| {
+            let there = self.entries.iter().skip(next).position(|entry| entry.is_of(obstacle))? + next;
+            next = there + 1;
+            Some(self.entries[there].clone())
+        };
+        obstacles.iter().map(&mut one).collect()
+    }
+}
+
+/// The contours of some obstacles, one entry for each.
+fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
+    let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace.obstacles[k].clone()).collect();
+    let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };
+    let mut entries: Vec<Entry> = obstacles.iter().map(entry).collect();
+    let workspace = Workspace { obstacles, preferences: Vec::new(), ..scene.workspace.clone() };
+    for contour in output::contours(&Scene::new(scene.arm.clone(), workspace)) {
+        entries[contour.obstacle].contours.push(contour);
+    }
+    entries
+}

@@ -1,0 +1,134 @@
+//! The page's menus: which options the planners have, and what each can be.
+//!
+//! Names, values and defaults are those of the command line's grammar. What is not chosen is not sent, so that the page's
+//! defaults cannot be others than the program's.
+
+use super::options::Options;
+use super::protocol::{OptionReply, PlannerReply};
+use crate::field::Neighborhood;
+use crate::plan::GridSearch;
+use crate::solve::{Effort, Method};
+use clap::{Arg, Command, ValueEnum};
+
+/// An option with a menu of its own. All others can be typed.
+struct Choice {
+    name: &'static str,
+    label: &'static str,
+    /// Values of an option that takes any number, to choose from, with what they are called; all that the grammar lists
+    /// otherwise.
+    numbers: &'static [(&'static str, &'static str)],
+    /// What holds where the option is not given, if the grammar does not say.
+    standard: fn(Method) -> Option<String>,
+    /// Whether the option is of use to the planner, which may take it and do nothing with it.
+    is_for: fn(Method) -> bool,
+}
+
+const CHOICES: [Choice; 6] = [
+    Choice {
+        name: "gap",
+        label: "proven within",
+        numbers: &[("0.01", "1 %"), ("0.001", "0.1 %"), ("0.0001", "0.01 %")],
+        standard: |_| Some("as it comes".into()),
+        is_for: |_| true,
+    },
+    Choice { name: "metric", label: "short means", numbers: &[], standard: |_| None, is_for: |_| true },
+    Choice {
+        name: "cells",
+        label: "cells",
+        numbers: &[("64", "64"), ("128", "128"), ("256", "256"), ("512", "512"), ("1024", "1024")],
+        standard: cells,
+        is_for: |planner| matches!(planner, Method::Wavefront | Method::Harmonic),
+    },
+    Choice {
+        name: "path",
+        label: "path",
+        numbers: &[],
+        standard: |planner| Some(planner.path_kind().to_string()),
+        is_for: Method::has_own_path,
+    },
+    Choice {
+        name: "search",
+        label: "search",
+        numbers: &[],
+        standard: |_| word(&GridSearch::default()),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "neighbors",
+        label: "neighbours",
+        numbers: &[],
+        standard: |_| Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into()),
+        is_for: |_| true,
+    },
+];
+
+/// Cells of fields are square in joint space unless their number is given.
+fn cells(planner: Method) -> Option<String> {
+    let Effort { cells, square, .. } = Effort::default();
+    let is_square = square && planner == Method::Harmonic;
+    Some(if is_square { format!("{cells}, square") } else { cells.to_string() })
+}
+
+fn word(value: &impl ValueEnum) -> Option<String> {
+    Some(value.to_possible_value()?.get_name().to_owned())
+}
+
+/// Every planner with its menus.
+pub fn planners() -> Vec<PlannerReply> {
+    let grammar = Options::grammar();
+    let menus = |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect();
+    Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
+}
+
+/// The menu of an option: the values that the planner takes. None if it takes none.
+fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
+    let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
+    let name = format!("--{}", choice.name);
+    let standard = (choice.standard)(planner).or_else(|| default_of(argument)).unwrap_or_default();
+    let listed = argument.get_possible_values().into_iter().map(|value| [value.get_name().to_owned(), String::new()]);
+    let numbers = choice.numbers.iter().map(|&(value, text)| [value.to_owned(), text.to_owned()]);
+    let all: Vec<[String; 2]> = if choice.numbers.is_empty() { listed.collect() } else { numbers.collect() };
+    let takes = |value: &str| Options::parse(&format!("{planner} {name} {value}")).is_ok();
+    let values: Vec<[String; 2]> = all
+        .into_iter()
+        .filter(|[value, _]| *value != standard && takes(value))
+        .map(|[value, text]| if text.is_empty() { [value.clone(), value] } else { [value, text] })
+        .collect();
+    ((choice.is_for)(planner) && !values.is_empty()).then(|| OptionReply {
+        name,
+        label: choice.label,
+        standard,
+        values,
+    })
+}
+
+fn default_of(argument: &Arg) -> Option<String> {
+    Some(argument.get_default_values().first()?.to_string_lossy().into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_planner_has_the_options_that_it_takes() {
+        let of = |name: &str| {
+            let planner = planners().into_iter().find(|planner| planner.name == name).unwrap();
+            planner.options.into_iter().map(|option| (option.name, option.standard)).collect::<Vec<_>>()
+        };
+        let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
+        assert_eq!(of("visibility"), pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]));
+        let wavefront = pairs(&[("--cells", "256"), ("--path", "taut"), ("--search", "wave"), ("--neighbors", "4")]);
+        assert_eq!(of("wavefront"), wavefront);
+        assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own")]));
+        assert_eq!(of("subdivision"), pairs(&[("--path", "taut")]));
+    }
+
+    #[test]
+    fn what_holds_without_an_option_is_no_value_beside_it() {
+        for option in planners().into_iter().flat_map(|planner| planner.options) {
+            assert!(!option.values.is_empty(), "{}", option.name);
+            assert!(option.values.iter().all(|[value, _]| *value != option.standard), "{}", option.name);
+        }
+    }
+}

@@ -1,0 +1,199 @@
+"""The live page says certified of what is certified, and what is wrong where it is."""
+
+import pytest
+from live import PLANAR, badge, drag, notices, settled, spot
+
+# Where the shelf goes to lie across the arm's start.
+ON_THE_ARM = [[1.3, 0.24], [0.85, -0.95]]
+
+
+def reds(seen, panel):
+    """How many pixels of a panel are as red as what is barred."""
+    return seen.do(
+        """(panel) => { const { canvas } = cplan.view.panels[panel];
+             const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+             let count = 0;
+             for (let i = 0; i < data.length; i += 4) count += data[i] > 170 && data[i + 1] < 90 && data[i + 2] < 90;
+             return count; }""",
+        panel,
+    )
+
+
+def test_a_blocked_start_is_shown_where_it_is(serve):
+    seen = serve(*PLANAR)
+    before = [reds(seen, panel) for panel in ("workspace", "cspace")]
+    drag(seen, "workspace", *ON_THE_ARM)
+    answer = settled(seen)
+    assert answer["verdict"] is None and not answer["certified"]
+    # Where: the posture, the links that hit something, and what they hit.
+    [blocked] = seen.do("cplan.blocked")
+    assert blocked["at"] == pytest.approx([-0.9, 0.4])
+    assert {(hit["link"], seen.do("cplan.view.world.obstacles.map((o) => o.name)")[hit["obstacle"]]) for hit in blocked["hits"]} <= {(0, "shelf"), (1, "shelf")}
+    deepest = -min(hit["distance"] for hit in blocked["hits"])
+    shown = seen.do("(q) => Geometry.contacts(cplan.view.model.arm, cplan.view.world, q)", blocked["at"])
+    assert deepest == pytest.approx(-shown[0]["distance"], abs=3e-5), "the page's own contact test finds the same depth"
+    after = [reds(seen, panel) for panel in ("workspace", "cspace")]
+    assert after[0] > before[0] + 200 and after[1] > before[1] + 30
+    # In words that need no file.
+    [text] = notices(seen).values()
+    assert text.startswith("The start is blocked: link") and '"shelf"' in text and f"{1e3 * deepest:.3g}"[:3] in text
+    assert "line" not in text and ".toml" not in text and "^" not in text and "joints =" not in text
+    assert badge(seen) == "\u2715 start blocked"
+    # Over the panel that was used, within sight.
+    notice, canvas = (seen.page.locator(where).bounding_box() for where in (".notice.picture", "canvas[aria-label='Workspace']"))
+    assert canvas["y"] <= notice["y"] + 1 and notice["y"] + notice["height"] <= canvas["y"] + canvas["height"]
+    seen.shoot("live-blocked")
+    seen.page.get_by_label("undo").click()
+    assert settled(seen)["certified"]
+    assert notices(seen) == {} and seen.do("cplan.blocked") == [] and "certified" in badge(seen)
+
+
+def test_a_blocked_goal_and_one_out_of_reach_are_told_apart(serve):
+    seen = serve(*PLANAR)
+    # All postures with the tip in the crate are in it.
+    drag(seen, "workspace", seen.do("cplan.editor.tips.goal"), [0.65, -1.45])
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked" and '"crate"' in notices(seen)["picture"]
+    assert len(seen.do("cplan.blocked")) == 2
+    drag(seen, "workspace", [0.65, -1.45], [1.95, 1.6])
+    settled(seen)
+    assert badge(seen) == "\u2715 goal not possible" and "out of reach" in notices(seen)["picture"]
+    assert "line" not in notices(seen)["picture"]
+
+
+def test_a_polygon_that_crosses_itself_is_explained_and_what_was_there_is_not_certified(serve):
+    seen = serve(*PLANAR)
+    seen.page.get_by_label("selected", exact=True).select_option("obstacle 1")
+    corners = seen.do("cplan.scene.obstacles[1].shape.polygon")
+    drag(seen, "workspace", corners[0], [corners[1][0] + 0.1, corners[2][1] - 0.1])
+    answer = settled(seen)
+    assert "not a simple polygon" in answer["error"]
+    assert "crate" in notices(seen)["picture"] and "line" not in notices(seen)["picture"]
+    assert badge(seen) == "\u2715 not planned"
+    seen.page.get_by_label("undo").click()
+    assert settled(seen)["certified"] and notices(seen) == {}
+
+
+def test_wrong_options_are_told_beside_them(serve):
+    seen = serve(*PLANAR)
+    more = seen.page.get_by_label("more options")
+    more.fill("--gap nothing")
+    more.press("Enter")
+    settled(seen)
+    assert list(notices(seen)) == ["options"] and "--gap" in notices(seen)["options"]
+    assert more.get_attribute("aria-invalid") == "true" and "certified" not in badge(seen)
+    field, notice = more.bounding_box(), seen.page.locator(".notice.options").bounding_box()
+    assert 0 <= notice["y"] - field["y"] < 80
+    more.fill("")
+    more.press("Enter")
+    assert settled(seen)["certified"]
+    assert notices(seen) == {} and more.get_attribute("aria-invalid") is None
+
+
+def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):
+    seen = serve(*PLANAR)
+    seen.page.locator(".world summary").click()
+    text = seen.page.get_by_label("world as TOML")
+    text.fill("[start]\njoints = [0.1]\n")
+    seen.page.get_by_role("button", name="take the text for the world").click()
+    seen.until("cplan.answered.error")
+    assert list(notices(seen)) == ["text"] and "line 2" in notices(seen)["text"], "here there are lines"
+    box = seen.page.locator(".notice.text").bounding_box()
+    assert 0 <= box["y"] and box["y"] + box["height"] <= 1000, "in sight"
+    # The world is as it was, and certified.
+    assert "certified" in badge(seen)
+    text.press_sequentially("#")
+    assert notices(seen) == {}
+
+
+def test_an_error_during_a_drag_on_a_phone_is_in_sight(serve):
+    seen = serve(*PLANAR, width=390, height=844)
+    # In the configuration space, which is far below the workspace here.
+    drag(seen, "cspace", [-0.9, 0.4], [0.2, 0.0])
+    settled(seen)
+    box = seen.page.locator(".notice.picture").bounding_box()
+    assert "blocked" in notices(seen)["picture"]
+    assert 0 <= box["y"] and box["y"] + box["height"] <= 844
+    seen.shoot("live-blocked-phone")
+
+
+WATCH = """() => {
+  window.lies = [];
+  const state = () => { const { scene } = cplan; return JSON.stringify([scene.obstacles, scene.start, scene.goal, scene.clearance, cplan.words]); };
+  const told = new Map();
+  const send = cplan.link.send.bind(cplan.link);
+  cplan.link.send = (kind, request, about) => { if (kind === 'plan') told.set(request.id, state()); send(kind, request, about); };
+  let certified = state();
+  const hear = cplan.hear.bind(cplan);
+  cplan.hear = (message, about) => {
+    if (message.kind === 'answer' && message.done) certified = message.certified && message.final && !message.error ? told.get(message.id) : null;
+    hear(message, about);
+  };
+  const look = () => {
+    const text = document.querySelector('p.status').textContent;
+    if (/certified/.test(text) && state() !== certified) lies.push(text);
+  };
+  new MutationObserver(look).observe(document.querySelector('main'), { subtree: true, childList: true, characterData: true, attributes: true });
+  const frame = () => { look(); requestAnimationFrame(frame); };
+  frame();
+}"""
+
+
+def test_the_badge_never_says_certified_of_what_is_not(serve):
+    """Holds the badge against the page's world and the last answer, with every change of the page and every picture."""
+    seen = serve(*PLANAR)
+    seen.do(WATCH)
+    drag(seen, "workspace", [0.7, -1.5], [1.15, -0.75], steps=30)
+    seen.page.get_by_label("planner", exact=True).select_option("wavefront")
+    settled(seen)
+    drag(seen, "workspace", *ON_THE_ARM, steps=30)
+    settled(seen)
+    seen.page.get_by_label("undo").click()
+    seen.page.get_by_label("undo").click()
+    seen.page.get_by_label("redo").click()
+    seen.page.get_by_label("clearance in millimetres").fill("40")
+    seen.page.keyboard.press("Enter")
+    seen.page.get_by_label("more options").fill("--gap x")
+    seen.page.keyboard.press("Enter")
+    settled(seen)
+    seen.page.get_by_label("more options").fill("")
+    seen.page.keyboard.press("Enter")
+    settled(seen)
+    assert seen.do("lies") == []
+
+
+def test_what_is_awaited_is_not_certified(serve):
+    seen = serve(*PLANAR)
+    assert "certified" in badge(seen)
+    seen.server.pause()
+    try:
+        drag(seen, "workspace", [0.7, -1.5], [0.8, -1.4])
+        assert badge(seen) == "\u2026 planning\u2026"
+        seen.page.wait_for_timeout(600)
+        assert badge(seen) == "\u2026 planning\u2026" and "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
+        # Facts of the plan before are not those of this world.
+        assert not seen.page.locator(".facts").is_visible() and not seen.page.locator(".lines").is_visible()
+    finally:
+        seen.server.go_on()
+    assert settled(seen)["certified"] and "certified" in badge(seen)
+
+
+def test_delete_works_after_something_was_added(serve):
+    seen = serve(*PLANAR)
+    names = "cplan.scene.obstacles.map(({ name }) => name)"
+    for button, name in [("add a thin wall", "wall 1"), ("add a polygon", "block 1"), ("add a circle", "disc 1")]:
+        seen.page.get_by_role("button", name=button).click()
+        assert seen.do(names) == ["shelf", "crate", name]
+        seen.page.keyboard.press("Delete")
+        assert settled(seen)["certified"] and seen.do(names) == ["shelf", "crate"]
+    # Nor does it matter where the focus is.
+    seen.page.get_by_role("button", name="add a thin wall").click()
+    seen.page.get_by_label("speed").focus()
+    seen.page.keyboard.press("Delete")
+    assert seen.do(names) == ["shelf", "crate"]
+    # But in a field it deletes what is in the field.
+    seen.page.get_by_role("button", name="add a thin wall").click()
+    seen.page.get_by_label("clearance in millimetres").focus()
+    seen.page.keyboard.press("Delete")
+    assert seen.do(names) == ["shelf", "crate", "wall 1"]
+    settled(seen)

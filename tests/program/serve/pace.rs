@@ -1,0 +1,125 @@
+//! The page follows what is dragged, however many obstacles there are.
+
+use super::client::Page;
+use super::server::Server;
+use serde_json::{Value, json};
+use std::time::{Duration, Instant};
+
+const WORLD: &str = "workspaces/shelf.toml";
+
+/// Obstacles of the crowd.
+const MANY: usize = 300;
+
+/// Answers a second that a page gets while something is dragged.
+const WANTED: usize = 10;
+
+/// Seconds that are tried: a busy machine may lose one or the other.
+const TRIES: usize = 8;
+
+const START: [f64; 2] = [-0.9, 0.4];
+const GOAL: [f64; 2] = [1.55, -0.35];
+
+/// Small pentagons all over the reach of `planar_2r`, but for where the arm is at its start and goal.
+fn crowd() -> Vec<Vec<[f64; 2]>> {
+    let links = |[q1, q2]: [f64; 2]| {
+        let elbow = [q1.cos(), q1.sin()];
+        let tip = [elbow[0] + 0.8 * (q1 + q2).cos(), elbow[1] + 0.8 * (q1 + q2).sin()];
+        [[[0.0, 0.0], elbow], [elbow, tip]]
+    };
+    let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
+        let (d, e) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+        let t = ((e[0] * d[0] + e[1] * d[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
+        (e[0] - t * d[0]).hypot(e[1] - t * d[1])
+    };
+    let place = |k: usize| {
+        // The golden angle spreads them evenly.
+        let (radius, angle) = (1.3 + 0.6 * (k as f64 * 0.754_877).fract(), k as f64 * 2.399_963);
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    let is_apart = |p: &[f64; 2]| [START, GOAL].into_iter().flat_map(links).all(|link| distance(*p, link) > 0.14);
+    let corner = |[x, y]: [f64; 2], i: usize| {
+        let angle = i as f64 * std::f64::consts::TAU / 5.0;
+        [x + 0.01 * angle.cos(), y + 0.01 * angle.sin()]
+    };
+    (0..).map(place).filter(is_apart).take(MANY).map(|p| (0..5).map(|i| corner(p, i)).collect()).collect()
+}
+
+fn text(crowd: &[Vec<[f64; 2]>]) -> String {
+    let obstacles: String =
+        crowd.iter().map(|corners| format!("[[obstacle]]\npolygon = {}\n", json!(corners))).collect();
+    format!("[start]\njoints = {START:?}\n[goal]\njoints = {GOAL:?}\n{obstacles}")
+}
+
+/// The state in which the first obstacle has been dragged by so much.
+fn dragged(crowd: &[Vec<[f64; 2]>], by: f64) -> Value {
+    let piece = |(k, corners): (usize, &Vec<[f64; 2]>)| {
+        let by = if k == 0 { by } else { 0.0 };
+        let corners: Vec<_> = corners.iter().map(|[x, y]| [x + by, y + by]).collect();
+        json!({ "from": k, "polygon": corners })
+    };
+    json!({
+        "obstacles": crowd.iter().enumerate().map(piece).collect::<Vec<_>>(),
+        "start": { "joints": START },
+        "goal": { "joints": GOAL },
+        "clearance": 0.0,
+    })
+}
+
+#[test]
+fn three_hundred_obstacles_are_followed_ten_times_a_second() {
+    let server = Server::planar(WORLD, &[]);
+    let mut page = Page::open(&server);
+    let crowd = crowd();
+    let answer = page.load(&text(&crowd));
+    assert!(answer["verdict"].is_string(), "{answer}");
+    let mut counts = Vec::new();
+    let mut step = 0;
+    while counts.len() < TRIES && counts.iter().all(|&count| count < WANTED) {
+        let begun = Instant::now();
+        let mut count = 0;
+        while begun.elapsed() < Duration::from_secs(1) {
+            step += 1;
+            // As the page does: the next place when there is an answer.
+            let by = 1e-4 * f64::from(step);
+            let id = page.post(Some(dragged(&crowd, by)), false, "visibility");
+            let answer = page.answer(id);
+            let world = &answer["view"]["worlds"][0];
+            let seen = world["obstacles"][0]["outline"]["polygon"][0].as_f64().unwrap();
+            assert!((seen - crowd[0][0][0] - by).abs() < 1e-4, "the obstacle is where it was dragged to");
+            assert!(world["c_obstacles"].as_array().unwrap().len() >= MANY / 2, "with the configuration space");
+            assert!(answer["certified"] == false || !answer["view"]["paths"].as_array().unwrap().is_empty());
+            count += 1;
+        }
+        counts.push(count);
+    }
+    println!("answers in each second: {counts:?}");
+    assert!(counts.last().is_some_and(|&count| count >= WANTED), "{counts:?}");
+}
+
+#[test]
+fn what_is_kept_from_one_answer_to_the_next_changes_nothing() {
+    let server = Server::planar(WORLD, &[]);
+    let mut page = Page::open(&server);
+    let crowd = crowd()[..40].to_vec();
+    page.load(&text(&crowd));
+    let drop = |state: &mut Value, k: usize| state["obstacles"].as_array_mut().unwrap().remove(k);
+    let mut steps = vec![dragged(&crowd, 0.01), dragged(&crowd, 0.02)];
+    // Fewer, in another order, the same again, and with another distance to keep.
+    let mut fewer = dragged(&crowd, 0.03);
+    drop(&mut fewer, 17);
+    let first = drop(&mut fewer, 0);
+    steps.push(fewer.clone());
+    fewer["obstacles"].as_array_mut().unwrap().push(first);
+    steps.push(fewer.clone());
+    steps.push(dragged(&crowd, 0.02));
+    fewer["clearance"] = json!(0.002);
+    steps.push(fewer);
+    for (k, state) in steps.into_iter().enumerate() {
+        page.post(Some(state.clone()), false, "visibility");
+        let kept = page.plan(Some(state.clone()), "visibility");
+        // A page that knows nothing but the text.
+        let mut other = Page::open(&server);
+        let anew = other.load(kept["toml"].as_str().unwrap());
+        assert!(kept["view"].is_object() && kept["view"] == anew["view"], "step {k}");
+    }
+}
