@@ -25,8 +25,8 @@ const DRAG_TIME: Duration = Duration::from_millis(60);
 /// Places on the way for which no plan is tried, after one that was not made in time.
 const UNTRIED: u32 = 7;
 
-/// Time for the obstacles alone, once the time for a plan is up.
-const SHOW_TIME: Duration = Duration::from_secs(5);
+/// Time for the obstacles alone, once the time for a plan is up: as much again, but no less and no more than this.
+const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
 /// Bisections towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
@@ -154,8 +154,8 @@ impl<'a> Desk<'a> {
         };
         let source = self.host.world.with_text(text.as_str());
         let limited = interrupt.clone().by(begun + self.host.time);
-        // What is shown in place of an answer must not take longer than that did.
-        let showing = interrupt.clone().by(begun + self.host.time + self.host.time.min(SHOW_TIME));
+        // What is shown in place of an answer must not take much longer than that did.
+        let showing = interrupt.clone().by(begun + self.host.time + self.host.time.clamp(SHOW_TIME[0], SHOW_TIME[1]));
         let late = || Ok(late(self.host.time));
         let loaded = match limited.run(|| self.scene.edited(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
@@ -218,7 +218,8 @@ impl<'a> Desk<'a> {
         }
         match limited.run(|| result::bare(scene, ends, "planning", &self.contours)) {
             Ok(shown) => tell(places(shown)),
-            Err(stopped) => return Ok(AnswerReply { toml, ..places(or_late(stopped, late)?) }),
+            Err(Interrupted::TimeUp) => {}
+            Err(Interrupted::Set) => return Err(Interrupted::Set),
         }
         match limited.run(|| Found::in_full(&problem, &options, &effort).answer(&self.contours)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..places(answer) }),

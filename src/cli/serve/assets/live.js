@@ -444,9 +444,17 @@ class Live {
     this.mark();
   }
 
-  /** Back to what the program was started with. */
+  /** Back to what the program was started with: a step like any other, unless another text has been loaded. */
   reset() {
-    this.load(this.first.toml);
+    this.remark('');
+    if (this.world.toml !== this.first.toml) {
+      this.load(this.first.toml);
+      return;
+    }
+    this.scene.reset();
+    this.controls.showClearance(this.scene);
+    this.editor.select(null);
+    this.changed(true);
   }
 
   save(format) {

@@ -40,6 +40,11 @@ class Scene {
     return this.kept !== this.first;
   }
 
+  /** As the text has it. */
+  reset() {
+    Object.assign(this, JSON.parse(this.first));
+  }
+
   /** Takes note of what the user has stopped at. Whether it differs from what was there before. */
   settle() {
     const now = this.snapshot();
