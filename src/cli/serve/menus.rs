@@ -94,7 +94,7 @@ fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionRep
         .filter(|[value, _]| *value != standard && takes(value))
         .map(|[value, text]| if text.is_empty() { [value.clone(), value] } else { [value, text] })
         .collect();
-    ((choice.is_for)(planner) && !values.is_empty()).then(|| OptionReply {
+    ((choice.is_for)(planner) && !values.is_empty()).then_some(OptionReply {
         name,
         label: choice.label,
         standard,
