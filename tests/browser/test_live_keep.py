@@ -67,7 +67,7 @@ def test_edits_made_while_the_server_is_gone_are_sent_when_it_is_back(serve):
     assert badge(seen) == "? no connection"
     seen.shoot("live-lost")
     seen.server.start_again()
-    seen.until("cplan.isUp")
+    seen.until("cplan.isUp && cplan.isCurrent")
     assert settled(seen)["certified"] and "certified" in badge(seen)
     assert not lost.is_visible() and crate(seen) == moved and path(seen) != first
     assert seen.do("cplan.view.world.obstacles.map(({ name }) => name)") == ["shelf", "crate", "wall 1"]
@@ -107,14 +107,14 @@ def test_another_world_at_the_same_address_is_shown_as_it_is(serve):
     seen.server.stop()
     seen.until("!cplan.isUp")
     seen.server.start_again(ROOT / "robots/scara.urdf", ROOT / "workspaces/scara_tray.toml")
-    seen.until("cplan.isUp")
+    seen.until("cplan.isUp && cplan.isCurrent")
     settled(seen)
     assert "scara" in seen.page.locator("h1").inner_text()
     assert "other world" in seen.page.locator(".remark").inner_text()
     seen.server.stop()
     seen.until("!cplan.isUp")
     seen.server.start_again(*PLANAR)
-    seen.until("cplan.isUp")
+    seen.until("cplan.isUp && cplan.isCurrent")
     settled(seen)
     assert crate(seen) == moved, "kept for this world"
     del seen.complaints[complaints:]
