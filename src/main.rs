@@ -1,17 +1,17 @@
 //! The `cplan` program.
 
 use cplan::cli::MemoryMeter;
-use peak_alloc::PeakAlloc;
+use peakmem_alloc::{PeakMemAlloc, PeakMemAllocTrait};
+use std::alloc::System;
 use std::process::ExitCode;
 
 /// Counts what is allocated, for `cplan compare`.
 #[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+static ALLOCATOR: PeakMemAlloc<System> = PeakMemAlloc::system();
 
 fn main() -> ExitCode {
     cplan::cli::run(Some(MemoryMeter {
-        current: || ALLOCATOR.current_usage(),
-        peak: || ALLOCATOR.peak_usage(),
-        restart: || ALLOCATOR.reset_peak_usage(),
+        peak: || ALLOCATOR.get_peak_memory(),
+        restart: || ALLOCATOR.reset_peak_memory(),
     }))
 }

@@ -3,11 +3,9 @@
 /// What counts the bytes that the process has allocated: the program's allocator, which a library cannot choose.
 #[derive(Debug, Clone, Copy)]
 pub struct MemoryMeter {
-    /// Bytes that are allocated now.
-    pub current: fn() -> usize,
-    /// Bytes that were allocated at the same time since the last restart, at the most.
+    /// Bytes that were allocated at the same time, beyond those at the last restart, at the most.
     pub peak: fn() -> usize,
-    /// Forgets the peak: it is what is allocated now.
+    /// Begins to count at what is allocated now.
     pub restart: fn(),
 }
 
@@ -16,8 +14,7 @@ impl MemoryMeter {
     /// other threads allocate meanwhile counts, too.
     pub fn measure<T>(&self, work: impl FnOnce() -> T) -> (T, u64) {
         (self.restart)();
-        let before = (self.current)();
         let result = work();
-        (result, (self.peak)().saturating_sub(before) as u64)
+        (result, (self.peak)() as u64)
     }
 }
