@@ -1,21 +1,22 @@
 //! Do two convex polygons meet, and how deep? `cargo run --example predicates`
 
-use cplan::geometry::{Convex, Point, penetration_depth, point_penetration, polygon_test};
+use cplan::geometry::{Convex, ConvexDefect, Point, penetration_depth, point_penetration, polygon_test};
 
 /// An axis-parallel rectangle.
-fn rectangle(x: [f64; 2], y: [f64; 2]) -> Vec<Point> {
-    vec![Point::new(x[0], y[0]), Point::new(x[1], y[0]), Point::new(x[1], y[1]), Point::new(x[0], y[1])]
+fn rectangle(x: [f64; 2], y: [f64; 2]) -> Result<Convex, ConvexDefect> {
+    let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, k)| Point::new(x[i], y[k]));
+    Convex::new(corners.to_vec(), 0.0)
 }
 
-fn main() {
-    let bar = rectangle([-3.0, 3.0], [-0.5, 0.5]);
-    let wall = vec![Point::new(0.0, -2.0), Point::new(0.0, 2.0)];
+fn main() -> Result<(), ConvexDefect> {
+    let bar = rectangle([-3.0, 3.0], [-0.5, 0.5])?;
+    let wall = Convex::segment(Point::new(0.0, -2.0), Point::new(0.0, 2.0))?;
     let cases = [
-        ("crossing bars", rectangle([-0.5, 0.5], [-3.0, 3.0])),
-        ("a corner inside", rectangle([2.0, 4.0], [0.25, 2.0])),
-        ("touching along a side", rectangle([3.0, 4.0], [-0.5, 0.5])),
-        ("touching in a corner", rectangle([3.0, 4.0], [0.5, 2.0])),
-        ("apart by one rounding step", rectangle([3f64.next_up(), 4.0], [-0.5, 0.5])),
+        ("crossing bars", rectangle([-0.5, 0.5], [-3.0, 3.0])?),
+        ("a corner inside", rectangle([2.0, 4.0], [0.25, 2.0])?),
+        ("touching along a side", rectangle([3.0, 4.0], [-0.5, 0.5])?),
+        ("touching in a corner", rectangle([3.0, 4.0], [0.5, 2.0])?),
+        ("apart by one rounding step", rectangle([3f64.next_up(), 4.0], [-0.5, 0.5])?),
         ("a wall without thickness", wall),
     ];
 
@@ -26,7 +27,7 @@ fn main() {
     );
     for (name, other) in cases {
         let test = polygon_test(&bar, &other);
-        let depth = penetration_depth(&Convex::new(bar.clone(), 0.0), &Convex::new(other, 0.0));
+        let depth = penetration_depth(&bar, &other);
         println!(
             "{name:28}{:>6}{:>16}{:>16}{:>11}{depth:>10.1e}",
             if test.meet { "yes" } else { "no" },
@@ -41,4 +42,5 @@ fn main() {
         let found = point_penetration(point, &bar);
         println!("({}, {}): {:?}, depth {} m", point.x, point.y, found.location, found.depth);
     }
+    Ok(())
 }

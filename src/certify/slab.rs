@@ -299,7 +299,7 @@ mod tests {
         let points = prop::collection::vec((-spread..spread, -spread..spread), 1..6);
         (points, prop_oneof![Just(0.0), 0.0..0.2f64]).prop_map(|(points, radius)| {
             let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
-            Convex::new(hull(&points), radius)
+            Convex::trusted(hull(&points), radius)
         })
     }
 
@@ -347,7 +347,7 @@ mod tests {
             samples in prop::collection::vec((-1.0..=1.0f64, 0.0..=1.0f64), 40),
         ) {
             let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
-            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::new(moved, piece.radius()));
+            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::trusted(moved, piece.radius()));
             let mut second = SecondLink::new(&scene, clearance);
             let mut verdicts = Verdicts::default();
             let (from, to) = (middle - half, middle + half);

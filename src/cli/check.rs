@@ -148,7 +148,7 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
     let (a, b) = (part.core(), piece.core());
     // Corners and sides are those of polygons; of rounded shapes the depth says it all.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
-    let test = sharp.then(|| polygon_test(a, b));
+    let test = sharp.then(|| polygon_test(&part, piece));
     let inside = |corners: &[Point], found: &[CornerInside]| {
         found.iter().map(|c| CornerFinding { at: pair(corners[c.corner]), depth: c.depth }).collect()
     };

@@ -50,7 +50,7 @@ fn around(shape: &Convex, within: f64) -> Convex {
     if core.len() <= PLAIN {
         return shape.clone();
     }
-    Convex::new(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())
+    Convex::trusted(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())
 }
 
 /// The sides of a strictly convex polygon that are kept, drawn out; none if too few would be left.
@@ -106,7 +106,7 @@ fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
 fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     let polygon = SimplePolygon::new(corners.to_vec()).ok()?;
     if polygon.is_convex() {
-        return around_convex(&strictly_convex(corners), within).map(|core| vec![Convex::new(core, 0.0)]);
+        return around_convex(&strictly_convex(corners), within).map(|core| vec![Convex::trusted(core, 0.0)]);
     }
     let closed: Vec<Point> = corners.iter().chain([&corners[0]]).copied().collect();
     (0..ATTEMPTS).find_map(|attempt| {
@@ -126,7 +126,7 @@ fn strictly_convex(corners: &[Point]) -> Vec<Point> {
 /// Convex pieces around a polyline, none farther than `within` from it.
 fn around_polyline(points: &[Point], within: f64) -> Vec<Convex> {
     let piece =
-        |run: &[Point]| if run.len() > 2 { rectangle(run) } else { Convex::segment(run[0], run[run.len() - 1]) };
+        |run: &[Point]| if run.len() > 2 { rectangle(run) } else { Convex::between(run[0], run[run.len() - 1]) };
     straight_runs(points, within).into_iter().map(piece).collect()
 }
 
@@ -177,5 +177,5 @@ fn rectangle(run: &[Point]) -> Convex {
     };
     let ((left, right), (low, high)) = (extent(along), extent(across));
     let corners = [(left, low), (right, low), (right, high), (left, high)];
-    Convex::new(corners.map(|(x, y)| a + along * x + across * y).to_vec(), 0.0)
+    Convex::trusted(corners.map(|(x, y)| a + along * x + across * y).to_vec(), 0.0)
 }

@@ -239,7 +239,7 @@ mod tests {
     fn shape() -> impl Strategy<Value = Convex> {
         (prop::collection::vec((-0.5..0.5f64, -0.5..0.5f64), 1..6), 0.0..0.2f64).prop_map(|(points, radius)| {
             let points: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
-            Convex::new(hull(&points), radius)
+            Convex::trusted(hull(&points), radius)
         })
     }
 
@@ -287,7 +287,7 @@ mod tests {
                 jerk: None,
             };
             let core = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
-            let piece = Convex::new(core, piece.radius());
+            let piece = Convex::trusted(core, piece.radius());
             let arm = arm(motions.map(joint), Vector::new(0.7, 0.1));
             let turns = motions[1].is_revolute();
             let row = |q1: f64| {

@@ -89,8 +89,8 @@ mod tests {
         ];
         for core in cores {
             let polygon = tangent_polygon(&core, 0.2, 0.21);
-            let shape = Convex::new(core, 0.0);
-            let distance = |p: Point| separation(&shape, &Convex::disc(p, 0.0)).distance;
+            let shape = Convex::trusted(core, 0.0);
+            let distance = |p: Point| separation(&shape, &Convex::point(p)).distance;
             for (i, &a) in polygon.iter().enumerate() {
                 let b = polygon[(i + 1) % polygon.len()];
                 assert!(distance(a) <= 0.21 + 1e-12);

@@ -92,7 +92,7 @@ mod tests {
         let frame = Frame::filling(area, (-2.0, 2.0), (-2.0, 2.0));
         let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|c| Point::new(c.0, c.1));
         for (n, r) in [(1, 0.5), (2, 0.3), (3, 0.2), (4, 0.0), (4, 0.4)] {
-            let shape = Convex::new(square[..n].to_vec(), r);
+            let shape = Convex::trusted(square[..n].to_vec(), r);
             let (mut twice, mut at, mut arcs) = (0.0, [0.0; 2], 0.0);
             let mut line = |from: [f64; 2], to: [f64; 2]| twice += from[0] * to[1] - from[1] * to[0];
             for step in outline(&frame, &shape) {

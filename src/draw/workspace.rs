@@ -80,11 +80,11 @@ fn reach_shape(arm: &Arm) -> Convex {
         const FINE: usize = 720;
         let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
         let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
-        return Convex::disc(arm.base, (0..=FINE).map(distance).fold(0.0, f64::max));
+        return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
     }
     match arm.joints[1].motion {
         Motion::Revolute { .. } => {
-            Convex::new(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
+            Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
         }
         Motion::Prismatic { .. } => {
             let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));
@@ -93,7 +93,7 @@ fn reach_shape(arm: &Arm) -> Convex {
             if cross(corners[1] - corners[0], corners[2] - corners[1]) < 0.0 {
                 corners.reverse();
             }
-            Convex::new(corners, 0.0)
+            Convex::trusted(corners, 0.0)
         }
     }
 }

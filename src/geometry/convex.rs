@@ -55,7 +55,7 @@ impl Convex {
     /// # Errors
     /// When the corners are none of that, are none at all or not finite, or the radius is negative or not finite. Corners in
     /// any order go through [`super::hull`] first.
-    pub fn try_new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexDefect> {
+    pub fn new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexDefect> {
         if core.is_empty() {
             return Err(ConvexDefect::NoCorner);
         }
@@ -84,24 +84,41 @@ impl Convex {
         }
     }
 
-    /// The same without a look, for corners that are known to be right, or were computed: rounding may have bent them by a hair.
-    /// [`Convex::try_new`] is for all others; this one checks in debug builds alone, that there are corners and a radius.
-    #[must_use]
-    pub fn new(core: Vec<Point>, radius: f64) -> Self {
-        debug_assert!(!core.is_empty() && radius >= 0.0 && radius.is_finite());
-        Self { core, radius }
-    }
-
     /// A disc; with radius 0 a point.
-    #[must_use]
-    pub fn disc(center: Point, radius: f64) -> Self {
+    ///
+    /// # Errors
+    /// When a number is not finite, or the radius negative.
+    pub fn disc(center: Point, radius: f64) -> Result<Self, ConvexDefect> {
         Self::new(vec![center], radius)
     }
 
     /// A thin wall from `a` to `b`: no area, still solid. A point if `a` and `b` coincide.
-    #[must_use]
-    pub fn segment(a: Point, b: Point) -> Self {
+    ///
+    /// # Errors
+    /// When a coordinate is not finite.
+    pub fn segment(a: Point, b: Point) -> Result<Self, ConvexDefect> {
         Self::new(if a == b { vec![a] } else { vec![a, b] }, 0.0)
+    }
+
+    /// A shape from corners that are known to be right, or were computed: rounding may have bent them by a hair, which
+    /// [`Convex::new`] would refuse.
+    #[must_use]
+    pub(crate) fn trusted(core: Vec<Point>, radius: f64) -> Self {
+        debug_assert!(!core.is_empty() && radius >= 0.0 && radius.is_finite());
+        debug_assert!(core.iter().all(|p| p.x.is_finite() && p.y.is_finite()), "{core:?}");
+        Self { core, radius }
+    }
+
+    /// [`Convex::segment`] of points that are known to be finite.
+    #[must_use]
+    pub(crate) fn between(a: Point, b: Point) -> Self {
+        Self::trusted(if a == b { vec![a] } else { vec![a, b] }, 0.0)
+    }
+
+    /// A point that is known to be finite.
+    #[must_use]
+    pub(crate) fn point(p: Point) -> Self {
+        Self::trusted(vec![p], 0.0)
     }
 
     /// Corners of the core, counter-clockwise.
@@ -129,13 +146,16 @@ impl Convex {
     }
 
     /// The differences `q - p` of the points `q` of this shape and `p` of `other`: the translations that make `other`
-    /// meet this shape, its *C-obstacle*. See [`super::minkowski_difference`]; the radii add up, exactly.
+    /// meet this shape, its *C-obstacle*. The radii add up, exactly, and the cores' difference is counter-clockwise from its
+    /// lowest (of these the leftmost) corner, each coordinate one difference of the cores' coordinates, rounded once. By one
+    /// sweep over the directions of the sides (T. Lozano-Perez, *Spatial Planning: A Configuration Space Approach*, 1983):
+    /// `O(n + m)`, at most `n + m` corners.
     #[must_use]
     pub fn minkowski_difference(&self, other: &Self) -> Self {
-        Self::new(super::minkowski_difference(&self.core, &other.core), self.radius + other.radius)
+        Self::trusted(super::minkowski_difference(&self.core, &other.core), self.radius + other.radius)
     }
 
-    /// The shape moved by `pose`.
+    /// The shape moved by `pose`, up to rounding.
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
         Self { core: self.core.iter().map(|p| pose * p).collect(), radius: self.radius }

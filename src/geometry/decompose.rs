@@ -61,13 +61,13 @@ fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
         for cap in 0..caps {
             let mut corners = ring[at(cap)..at(cap + 1)].to_vec();
             corners.push(ring[at(cap + 1) % n]);
-            out.push(Convex::new(corners, radius));
+            out.push(Convex::trusted(corners, radius));
         }
         ring = (0..caps).map(|cap| ring[at(cap)]).collect();
     }
     // Of two caps nothing is left but the diagonal between them.
     if ring.len() > 2 {
-        out.push(Convex::new(ring, radius));
+        out.push(Convex::trusted(ring, radius));
     }
 }
 

@@ -9,9 +9,9 @@ impl Convex {
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {
-            return Some(Self::new(self.core().to_vec(), self.radius() - distance));
+            return Some(self.grown(-distance));
         }
-        inset(self.core(), distance - self.radius()).map(|core| Self::new(core, 0.0))
+        inset(self.core(), distance - self.radius()).map(|core| Self::trusted(core, 0.0))
     }
 
     /// A lower bound of the greatest distance by which this shape can be eroded: how deep the mean of the corners lies.
@@ -45,21 +45,23 @@ mod tests {
             by in 0.0..0.6f64, at in (-1.0..1.0f64, -1.0..1.0f64),
         ) {
             let corners: Vec<Point> = points.into_iter().map(|(x, y)| Point::new(x, y)).collect();
-            let shape = Convex::new(hull(&corners), radius);
+            let shape = Convex::trusted(hull(&corners), radius);
             let eroded = shape.eroded(by);
             prop_assert!(by > shape.depth() || eroded.is_some());
             let point = Point::from(Vector::new(at.0, at.1));
             // Depth of the point: how far the shape must move to leave it behind.
-            let depth = -separation(&shape, &Convex::disc(point, 0.0)).distance;
-            let inside = eroded.is_some_and(|e| separation(&e, &Convex::disc(point, 0.0)).distance <= 0.0);
+            let depth = -separation(&shape, &Convex::point(point)).distance;
+            let inside = eroded.is_some_and(|e| separation(&e, &Convex::point(point)).distance <= 0.0);
             prop_assert!((depth - by).abs() < 1e-9 || inside == (depth >= by), "{depth} {by}");
         }
     }
 
     #[test]
     fn what_is_too_thin_leaves_nothing() {
-        let bar =
-            Convex::new(vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)], 0.0);
+        let bar = Convex::trusted(
+            vec![Point::new(0., 0.), Point::new(1., 0.), Point::new(1., 0.1), Point::new(0., 0.1)],
+            0.0,
+        );
         let left = bar.eroded(0.049).unwrap();
         for corner in [(0.049, 0.049), (0.951, 0.049), (0.951, 0.051), (0.049, 0.051)] {
             let is_there = |p: &Point| (p.x - corner.0).abs() < 1e-12 && (p.y - corner.1).abs() < 1e-12;
@@ -67,8 +69,8 @@ mod tests {
         }
         assert_eq!((left.core().len(), left.radius()), (4, 0.0));
         assert!(bar.eroded(0.051).is_none());
-        assert!(Convex::segment(Point::new(0., 0.), Point::new(1., 0.)).eroded(1e-9).is_none());
-        assert_eq!(Convex::disc(Point::origin(), 0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
-        assert!(Convex::disc(Point::origin(), 0.3).eroded(0.31).is_none());
+        assert!(Convex::trusted(vec![Point::new(0., 0.), Point::new(1., 0.)], 0.0).eroded(1e-9).is_none());
+        assert_eq!(Convex::point(Point::origin()).grown(0.3).eroded(0.1).unwrap().radius(), 0.3 - 0.1);
+        assert!(Convex::point(Point::origin()).grown(0.3).eroded(0.31).is_none());
     }
 }

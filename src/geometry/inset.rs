@@ -6,7 +6,7 @@ use super::{Point, Vector, hull, perpendicular};
 ///
 /// The polygon is counter-clockwise. What it leaves can be moved by up to `by` in any direction and stays in the polygon.
 #[must_use]
-pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
+pub(crate) fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     let mut left = polygon.to_vec();
     for (i, &a) in polygon.iter().enumerate() {
         let b = polygon[(i + 1) % polygon.len()];
@@ -19,7 +19,7 @@ pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
 
 /// The part of a convex polygon (or segment, or point) where `normal . p >= offset`. `O(n)`.
 #[must_use]
-pub fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
+fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
     let n = polygon.len();
     let height = |p: Point| normal.dot(&p.coords) - offset;
     let mut left = Vec::with_capacity(n + 1);
@@ -39,7 +39,7 @@ pub fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
 /// The common points of a convex polygon (or segment, or point) and a convex polygon with area, as a polygon that may
 /// repeat corners; empty if there are none. `O(n m)`.
 #[must_use]
-pub fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
+pub(crate) fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
     let mut left = polygon.to_vec();
     for (i, &a) in with.iter().enumerate() {
         let normal = perpendicular(with[(i + 1) % with.len()] - a);
@@ -51,7 +51,7 @@ pub fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::point_penetration;
+    use crate::geometry::penetration::core_penetration;
     use proptest::prelude::*;
 
     fn points(list: &[(f64, f64)]) -> Vec<Point> {
@@ -86,10 +86,10 @@ mod tests {
             let polygon = hull(&points(&corners));
             prop_assume!(polygon.len() > 2);
             let p = Point::new(at.0, at.1);
-            let depth = point_penetration(p, &polygon).depth;
+            let depth = core_penetration(p, &polygon).depth;
             prop_assume!((depth - by).abs() > 1e-9);
             let left = inset(&polygon, by);
-            let inside = left.is_some_and(|left| point_penetration(p, &left).depth >= 0.0);
+            let inside = left.is_some_and(|left| core_penetration(p, &left).depth >= 0.0);
             prop_assert_eq!(inside, depth > by);
         }
     }

@@ -15,7 +15,7 @@ use super::{Convex, Orientation, Point, Vector};
 /// of input coordinates, rounded once. Segments and points count as polygons of two corners and of one; the result is
 /// empty if either is.
 #[must_use]
-pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
+pub(crate) fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let (Some(mut plus), Some(mut minus)) = (Sweep::new(b, false), Sweep::new(a, true)) else { return Vec::new() };
     let mut corners = Vec::with_capacity(b.len() + a.len());
     loop {

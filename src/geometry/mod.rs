@@ -28,10 +28,11 @@ pub use box_tree::{Bounds, BoxTree};
 pub use convex::{Convex, ConvexDefect};
 pub use decompose::{MOST_CORNERS, decompose};
 pub use hull::hull;
-pub use inset::{clip, common, inset};
+pub(crate) use inset::{common, inset};
 pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
-pub use minkowski::{minkowski_difference, penetration_depth};
+pub(crate) use minkowski::minkowski_difference;
+pub use minkowski::penetration_depth;
 pub use ordered::Ordered;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,

@@ -6,7 +6,7 @@
 
 use super::meet::sides;
 use super::predicates::{determinant, point_on_segment, segments_cross};
-use super::{Point, Vector};
+use super::{Convex, Point, Vector};
 
 /// Signed distance of `p` to the line directed from `a` to `b`, metres: positive on the left. NaN if `a == b`.
 ///
@@ -43,12 +43,15 @@ pub struct PointPenetration {
     pub location: Location,
 }
 
-/// Penetration of `point` in a convex counter-clockwise polygon. `O(n)`.
-///
-/// The polygon may be a segment or a point, and may have corners within its sides and corners that coincide (the
-/// distance to a side without length is NaN, and counts for nothing).
+/// Penetration of `point` in the core of a shape: a convex polygon, a segment or a point. The radius does not count. `O(n)`.
 #[must_use]
-pub fn point_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
+pub fn point_penetration(point: Point, shape: &Convex) -> PointPenetration {
+    core_penetration(point, shape.core())
+}
+
+/// Penetration of `point` in a convex counter-clockwise polygon, which may be a segment, a point or nothing, and may have
+/// corners that coincide (the distance to a side without length is NaN, and counts for nothing).
+pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
     let n = polygon.len();
     if polygon.iter().all(|c| *c == polygon[0]) {
         let distance = polygon.first().map_or(f64::INFINITY, |c| (point - c).norm());
@@ -94,12 +97,14 @@ pub struct PolygonTest {
     pub crossings: Vec<(usize, usize)>,
 }
 
-/// The polygon penetration test: corners of each of two convex polygons inside the other, and sides that cross.
+/// The polygon penetration test of the cores of two shapes: corners of each inside the other, and sides that cross. The
+/// radii do not count.
 ///
-/// The polygons are counter-clockwise and may be segments or points. Complete: where two convex polygons meet without
+/// The cores may be segments or points. Complete: where two convex polygons meet without
 /// a corner of either in the other, their boundaries cross, and none of the crossings is at a corner. `O(n m)`.
 #[must_use]
-pub fn polygon_test(a: &[Point], b: &[Point]) -> PolygonTest {
+pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
+    let (a, b) = (a.core(), b.core());
     let a_inside = corners_inside(a, b);
     let b_inside = corners_inside(b, a);
     let mut crossings = Vec::new();
@@ -116,7 +121,7 @@ pub fn polygon_test(a: &[Point], b: &[Point]) -> PolygonTest {
 
 fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
     let inside = |(corner, &p): (usize, &Point)| {
-        let penetration = point_penetration(p, polygon);
+        let penetration = core_penetration(p, polygon);
         // On a segment both signed distances are 0, and at a point the distance is: never below.
         (penetration.location != Location::Outside).then(|| CornerInside { corner, depth: penetration.depth.abs() })
     };
@@ -126,7 +131,7 @@ fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
 /// Penetration depth of the origin in a convex counter-clockwise polygon, or minus its distance from it, metres.
 pub(super) fn origin_depth(polygon: &[Point]) -> f64 {
     let origin = Point::origin();
-    let penetration = point_penetration(origin, polygon);
+    let penetration = core_penetration(origin, polygon);
     if penetration.location == Location::Outside {
         -sides(polygon).map(|(a, b)| distance_to_segment(origin, a, b)).fold(f64::INFINITY, f64::min)
     } else {

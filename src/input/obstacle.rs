@@ -140,5 +140,5 @@ pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Resul
             .defect_at(circle.radius.span(), message)
             .cure("a radius is in metres; leave out what has none"));
     }
-    Ok((Shape::Circle { center, radius }, vec![Convex::disc(center, radius)]))
+    Ok((Shape::Circle { center, radius }, vec![Convex::trusted(vec![center], radius)]))
 }

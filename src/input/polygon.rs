@@ -126,7 +126,7 @@ pub(super) fn polyline(reader: &Reader, given: &Ring, what: &str) -> Result<(Sha
             format!("{what}: a polyline needs at least two points in different places, it has {}", points.len());
         return Err(reader.source.defect_at(given.span(), message).cure("polyline = [[x, y], [x, y], ...]"));
     }
-    let pieces = points.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
+    let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
     Ok((Shape::Polyline(points), pieces))
 }
 

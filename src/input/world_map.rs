@@ -77,10 +77,10 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     let mut add = |name: String, points: Vec<Point>| {
         let points: Vec<Point> = points.into_iter().map(place).collect();
         let (shape, pieces) = match points[..] {
-            [center] => (Shape::Circle { center, radius: 0.0 }, vec![Convex::disc(center, 0.0)]),
+            [center] => (Shape::Circle { center, radius: 0.0 }, vec![Convex::point(center)]),
             // Ends that are apart in the file may coincide in metres: that is a point.
             _ => {
-                let pieces = points.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
+                let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
                 (Shape::Polyline(points), pieces)
             }
         };

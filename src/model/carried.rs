@@ -95,13 +95,13 @@ pub(crate) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: 
 pub(crate) fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
     let elbow = Point::from(offset);
     match joint.motion {
-        Motion::Revolute { .. } => Convex::disc(elbow, shape.reach_from(Point::origin())),
+        Motion::Revolute { .. } => Convex::trusted(vec![elbow], shape.reach_from(Point::origin())),
         Motion::Prismatic { direction } => {
             let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
             let (lower, upper) = joint.axis.domain();
             let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
             let core = if from == to { vec![from] } else { vec![from, to] };
-            Convex::new(core, shape.reach_from(center))
+            Convex::trusted(core, shape.reach_from(center))
         }
     }
 }

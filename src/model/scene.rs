@@ -200,7 +200,7 @@ impl Payload {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
                     let about_tip = Isometry2::rotation(angle) * Translation2::from(-point.coords);
-                    (Convex::disc(arm.tip, 0.0), Some(shape.at(&about_tip)))
+                    (Convex::point(arm.tip), Some(shape.at(&about_tip)))
                 }
             };
             let mut meetable = Vec::new();

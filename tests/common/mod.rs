@@ -18,9 +18,24 @@ pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
 }
 
+/// A convex polygon grown by a radius, which must be one.
+pub fn convex(core: Vec<Point>, radius: f64) -> Convex {
+    Convex::new(core, radius).expect("a convex shape")
+}
+
+/// A disc; with radius 0 a point.
+pub fn disc(center: Point, radius: f64) -> Convex {
+    Convex::disc(center, radius).expect("a disc")
+}
+
+/// A wall without thickness.
+pub fn wall(a: Point, b: Point) -> Convex {
+    Convex::segment(a, b).expect("a wall")
+}
+
 /// The rectangle `[x0, x1] x [y0, y1]`.
 pub fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64) -> Convex {
-    Convex::new(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
+    convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }
 
 pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
@@ -64,14 +79,11 @@ pub fn all_kinds() -> Vec<Arm> {
     let turn = |sign| Motion::Revolute { sign };
     let slide = |x: f64, y: f64| Motion::Prismatic { direction: Vector::new(x, y).normalize() };
     let range = |lower, upper| Axis::Interval { lower, upper };
-    let first = || link("first", vec![rectangle(-0.1, 0.6, -0.05, 0.04), Convex::disc(Point::new(0.6, 0.0), 0.07)]);
+    let first = || link("first", vec![rectangle(-0.1, 0.6, -0.05, 0.04), disc(Point::new(0.6, 0.0), 0.07)]);
     let second = || {
         link(
             "second",
-            vec![
-                rectangle(-0.05, 0.5, -0.03, 0.05),
-                Convex::new(vec![Point::new(0.5, -0.1), Point::new(0.5, 0.2)], 0.02),
-            ],
+            vec![rectangle(-0.05, 0.5, -0.03, 0.05), convex(vec![Point::new(0.5, -0.1), Point::new(0.5, 0.2)], 0.02)],
         )
     };
     let make = |one, two| arm([one, two], [first(), second()], Vector::new(0.6, 0.05), Point::new(0.5, 0.0));
@@ -88,9 +100,9 @@ pub fn all_kinds() -> Vec<Arm> {
 pub fn clutter() -> Vec<Convex> {
     vec![
         rectangle(0.7, 0.9, 0.4, 0.8),
-        Convex::disc(Point::new(-0.5, 0.6), 0.15),
-        Convex::segment(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
-        Convex::new(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
+        disc(Point::new(-0.5, 0.6), 0.15),
+        wall(Point::new(-0.9, -0.4), Point::new(-0.3, -0.9)),
+        convex(vec![Point::new(0.3, -0.9), Point::new(0.8, -0.7), Point::new(0.4, -0.5)], 0.0),
     ]
 }
 
@@ -137,7 +149,7 @@ pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
     if let Some((index, by)) = shifted {
         polygons[index].iter_mut().for_each(|p| p.0 += by);
     }
-    let pieces = polygons.map(|p| Convex::new(p.into_iter().map(|(x, y)| Point::new(x, y)).collect(), 0.0)).to_vec();
+    let pieces = polygons.map(|p| convex(p.into_iter().map(|(x, y)| Point::new(x, y)).collect(), 0.0)).to_vec();
     let goal = if which == Benchmark::Inf { q(-2.8, 0.4) } else { q(1.75, 0.5) };
     (scene(rr([Axis::Circle, Axis::Circle]), pieces), q(-0.7, 0.0), goal)
 }
@@ -153,7 +165,7 @@ pub fn spiral(count: u8) -> Vec<Convex> {
             let turn = 0.7 * index + std::f64::consts::TAU * f64::from(k) / f64::from(corners);
             Point::from(center + 0.08 * Vector::new(turn.cos(), turn.sin()))
         };
-        Convex::new((0..corners).map(corner).collect(), 0.0)
+        convex((0..corners).map(corner).collect(), 0.0)
     };
     (0..count).map(polygon).collect()
 }

@@ -1,6 +1,7 @@
 //! Distance and penetration depth: two methods of the library against each other, against their definition, against
 //! parry2d.
 
+use crate::common::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Separation, Vector, hull, penetration_depth, separation, shapes_meet};
 use proptest::prelude::*;
 
@@ -19,7 +20,7 @@ fn lattice_shape() -> impl Strategy<Value = Convex> {
     let radius = prop::sample::select(vec![0.0, 0.0, 0.05, 1.0]);
     (core(), scale, radius).prop_map(|(core, scale, radius)| {
         let corners: Vec<Point> = points(&core).iter().map(|p| p * scale).collect();
-        Convex::new(hull(&corners), radius)
+        convex(hull(&corners), radius)
     })
 }
 
@@ -28,7 +29,7 @@ fn random_shape() -> impl Strategy<Value = Convex> {
     (prop::collection::vec(corner, 1..8), -3.0..3.0f64, prop::sample::select(vec![0.0, 0.1])).prop_map(
         |(corners, x, radius)| {
             let moved: Vec<Point> = corners.iter().map(|p| p + Vector::new(x, 0.0)).collect();
-            Convex::new(hull(&moved), radius)
+            convex(hull(&moved), radius)
         },
     )
 }
@@ -79,7 +80,7 @@ proptest! {
     fn walls_in_a_row(angle in 0.0..6.3f64, ends in prop::collection::vec(-5.0..5.0f64, 4), radius in 0.0..0.5f64) {
         // Collinear up to rounding: no side normal separates them, yet they may be far apart.
         let at = |t: f64| Point::new(0.3 + t * angle.cos(), -0.7 + t * angle.sin());
-        let wall = |s: f64, t: f64| Convex::segment(at(s), at(t)).grown(radius);
+        let wall = |s: f64, t: f64| wall(at(s), at(t)).grown(radius);
         let (a, b) = (wall(ends[0], ends[1]), wall(ends[2], ends[3]));
         let gap = ends[2].min(ends[3]) - ends[0].max(ends[1]);
         let expected = gap.max(ends[0].min(ends[1]) - ends[2].max(ends[3])).max(0.0) - 2.0 * radius;
@@ -90,7 +91,7 @@ proptest! {
 
 #[test]
 fn capsules_on_one_line_part_sideways() {
-    let capsule = |s: f64, t: f64| Convex::segment(Point::new(s, 0.0), Point::new(t, 0.0)).grown(0.5);
+    let capsule = |s: f64, t: f64| wall(Point::new(s, 0.0), Point::new(t, 0.0)).grown(0.5);
     let found = separation(&capsule(0.0, 3.0), &capsule(1.0, 4.0));
     assert_eq!(found.distance, -1.0);
     assert_eq!(found.direction.x, 0.0);
@@ -98,9 +99,9 @@ fn capsules_on_one_line_part_sideways() {
 
 #[test]
 fn points_and_discs() {
-    let point = Convex::disc(Point::new(1.0, 2.0), 0.0);
+    let point = disc(Point::new(1.0, 2.0), 0.0);
     assert_eq!(separation(&point, &point).distance, 0.0);
     assert_eq!(separation(&point.grown(0.25), &point.grown(0.5)).distance, -0.75);
     assert_eq!(penetration_depth(&point.grown(0.25), &point.grown(0.5)), 0.75);
-    assert_eq!(separation(&point, &Convex::disc(Point::new(4.0, 6.0), 1.0)).distance, 4.0);
+    assert_eq!(separation(&point, &disc(Point::new(4.0, 6.0), 1.0)).distance, 4.0);
 }

@@ -1,6 +1,7 @@
 //! Whether shapes meet, and where points lie: exact verdicts.
 
-use cplan::geometry::{Convex, Location, Point, hull, point_penetration, polygon_test, shapes_meet};
+use crate::common::{convex, disc, wall};
+use cplan::geometry::{Location, Point, hull, point_penetration, polygon_test, shapes_meet};
 use proptest::prelude::*;
 
 use crate::lattice::{core, cross, meet, point, points};
@@ -16,10 +17,9 @@ proptest! {
     #[test]
     fn lattice_shapes_meet_as_integers_say(a in core(), b in core()) {
         let expected = meet(&a, &b);
-        let (a, b) = (points(&a), points(&b));
+        let (a, b) = (convex(points(&a), 0.0), convex(points(&b), 0.0));
         prop_assert_eq!(polygon_test(&a, &b).meet, expected);
         prop_assert_eq!(polygon_test(&b, &a).meet, expected);
-        let (a, b) = (Convex::new(a, 0.0), Convex::new(b, 0.0));
         prop_assert_eq!(shapes_meet(&a, &b), expected);
         prop_assert_eq!(shapes_meet(&b, &a), expected);
     }
@@ -27,7 +27,7 @@ proptest! {
     #[test]
     fn point_penetration_agrees_with_integers(polygon in core(), p in (-4..=4i64, -4..=4i64)) {
         let n = polygon.len();
-        let found = point_penetration(point(p), &points(&polygon));
+        let found = point_penetration(point(p), &convex(points(&polygon), 0.0));
         let signs: Vec<i64> = (0..n).map(|i| cross(polygon[i], polygon[(i + 1) % n], p).signum()).collect();
         let expected = match (meet(&polygon, &[p]), signs.iter().all(|&s| s > 0)) {
             (false, _) => Location::Outside,
@@ -62,18 +62,19 @@ proptest! {
             let nudged = corners.iter().zip(steps).map(|(p, s)| {
                 Point::new(nudged((p.0 + 5) as f64 / 10.0, s.0), nudged((p.1 + 5) as f64 / 10.0, s.1))
             });
-            hull(&nudged.collect::<Vec<_>>())
+            convex(hull(&nudged.collect::<Vec<_>>()), 0.0)
         };
         let (a, b) = (nudge(&a, &steps[..7]), nudge(&b, &steps[7..]));
         let verdict = polygon_test(&a, &b).meet;
         prop_assert_eq!(verdict, polygon_test(&b, &a).meet);
-        prop_assert_eq!(verdict, shapes_meet(&Convex::new(a, 0.0), &Convex::new(b, 0.0)));
+        prop_assert_eq!(verdict, shapes_meet(&a, &b));
     }
 }
 
 #[test]
 fn crossing_bars_have_crossings_only() {
     let bar = |x: f64, y: f64| [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| Point::new(x, y));
+    let bar = |x: f64, y: f64| convex(bar(x, y).to_vec(), 0.0);
     let found = polygon_test(&bar(3.0, 0.5), &bar(0.5, 3.0));
     assert!(found.meet && found.a_inside.is_empty() && found.b_inside.is_empty());
     assert_eq!(found.crossings, [(0, 1), (0, 3), (2, 1), (2, 3)]);
@@ -81,8 +82,8 @@ fn crossing_bars_have_crossings_only() {
 
 #[test]
 fn discs_meet_up_to_their_radii() {
-    let disc = |x: f64| Convex::disc(Point::new(x, 0.0), 1.0);
+    let disc = |x: f64| disc(Point::new(x, 0.0), 1.0);
     assert!(shapes_meet(&disc(0.0), &disc(2.0)));
     assert!(!shapes_meet(&disc(0.0), &disc(2.0 + 1e-12)));
-    assert!(shapes_meet(&disc(0.0), &Convex::segment(Point::new(-5.0, 1.0), Point::new(5.0, 1.0))));
+    assert!(shapes_meet(&disc(0.0), &wall(Point::new(-5.0, 1.0), Point::new(5.0, 1.0))));
 }

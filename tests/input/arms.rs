@@ -1,7 +1,8 @@
 //! Loaded arms against full kinematics in space, outlines against projected samples, inverse against forward
 //! kinematics.
 
-use cplan::geometry::{Convex, Point, separation};
+use crate::common::{convex, disc};
+use cplan::geometry::{Point, separation};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::{Arm, Freedom, OutlineSource, inverse};
 use cplan::space::{Axis, Configuration};
@@ -144,7 +145,7 @@ proptest! {
         let part = &arm.links[0].parts[0];
         let placed: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::new(0.1, 0.2, 0.3) + rpy(r) * p).collect();
         for p in &placed {
-            let inside = separation(&part.shape, &Convex::disc(Point::new(p.x, p.y), 0.0)).distance;
+            let inside = separation(&part.shape, &disc(Point::new(p.x, p.y), 0.0)).distance;
             prop_assert!(inside < 2e-9, "{inside} outside");
             prop_assert!(part.heights.lower - 1e-9 <= p.z && p.z <= part.heights.upper + 1e-9);
         }
@@ -251,7 +252,7 @@ fn a_bar_stands_in_only_where_it_is_asked_for() {
     let loaded = load_arm(&bare, "bar = 0.05");
     let arm: &Arm = &loaded.scene.arm;
     assert_eq!(arm.links[0].source, OutlineSource::Bar);
-    assert_eq!(arm.links[0].parts[0].shape, Convex::new(vec![Point::origin(), Point::new(1.0, 0.0)], 0.05));
+    assert_eq!(arm.links[0].parts[0].shape, convex(vec![Point::origin(), Point::new(1.0, 0.0)], 0.05));
     assert!(loaded.robot.notes.iter().any(|n| n.contains("size zero are ignored (in \"one\")")));
     let half = load_arm(&urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>"), "");
     assert_eq!(half.scene.arm.links[1].source, OutlineSource::None);

@@ -1,6 +1,6 @@
 //! Blends against dense sampling.
 
-use crate::common::{all_kinds, clutter, q, scene};
+use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
 use cplan::certify::{Passage, blend, certify, limits_kept, passage};
 use cplan::geometry::Convex;
@@ -69,8 +69,8 @@ proptest! {
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), a post inside the right angle of its path.
     let mut gantry = crate::empty([1.0, 1.0], [4.0, 4.0]).arm;
-    gantry.links[1] = crate::common::link("tool", vec![Convex::disc(cplan::geometry::Point::origin(), 0.1)]);
-    let post = Convex::disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
+    gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::origin(), 0.1)]);
+    let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);
     let path = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 0.0), q(1.0, 1.0)]), 0.0).unwrap();
     // The legs pass the post at 0.2 - 0.15 = 0.05; a blend of radius r passes its middle at

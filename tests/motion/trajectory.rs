@@ -1,7 +1,8 @@
 //! From a certified path to files, and back through independent readers.
 
+use crate::common::disc;
 use cplan::certify::{CertifiedPath, blend, certify};
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::geometry::{Point, Vector};
 use cplan::model::Heights;
 use cplan::model::{Arm, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
 use cplan::space::{Axis, Configuration, Path};
@@ -21,7 +22,7 @@ fn scene(obstacle: bool) -> Scene {
         acceleration: 4.0,
         jerk: None,
     };
-    let disc = Part { shape: Convex::disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
+    let disc = Part { shape: disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
     let arm = Arm {
         name: "polar".into(),
         joints: [
@@ -42,7 +43,7 @@ fn scene(obstacle: bool) -> Scene {
     let far = Obstacle {
         name: "far".into(),
         shape: Shape::Circle { center, radius },
-        pieces: vec![Convex::disc(center, radius)],
+        pieces: vec![disc(center, radius)],
         heights: Heights::ALL,
     };
     let obstacles = if obstacle { vec![far] } else { vec![] };

@@ -1,6 +1,6 @@
 //! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
 
-use crate::common::{self, Benchmark, obstacle, q, rr, scene, shipped_feasible};
+use crate::common::{self, Benchmark, disc, obstacle, q, rr, scene, shipped_feasible};
 use cplan::geometry::{Convex, Point};
 use cplan::model::{Goal, Problem};
 use cplan::solve::{Answer, Bound, Effort, Method, Verdict, bound, solve};
@@ -95,7 +95,7 @@ fn the_bound_covers_all_goals() {
 /// A bar of a gantry's tool passes a block: around its corner in two straight pieces, of known length.
 #[test]
 fn around_a_block_the_bound_is_the_taut_string() {
-    let tool = Convex::disc(Point::origin(), 0.0);
+    let tool = disc(Point::origin(), 0.0);
     let slide = |angle: f64| cplan::model::Motion::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
     let axis = Axis::Interval { lower: -2.0, upper: 2.0 };
     let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];

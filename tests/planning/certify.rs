@@ -1,11 +1,11 @@
 //! The judge against dense sampling and problems whose answers are known.
 
-use crate::common::{Benchmark, all_kinds, arm, benchmark, clutter, joint, link, q, rectangle, rr, scene};
+use crate::common::{Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::certify::{
     CertifiedPath, Connectivity, Deviation, Occupancy, Posture, ProofDefect, Rejection, StuckBox, certify,
     connectivity, explore, recheck,
 };
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::space::{Axis, Configuration, Path};
 use proptest::prelude::*;
@@ -101,7 +101,7 @@ fn a_touching_motion_is_refused() {
     // The outstretched arm's upper corner passes exactly through the wall's end.
     let arm = rr([Axis::Circle, Axis::Circle]);
     let tip = Point::new(1.8, 0.05);
-    let scene = scene(arm, vec![Convex::segment(tip, Point::new(3.0, 0.05))]);
+    let scene = scene(arm, vec![wall(tip, Point::new(3.0, 0.05))]);
     let verdict = certify(&scene, Path::new(vec![q(-0.5, 0.0), q(0.0, 0.0)]), 0.0);
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
 }
@@ -109,7 +109,7 @@ fn a_touching_motion_is_refused() {
 #[test]
 fn thin_walls_between_samples_are_found() {
     // A wall so thin that only the motion meets it: both ends of the segment are far from it.
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![Convex::disc(Point::new(1.2, 1.2), 1e-9)]);
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![disc(Point::new(1.2, 1.2), 1e-9)]);
     let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]), 0.0);
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
 }
@@ -159,7 +159,7 @@ fn benchmark_problems_are_decided() {
 #[test]
 fn limits_and_clearance_can_close_the_way() {
     // Nothing but a pole: free to go round it on the torus, not within limits that end before it.
-    let pole = || vec![Convex::disc(Point::new(0.0, 1.4), 0.05)];
+    let pole = || vec![disc(Point::new(0.0, 1.4), 0.05)];
     let decide =
         |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &q(2.6, 0.0).into(), clearance, 100_000);
     assert!(matches!(decide([Axis::Circle, Axis::Circle], 0.0), Connectivity::Connected(_)));
@@ -188,7 +188,7 @@ fn proofs_are_accepted_by_the_independent_check() {
     }
     let half = Axis::Interval { lower: 0.0, upper: 3.0 };
     let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
-    let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
+    let pole = scene(rr([half, folding]), vec![disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
     let boxes = proof(&pole, start, goal, 0.4);
     assert_eq!(recheck(&boxes, &pole, start, &goal.into(), 0.4), Ok(()));
@@ -275,16 +275,16 @@ fn what_separates_is_decided_as_by_flood_fill() {
 /// The arm of [`rr`] as two segments without thickness.
 fn skeleton(axes: [Axis; 2]) -> cplan::model::Arm {
     let mut arm = rr(axes);
-    arm.links[0].parts[0].shape = Convex::segment(Point::origin(), Point::new(1.0, 0.0));
-    arm.links[1].parts[0].shape = Convex::segment(Point::origin(), Point::new(0.8, 0.0));
+    arm.links[0].parts[0].shape = wall(Point::origin(), Point::new(1.0, 0.0));
+    arm.links[1].parts[0].shape = wall(Point::origin(), Point::new(0.8, 0.0));
     arm
 }
 
 #[test]
 fn thin_links_are_stopped_by_thin_walls() {
     let circles = [Axis::Circle, Axis::Circle];
-    let front = Convex::segment(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
-    let back = Convex::segment(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
+    let front = wall(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
+    let back = wall(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
     // Slanted walls across the upper arm's way; one leaves the other way round.
     let one_wall = scene(skeleton(circles), vec![front.clone()]);
@@ -294,7 +294,7 @@ fn thin_links_are_stopped_by_thin_walls() {
 
     // A wall beyond the elbow's circle, for which the limits keep the forearm stretched enough.
     let narrow = [Axis::Interval { lower: -1.5, upper: 1.5 }, Axis::Interval { lower: -0.4, upper: 0.4 }];
-    let beyond = scene(skeleton(narrow), vec![Convex::segment(Point::new(1.05, 0.1), Point::new(1.7, -0.2))]);
+    let beyond = scene(skeleton(narrow), vec![wall(Point::new(1.05, 0.1), Point::new(1.7, -0.2))]);
     let (start, goal) = (q(-1.2, 0.1), q(1.3, -0.1));
     assert_eq!(recheck(&proof(&beyond, start, goal, 0.0), &beyond, start, &goal.into(), 0.0), Ok(()));
 }

@@ -3,7 +3,7 @@
 //! A scene is turned into the space that a planner works on by the library's own builders, so arms of all kinds,
 //! intervals and circles take part; whether a path is free is judged by distances on the scene alone.
 
-use crate::common::{all_kinds, arm, joint, link, q, rectangle, rr, scene};
+use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
 use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
@@ -115,7 +115,7 @@ fn range(lower: f64, upper: f64) -> Axis {
 /// A gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
 fn gantry(obstacles: Vec<Convex>) -> Scene {
     let slide = |name, x, y| joint(name, Motion::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
-    let tool = link("tool", vec![Convex::disc(Point::origin(), 0.05)]);
+    let tool = link("tool", vec![disc(Point::origin(), 0.05)]);
     let joints = [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)];
     scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::origin()), obstacles)
 }
@@ -127,11 +127,8 @@ fn polar(turn: Axis) -> Scene {
         joint("turn", Motion::Revolute { sign: 1.0 }, turn),
         joint("reach", Motion::Prismatic { direction: Vector::x() }, range(0.5, 1.5)),
     ];
-    let links = [link("turret", vec![]), link("tool", vec![Convex::disc(Point::origin(), 0.05)])];
-    scene(
-        arm(joints, links, Vector::zeros(), Point::origin()),
-        vec![Convex::segment(Point::origin(), Point::new(2.0, 0.0))],
-    )
+    let links = [link("turret", vec![]), link("tool", vec![disc(Point::origin(), 0.05)])];
+    scene(arm(joints, links, Vector::zeros(), Point::origin()), vec![wall(Point::origin(), Point::new(2.0, 0.0))])
 }
 
 #[test]
@@ -156,7 +153,7 @@ fn paths_lead_from_the_start_to_a_goal_through_free_space() {
 fn every_kind_of_arm_is_planned_for() {
     for arm in all_kinds() {
         let kind = arm.kind();
-        let scene = scene(arm, vec![Convex::disc(Point::new(0.5, 1.1), 0.08)]);
+        let scene = scene(arm, vec![disc(Point::new(0.5, 1.1), 0.08)]);
         // Two postures on either side of the obstacle, with room.
         let query = query(q(-0.3, 0.1), &[q(0.6, 0.4)]);
         assert!(

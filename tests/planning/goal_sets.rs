@@ -1,10 +1,10 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
 
 use crate::common::random::{seeds, times};
-use crate::common::{arm, joint, link, rectangle, scene};
+use crate::common::{arm, disc, joint, link, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
 use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, Goal, Motion, Problem, Scene, inverse};
 use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
@@ -67,7 +67,7 @@ fn world(seed: u64) -> Option<Problem> {
         let at = Point::new(r * angle.cos(), r * angle.sin());
         let along = dice.range(-PI, PI);
         let end = at + Vector::new(along.cos(), along.sin()) * dice.range(0.1, 0.9);
-        if dice.below(3) == 0 { Convex::disc(at, dice.range(0.02, 0.15)) } else { Convex::segment(at, end) }
+        if dice.below(3) == 0 { disc(at, dice.range(0.02, 0.15)) } else { wall(at, end) }
     };
     let pieces = (0..count).map(|_| piece(&mut dice)).collect();
     let scene: Scene = scene(arm, pieces);
@@ -199,7 +199,7 @@ fn joints_about_one_axis_share_the_angle() {
         [link("first", vec![rectangle(0.0, 0.3, -0.03, 0.03)]), link("second", vec![rectangle(0.0, 0.7, -0.03, 0.03)])]
     };
     let coaxial = |tip| arm([turning(-2.0, 2.0), turning(-2.5, 2.5)], links(), Vector::zeros(), tip);
-    let blocks = vec![Convex::segment(Point::new(0.2, 0.05), Point::new(0.25, 0.05))];
+    let blocks = vec![wall(Point::new(0.2, 0.05), Point::new(0.25, 0.05))];
     let scene = scene(coaxial(Point::new(0.7, 0.0)), blocks);
     let start = Configuration::new(-0.5, -1.0);
     let problem = |angle: f64| {

@@ -1,7 +1,8 @@
 //! Slabs of joint 1 against collision tests of sampled postures, the subdivision into boxes, and the independent check.
 
 use crate::common::{
-    Benchmark, all_kinds, arm, benchmark, clutter, inside, joint, link, problem, q, rectangle, rr, scene,
+    Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, rectangle, rr, scene,
+    wall,
 };
 use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
 use cplan::geometry::{Convex, Point, Vector};
@@ -69,10 +70,10 @@ fn obstacle() -> impl Strategy<Value = Convex> {
             at + Vector::new(angle.cos(), angle.sin()) * size
         };
         match kind {
-            0 => Convex::disc(at, size),
-            1 => Convex::segment(corner(0, 2), corner(1, 2)),
-            2 => Convex::new(vec![corner(0, 2), corner(1, 2)], size / 3.0),
-            _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
+            0 => disc(at, size),
+            1 => wall(corner(0, 2), corner(1, 2)),
+            2 => convex(vec![corner(0, 2), corner(1, 2)], size / 3.0),
+            _ => convex((0..5).map(|k| corner(k, 5)).collect(), 0.0),
         }
     })
 }
@@ -108,9 +109,9 @@ fn agrees_with_the_boxes(scene: &Scene, start: Configuration, goal: Configuratio
 /// the proof.
 #[test]
 fn a_proof_across_the_seam() {
-    let disc = Convex::disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
+    let disc = disc(Point::new(-0.2574244886139003, -0.7541749868020048), 0.03);
     let wall = [(-0.8754122955094447, -0.6096296790282105), (-1.1648286518001902, -0.6096296790282105)];
-    let capsule = Convex::new(wall.map(|(x, y)| Point::new(x, y)).to_vec(), 0.04823605938179094);
+    let capsule = convex(wall.map(|(x, y)| Point::new(x, y)).to_vec(), 0.04823605938179094);
     let scene = scene(all_kinds().swap_remove(0), vec![disc, capsule]);
     let (start, goal) = (inside(&scene, (0.14021252832200662, 0.39818998128329575)), inside(&scene, (0.0, 0.0)));
     assert!(scene.clearance(start) > 0.0 && scene.clearance(goal) > 0.0);
@@ -121,15 +122,15 @@ fn a_proof_across_the_seam() {
 #[test]
 fn thin_links_among_thin_walls() {
     let turn = Motion::Revolute { sign: 1.0 };
-    let thin = |length| Convex::segment(Point::origin(), Point::new(length, 0.0));
+    let thin = |length| wall(Point::origin(), Point::new(length, 0.0));
     let arm = arm(
         [joint("a", turn, Axis::Circle), joint("b", turn, Axis::Circle)],
         [link("one", vec![thin(1.0)]), link("two", vec![thin(0.8)])],
         Vector::new(1.0, 0.0),
         Point::new(0.8, 0.0),
     );
-    let front = Convex::segment(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
-    let back = Convex::segment(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
+    let front = wall(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
+    let back = wall(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let one_wall = scene(arm.clone(), vec![front.clone()]);
     assert_eq!(check(&one_wall, q(-1.2, 0.4), &q(1.3, -0.4).into(), 0.0), Some(true));
     let closed = scene(arm, vec![front, back]);
@@ -163,9 +164,9 @@ fn odd_links_and_elbows_on_obstacles() {
     );
     // On the elbow's circle (radius 1), touching it from inside and from outside, and a corner upon it.
     let around = [
-        Convex::disc(Point::new(0.6, 0.8), 0.2),
-        Convex::disc(Point::new(0.8, 0.0), 0.2),
-        Convex::disc(Point::new(-1.2, 0.0), 0.2),
+        disc(Point::new(0.6, 0.8), 0.2),
+        disc(Point::new(0.8, 0.0), 0.2),
+        disc(Point::new(-1.2, 0.0), 0.2),
         rectangle(0.0, 0.3, -1.3, -1.0),
     ];
     let mut answers = Vec::new();
@@ -190,14 +191,14 @@ fn odd_links_and_elbows_on_obstacles() {
 fn limits_longer_than_a_turn() {
     let long = Axis::Interval { lower: -5.0, upper: 5.0 };
     let narrow = Axis::Interval { lower: -0.5, upper: 0.5 };
-    let pole = Convex::disc(Point::new(0.0, 0.7), 0.1);
+    let pole = disc(Point::new(0.0, 0.7), 0.1);
     let closed = scene(rr([long, narrow]), vec![pole.clone()]);
     let turn = std::f64::consts::TAU;
     assert_eq!(check(&closed, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(false));
     let open = scene(rr([long, narrow]), vec![]);
     assert_eq!(check(&open, q(-4.0, 0.1), &q(turn - 4.0, 0.1).into(), 0.0), Some(true));
     // Within reach of the forearm from wherever the elbow can be.
-    let second = scene(rr([narrow, long]), vec![Convex::disc(Point::new(1.2, 0.3), 0.15)]);
+    let second = scene(rr([narrow, long]), vec![disc(Point::new(1.2, 0.3), 0.15)]);
     assert_eq!(check(&second, q(0.0, -4.0), &q(0.0, turn - 4.0).into(), 0.0), Some(false));
 }
 
@@ -205,7 +206,7 @@ fn limits_longer_than_a_turn() {
 fn clearance_closes_ways() {
     let half = Axis::Interval { lower: 0.0, upper: 3.0 };
     let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
-    let pole = scene(rr([half, folding]), vec![Convex::disc(Point::new(0.0, 1.4), 0.05)]);
+    let pole = scene(rr([half, folding]), vec![disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
     assert_eq!(check(&pole, start, &goal.into(), 0.0), Some(true));
     assert_eq!(check(&pole, start, &goal.into(), 0.4), Some(false));

@@ -1,7 +1,7 @@
 //! The choice of postures and order against trying all of them.
 
-use crate::common::{arm, joint, link, obstacle, q, rectangle};
-use cplan::geometry::{Convex, Point, Vector};
+use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
+use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, Motion, Object, Shape, Step, Task, Workspace, inverse, within,
 };
@@ -30,11 +30,7 @@ fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
         Vector::new(1.0, 0.0),
         Point::new(0.8, 0.0),
     );
-    let pieces = [
-        Convex::disc(Point::new(1.2, 0.5), 0.08),
-        Convex::disc(Point::new(-0.6, 1.2), 0.1),
-        rectangle(0.3, 0.6, -1.3, -1.1),
-    ];
+    let pieces = [disc(Point::new(1.2, 0.5), 0.08), disc(Point::new(-0.6, 1.2), 0.1), rectangle(0.3, 0.6, -1.3, -1.1)];
     let obstacles = pieces.into_iter().map(|piece| obstacle("post", piece)).collect();
     (arm, Workspace { name: "cell".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
@@ -45,7 +41,7 @@ fn thing(name: &str, at: Point) -> Object {
     Object {
         name: name.into(),
         shape: Shape::Circle { center: Point::origin(), radius: 1e-3 },
-        pieces: vec![Convex::disc(Point::origin(), 1e-3)],
+        pieces: vec![disc(Point::origin(), 1e-3)],
         heights: below,
         lift: 0.0,
         holding: Holding::Level,

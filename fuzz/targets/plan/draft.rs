@@ -55,7 +55,7 @@ impl ShapeDraft {
         let count = 1 + usize::from(self.count) % 5;
         let points: Vec<Point> = self.corners[..count].iter().map(|&p| Point::from(vector(p, scale))).collect();
         let radius = if self.radius < 128 { 0.0 } else { f64::from(self.radius - 128) / 512.0 };
-        Convex::new(hull(&points), radius)
+        Convex::new(hull(&points), radius).expect("a hull is convex")
     }
 
     fn heights(&self) -> Heights {

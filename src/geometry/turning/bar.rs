@@ -156,19 +156,19 @@ mod tests {
 
     fn bar(length: f64, back: f64, half_width: f64, turn: f64) -> Convex {
         let corners = [(back, -half_width), (length, -half_width), (length, half_width), (back, half_width)];
-        Convex::new(corners.map(|(x, y)| Pose::rotation(turn) * Point::new(x, y)).to_vec(), 0.0)
+        Convex::trusted(corners.map(|(x, y)| Pose::rotation(turn) * Point::new(x, y)).to_vec(), 0.0)
     }
 
     #[test]
     fn only_bars_about_the_joint_are_bars() {
-        let corners = |list: [(f64, f64); 4]| Convex::new(list.map(|(x, y)| Point::new(x, y)).to_vec(), 0.0);
+        let corners = |list: [(f64, f64); 4]| Convex::trusted(list.map(|(x, y)| Point::new(x, y)).to_vec(), 0.0);
         assert!(Bar::of(&bar(0.8, -0.1, 0.05, 0.7)).is_some());
         assert!(Bar::of(&bar(0.8, 0.1, 0.05, -2.0)).is_some());
         assert!(Bar::of(&bar(0.8, 0.0, 1e-9, 0.0)).is_none(), "hardly a width");
         assert!(Bar::of(&bar(0.1, -0.1, 0.1, 0.0)).is_none(), "no end is the front");
         assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.05), (0.8, 0.06), (0.0, 0.06)])).is_none(), "off the axis");
         assert!(Bar::of(&corners([(0.0, -0.05), (0.8, -0.04), (0.8, 0.04), (0.0, 0.05)])).is_none(), "tapered");
-        assert!(Bar::of(&Convex::segment(Point::origin(), Point::new(1.0, 0.0))).is_none());
+        assert!(Bar::of(&Convex::trusted(vec![Point::origin(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
     proptest! {
@@ -188,7 +188,7 @@ mod tests {
                 let angle = own_turn + TAU * k as f64 / corners as f64;
                 Point::new(size * angle.cos(), size * angle.sin())
             };
-            let piece = Convex::new((0..corners).map(corner).collect(), 0.0);
+            let piece = Convex::trusted((0..corners).map(corner).collect(), 0.0);
             let away = Vector::new(direction.cos(), direction.sin());
             let pivot = match at_reach {
                 None => Point::from(away * distance),

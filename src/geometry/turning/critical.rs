@@ -105,14 +105,15 @@ mod tests {
             let angle = 0.3 + TAU * f64::from(k) / f64::from(corners);
             Point::new(size * angle.cos(), size * angle.sin())
         };
-        Convex::new((0..corners).map(corner).collect(), radius)
+        Convex::trusted((0..corners).map(corner).collect(), radius)
     }
 
     /// In general position no comparison is in doubt, and both ways give the same arcs.
     #[test]
     fn the_local_test_and_the_patient_way_agree() {
         let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();
-        let parts = [Convex::new(bar.clone(), 0.0), Convex::new(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];
+        let parts =
+            [Convex::trusted(bar.clone(), 0.0), Convex::trusted(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];
         let pieces = [regular(1, 0.2, 0.1), regular(2, 0.3, 0.0), regular(4, 0.3, 0.0), regular(7, 0.3, 0.05)];
         let mut compared = 0;
         for (i, (part, piece)) in parts.iter().flat_map(|a| pieces.iter().map(move |b| (a, b))).enumerate() {

@@ -116,7 +116,10 @@ impl OccupancyMap {
         };
         let piece = |r: &PixelRectangle| {
             let ([left, right], [top, bottom]) = (r.columns, r.rows);
-            Convex::new(vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)], 0.0)
+            Convex::trusted(
+                vec![corner(left, bottom), corner(right, bottom), corner(right, top), corner(left, top)],
+                0.0,
+            )
         };
         Some(rectangles(self.size, solid, most)?.iter().map(piece).collect())
     }

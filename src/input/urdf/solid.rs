@@ -65,7 +65,7 @@ impl Solid {
                 polygon((0..8).map(corner).collect())
             }
             Solid::Points(points) => polygon(points.iter().map(at).collect()),
-            Solid::Sphere { radius } => Convex::disc(center, *radius),
+            Solid::Sphere { radius } => Convex::trusted(vec![center], *radius),
             Solid::Capsule { radius, half } => capsule(center - along * *half, center + along * *half, *radius),
             Solid::Cylinder { radius, half } => {
                 let tilt = (pose * Vector3::z()).dot(&plane.normal);
@@ -103,9 +103,9 @@ impl Solid {
 pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     let apart = (b - a).norm();
     if apart <= CORNER_ROUNDING {
-        return Convex::disc(nalgebra::center(&a, &b), radius + apart / 2.0);
+        return Convex::trusted(vec![nalgebra::center(&a, &b)], radius + apart / 2.0);
     }
-    Convex::new(vec![a, b], radius)
+    Convex::trusted(vec![a, b], radius)
 }
 
 /// The convex hull without corners that are mere rounding.
@@ -119,7 +119,7 @@ fn polygon(points: Vec<Point>) -> Convex {
     if corners.len() > 1 && (corners[0] - corners[corners.len() - 1]).norm() <= CORNER_ROUNDING {
         corners.pop();
     }
-    Convex::new(corners, 0.0)
+    Convex::trusted(corners, 0.0)
 }
 
 /// Outline of a cylinder whose axis projects to `along` (its length the sine of the angle to the normal, `tilt` the

@@ -1,6 +1,6 @@
 //! Rows and grids from rows against clearances and parry2d's verdicts, for all four kinds of arm.
 
-use crate::common::{self, Benchmark};
+use crate::common::{self, Benchmark, convex, disc};
 use cplan::cspace::{Bitmap, Grid, Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Hits, Point, Vector};
 use cplan::model::{Arm, Motion, Scene};
@@ -36,7 +36,7 @@ fn piece() -> impl Strategy<Value = Convex> {
                 Point::new(x + size * angle.cos(), y + size * angle.sin())
             };
             let radius = if corners == 1 { radius + 0.05 } else { radius };
-            Convex::new((0..corners).map(corner).collect(), radius)
+            convex((0..corners).map(corner).collect(), radius)
         },
     )
 }
@@ -45,7 +45,7 @@ fn part() -> impl Strategy<Value = Convex> {
     let bar = (0.3..1.2f64, 0.02..0.1f64)
         .prop_map(|(length, half_width)| common::rectangle(0.0, length, -half_width, half_width));
     let capsule = (0.3..1.2f64, 0.02..0.1f64)
-        .prop_map(|(length, radius)| Convex::new(vec![Point::origin(), Point::new(length, 0.0)], radius));
+        .prop_map(|(length, radius)| convex(vec![Point::origin(), Point::new(length, 0.0)], radius));
     prop_oneof![bar, capsule, piece()]
 }
 
@@ -124,7 +124,7 @@ fn a_limit_may_be_two_turns_below_a_reach_range() {
     let arm = common::arm(joints, links, Vector::new(0.5, 0.0), Point::new(0.9, 0.0));
     let most = (0..72).map(|k| {
         let angle = TAU * f64::from(k) / 72.0;
-        let piece = Convex::disc(Point::new(0.5 * angle.cos(), 0.5 * angle.sin()), 0.035);
+        let piece = disc(Point::new(0.5 * angle.cos(), 0.5 * angle.sin()), 0.035);
         let scene = common::scene(arm.clone(), vec![piece]);
         outside_reach_ranges_pairs_keep_their_distance(&scene, 0.051_387_181_940_973_81).unwrap()
     });

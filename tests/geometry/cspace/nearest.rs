@@ -1,8 +1,8 @@
 //! The nearest free configuration against a lattice of configurations, each asked for its distance to the obstacles.
 
-use crate::common::{all_kinds, arm, joint, link, obstacle, q, rectangle, rr, scene};
+use crate::common::{all_kinds, arm, disc, joint, link, obstacle, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
-use cplan::geometry::{Convex, Point, Vector};
+use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene, Workspace};
 use cplan::space::{Axis, Configuration};
 
@@ -34,9 +34,9 @@ fn lattice(scene: &Scene, from: Configuration, n: u32) -> f64 {
 
 fn crowded(which: usize, clearance: f64) -> Scene {
     let pieces = vec![
-        Convex::disc(Point::new(0.75, 0.35), 0.15),
+        disc(Point::new(0.75, 0.35), 0.15),
         rectangle(-0.9, -0.4, -0.7, -0.3),
-        Convex::segment(Point::new(0.4, -0.9), Point::new(1.1, -0.2)),
+        wall(Point::new(0.4, -0.9), Point::new(1.1, -0.2)),
     ];
     let mut scene = scene(all_kinds().remove(which), pieces);
     scene.workspace.clearance = clearance;
@@ -83,11 +83,11 @@ fn the_way_out_has_the_known_angle() {
     let limits = Axis::Interval { lower: -3.0, upper: 3.0 };
     let blind = arm(
         [joint("a", turn, limits), joint("b", turn, limits)],
-        [link("first", vec![Convex::segment(Point::origin(), Point::new(1.0, 0.0))]), link("second", Vec::new())],
+        [link("first", vec![wall(Point::origin(), Point::new(1.0, 0.0))]), link("second", Vec::new())],
         Vector::new(1.0, 0.0),
         Point::new(0.5, 0.0),
     );
-    let mut scene = scene(blind, vec![Convex::disc(Point::new(0.8, 0.0), 0.2)]);
+    let mut scene = scene(blind, vec![disc(Point::new(0.8, 0.0), 0.2)]);
     // Tangent from the base to the disc.
     let angle = (0.2f64 / 0.8).asin();
     let found = nearest_free(&scene, q(0.1, 0.4)).unwrap();
@@ -103,7 +103,7 @@ fn the_way_out_has_the_known_angle() {
 
 #[test]
 fn the_short_way_round_the_circle_counts() {
-    let scene = scene(rr([Axis::Circle; 2]), vec![Convex::disc(Point::new(-0.5, 0.02), 0.05)]);
+    let scene = scene(rr([Axis::Circle; 2]), vec![disc(Point::new(-0.5, 0.02), 0.05)]);
     let from = q(std::f64::consts::PI - 0.001, 0.0);
     let found = nearest_free(&scene, from).unwrap();
     assert!(is_free(&scene, found.configuration));
@@ -113,7 +113,7 @@ fn the_short_way_round_the_circle_counts() {
 
 #[test]
 fn an_arm_that_is_buried_has_no_way_out() {
-    let obstacles = vec![obstacle("rock", Convex::disc(Point::origin(), 5.0))];
+    let obstacles = vec![obstacle("rock", disc(Point::origin(), 5.0))];
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
     assert_eq!(nearest_free(&Scene::new(rr([Axis::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }

@@ -1,5 +1,6 @@
 //! Polygonal regions against distances of sampled configurations.
 
+use crate::common::convex;
 use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
@@ -43,7 +44,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
 }
 
 fn polygon(corners: &[(f64, f64)]) -> Convex {
-    Convex::new(corners.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.0)
+    convex(corners.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.0)
 }
 
 fn bar(length: f64, half: f64) -> Convex {
@@ -79,7 +80,7 @@ fn shape(size: f64) -> impl Strategy<Value = Convex> {
                 let angle = turn + TAU * i as f64 / n as f64;
                 Point::new(size * (x + scale * angle.cos()), size * (y + scale * angle.sin()))
             };
-            Convex::new((0..n).map(at).collect(), radius * size)
+            convex((0..n).map(at).collect(), radius * size)
         },
     )
 }
@@ -104,7 +105,7 @@ fn any_joint(name: &'static str) -> impl Strategy<Value = Joint> {
 fn any_scene() -> impl Strategy<Value = Scene> {
     let obstacle = (shape(0.25), -1.5..1.5f64, -1.5..1.5f64).prop_map(|(shape, x, y)| {
         let core = shape.core().iter().map(|p| p + Vector::new(x, y)).collect();
-        Convex::new(core, shape.radius())
+        convex(core, shape.radius())
     });
     (
         [any_joint("first"), any_joint("second")],
@@ -261,7 +262,7 @@ fn a_thin_wall_of_two_bands_is_closed() {
     let mut scene = torus(0.0);
     let moved: Vec<Point> =
         scene.workspace.obstacles[1].pieces[0].core().iter().map(|p| p - Vector::new(0.0036, 0.0)).collect();
-    scene.workspace.obstacles[1].pieces = vec![Convex::new(moved, 0.0)];
+    scene.workspace.obstacles[1].pieces = vec![convex(moved, 0.0)];
     let goal = Configuration::new(1.75, 0.5);
     for margin in [1e-3, 1e-4, 1e-5] {
         assert!(!connected(&scene, margin, goal), "margin {margin}");

@@ -1,5 +1,6 @@
 //! Arcs, stretches, rows and grids against distances of sampled postures.
 
+use crate::common::convex;
 use cplan::geometry::{
     Convex, Features, Hits, Point, Pose, ROUNDING, Vector, separation, sliding, turning, turning_from,
 };
@@ -37,7 +38,7 @@ fn shape(spread: f64) -> impl Strategy<Value = Convex> {
         v.iter().map(|&(x, y)| (f64::from(x) * spread / 2.0, f64::from(y) * spread / 2.0)).collect()
     });
     let radius = prop_oneof![Just(0.0), Just(0.25), 0.0..0.5f64];
-    (prop_oneof![free, lattice], radius).prop_map(|(points, radius)| Convex::new(hull(points), radius))
+    (prop_oneof![free, lattice], radius).prop_map(|(points, radius)| convex(hull(points), radius))
 }
 
 fn pivot() -> impl Strategy<Value = Point> {

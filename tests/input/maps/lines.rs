@@ -1,7 +1,8 @@
 //! Line maps and preference files: as an independent writer wrote them, and what is refused.
 
 use super::{assert_refused, folder, problem_in, world_in};
-use cplan::geometry::{Convex, Point};
+use crate::common::wall;
+use cplan::geometry::Point;
 use cplan::input::{LineMap, PreferenceMap};
 use cplan::model::{Goal, Preference, Region, Shape};
 use proptest::prelude::*;
@@ -81,9 +82,9 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
     assert_eq!(names, ["room, lines 1 to 2", "room, line 3", "room, frame"]);
     let first = vec![point(-0.5, -0.5), point(0.5, -0.5), point(0.5, 0.5)];
     assert_eq!(obstacles[0].shape, Shape::Polyline(first));
-    assert_eq!(obstacles[1].pieces, [Convex::segment(point(-1.5, 0.0), point(-1.0, 0.0))]);
+    assert_eq!(obstacles[1].pieces, [wall(point(-1.5, 0.0), point(-1.0, 0.0))]);
     assert_eq!(obstacles[2].pieces.len(), 4);
-    assert_eq!(obstacles[2].pieces[1], Convex::segment(point(2.0, -1.0), point(2.0, 1.0)));
+    assert_eq!(obstacles[2].pieces[1], wall(point(2.0, -1.0), point(2.0, 1.0)));
 
     let epsilons: Vec<f64> = world.workspace.preferences.iter().map(|p| p.epsilon).collect();
     assert_eq!(epsilons, [0.5, -0.25]);
@@ -94,7 +95,7 @@ fn a_world_has_the_walls_of_its_map_in_metres() {
     let world = world_in(&files(MAP, PREFERENCES, &world)).unwrap();
     let obstacles = &world.workspace.obstacles;
     assert_eq!(obstacles.len(), 2);
-    assert_eq!(obstacles[1].pieces, [Convex::segment(point(-1490.0, -20.0), point(-990.0, -20.0))]);
+    assert_eq!(obstacles[1].pieces, [wall(point(-1490.0, -20.0), point(-990.0, -20.0))]);
     assert!(obstacles.iter().all(|o| o.heights.lower == 0.0 && o.heights.upper == 3.0));
     assert_eq!(ends(&world.workspace.preferences[1]), [point(-990.0, -920.0), point(10.0, -620.0)]);
 }

@@ -1,7 +1,7 @@
 //! Starts and goals where rows, seams and domains end, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{q, rectangle, rr, scene};
+use crate::common::{disc, q, rectangle, rr, scene};
 use cplan::certify::least_length;
 use cplan::geometry::{Convex, Point};
 use cplan::model::{Goal, Problem};
@@ -92,7 +92,7 @@ fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Confi
 /// A post that the upper arm cannot pass: goals on its other side are reached the other way round, with a straight arm.
 #[test]
 fn the_other_way_round() {
-    let post = Convex::disc(Point::new(0.5, 0.0), 0.1);
+    let post = disc(Point::new(0.5, 0.0), 0.1);
     let ways = [
         (q(-0.5, 0.0), q(0.5, 0.0), TAU - 1.0),
         (q(0.5 - TAU, 0.0), q(-0.5, TAU), TAU - 1.0),

@@ -1,7 +1,7 @@
 //! A point moved by two slides: configuration space is the plane, up to a linear map, and shortest paths are known.
 
 use super::{LIMITS, ROUNDING, bound};
-use crate::common::{arm, joint, link, q, rectangle, scene};
+use crate::common::{arm, convex, disc, joint, link, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Goal, Motion, Problem};
 use cplan::space::{Axis, Configuration, Metric};
@@ -15,7 +15,7 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let axis = Axis::Interval { lower: -REACH, upper: REACH };
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
-    let links = [link("beam", Vec::new()), link("tool", vec![Convex::disc(Point::origin(), 0.0)])];
+    let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::origin(), 0.0)])];
     let arm = arm(joints, links, Vector::zeros(), Point::origin());
     Problem { scene: scene(arm, pieces), start, goal: Goal::Joints(goals[0]), goals: goals.iter().copied().collect() }
 }
@@ -51,7 +51,7 @@ fn out_of_a_trap() {
     };
     assert_is(&square(walls.clone(), start, goal), out(-1.0, 0.7).min(out(1.0, 0.8)));
     // Lying on its side.
-    let turned = walls.iter().map(|w| Convex::new(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
+    let turned = walls.iter().map(|w| convex(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
     let turn = |p: Configuration| q(-p[1], p[0]);
     assert_is(&square(turned.collect(), turn(start), turn(goal)), out(-1.0, 0.7).min(out(1.0, 0.8)));
 }
@@ -62,7 +62,7 @@ fn through_a_slot() {
     let walls = vec![rectangle(-0.05, 0.05, -3.0, 0.7), rectangle(-0.05, 0.05, 0.71, 3.0)];
     let length = 2.0 * 0.95_f64.hypot(0.7) + 0.1;
     assert_is(&square(walls.clone(), q(-1.0, 0.0), q(1.0, 0.0)), length);
-    let turned = walls.iter().map(|w| Convex::new(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
+    let turned = walls.iter().map(|w| convex(w.core().iter().map(|p| Point::new(-p.y, p.x)).collect(), 0.0));
     assert_is(&square(turned.collect(), q(0.0, -1.0), q(0.0, 1.0)), length);
 }
 
@@ -81,10 +81,10 @@ fn through_two_slots() {
 fn around_a_disc() {
     let tangent = (1.5_f64 * 1.5 - 0.5 * 0.5).sqrt();
     let arc = 0.5 * (TAU / 2.0 - 2.0 * (0.5_f64 / 1.5).acos());
-    let disc = Convex::disc(Point::origin(), 0.5);
-    assert_is(&square(vec![disc], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
+    let round = disc(Point::origin(), 0.5);
+    assert_is(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
     // The same of a point that is to keep clear.
-    let mut problem = square(vec![Convex::disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
+    let mut problem = square(vec![disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
     problem.scene.workspace.clearance = 0.3;
     assert_is(&problem, 2.0 * tangent + arc);
 }

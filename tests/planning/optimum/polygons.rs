@@ -2,6 +2,7 @@
 
 use super::gantry::{REACH, gantry};
 use super::{LIMITS, ROUNDING, bound, metrics};
+use crate::common::convex;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::space::{Configuration, Metric};
 use proptest::prelude::*;
@@ -89,8 +90,7 @@ fn polygon() -> impl Strategy<Value = Vec<Configuration>> {
 fn agree(polygons: &[Vec<Configuration>], angles: [f64; 2], start: Configuration, goals: &[Configuration], gap: f64) {
     let directions = angles.map(|angle| Vector::new(angle.cos(), angle.sin()));
     let place = |q: &Configuration| Point::from(directions[0] * q[0] + directions[1] * q[1]);
-    let pieces: Vec<Convex> =
-        polygons.iter().map(|corners| Convex::new(corners.iter().map(place).collect(), 0.0)).collect();
+    let pieces: Vec<Convex> = polygons.iter().map(|corners| convex(corners.iter().map(place).collect(), 0.0)).collect();
     let problem = gantry(angles, pieces, start, goals);
     for metric in metrics() {
         let length = shortest(polygons, start, goals, metric);

@@ -1,7 +1,7 @@
 //! Random worlds of all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{all_kinds, inside, rectangle, scene};
+use crate::common::{all_kinds, convex, disc, inside, rectangle, scene, wall};
 use crate::random_worlds::world;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Goal, Problem};
@@ -50,12 +50,12 @@ fn obstacle() -> impl Strategy<Value = Convex> {
             at + Vector::new(angle.cos(), angle.sin()) * size
         };
         match kind {
-            0 => Convex::disc(at, size),
-            1 => Convex::segment(corner(0, 2), corner(1, 2)),
-            2 => Convex::new(vec![corner(0, 2), corner(1, 2)], size / 3.0),
+            0 => disc(at, size),
+            1 => wall(corner(0, 2), corner(1, 2)),
+            2 => convex(vec![corner(0, 2), corner(1, 2)], size / 3.0),
             // A thin wall.
-            3 => Convex::new(vec![corner(0, 2), corner(1, 2)], 1e-4),
-            _ => Convex::new((0..5).map(|k| corner(k, 5)).collect(), 0.0),
+            3 => convex(vec![corner(0, 2), corner(1, 2)], 1e-4),
+            _ => convex((0..5).map(|k| corner(k, 5)).collect(), 0.0),
         }
     })
 }

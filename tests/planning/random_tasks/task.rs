@@ -1,6 +1,6 @@
 //! Random tasks, the same for the same seed: all kinds of arms, rigid and level payloads, objects on supports.
 
-use crate::common::{all_kinds, clutter, obstacle};
+use crate::common::{all_kinds, clutter, convex, disc, obstacle};
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Scene, Shape, Step, Task, Workspace, Wrist};
 use cplan::space::Configuration;
@@ -138,9 +138,9 @@ fn outline(dice: &mut Dice) -> (Shape, Vec<Convex>) {
     let size = dice.range(0.01, 0.05);
     if dice.chance(0.3) {
         let center = Point::new(dice.range(-0.02, 0.02), 0.0);
-        return (Shape::Circle { center, radius: size }, vec![Convex::disc(center, size)]);
+        return (Shape::Circle { center, radius: size }, vec![disc(center, size)]);
     }
     let spot = |dice: &mut Dice| Point::from(Vector::new(dice.range(-2.0, 2.0), dice.range(-1.0, 1.0)) * size);
     let corners = hull(&(0..5).map(|_| spot(dice)).collect::<Vec<_>>());
-    (Shape::Polygon(corners.clone()), vec![Convex::new(corners, 0.0)])
+    (Shape::Polygon(corners.clone()), vec![convex(corners, 0.0)])
 }

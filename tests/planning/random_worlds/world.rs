@@ -1,6 +1,7 @@
 //! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
 
 use super::oracle::Oracle;
+use crate::common::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
     Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
@@ -98,7 +99,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
 }
 
 fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64, radius: f64) -> Convex {
-    Convex::new(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], radius)
+    convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], radius)
 }
 
 /// A bar, a hammer, a hook, an offset plate, a capsule, a wire, or next to nothing.
@@ -113,14 +114,14 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
         3 => vec![
             rectangle(-0.1, length, -width, width, 0.0),
             rectangle(length - 0.05, length, width, 0.3, 0.0),
-            Convex::disc(Point::new(length, 0.3), width),
+            disc(Point::new(length, 0.3), width),
         ],
         4 => vec![rectangle(0.2, 0.2 + length / 2.0, 0.1, 0.1 + 2.0 * width, 0.0)],
-        5 => vec![Convex::new(vec![Point::new(0.0, 0.0), Point::new(length, 0.0)], width)],
-        _ if dice.chance(0.5) => vec![Convex::segment(Point::new(0.0, 0.0), Point::new(length, 0.1))],
+        5 => vec![convex(vec![Point::new(0.0, 0.0), Point::new(length, 0.0)], width)],
+        _ if dice.chance(0.5) => vec![wall(Point::new(0.0, 0.0), Point::new(length, 0.1))],
         _ => {
             let radius = if dice.chance(0.5) { 0.0 } else { width };
-            vec![Convex::disc(Point::new(length, 0.0), radius)]
+            vec![disc(Point::new(length, 0.0), radius)]
         }
     };
     let lower = dice.range(0.0, 0.2);
@@ -143,21 +144,21 @@ fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
             let t = turn + TAU * k as f64 / n as f64;
             center + Vector::new(size * t.cos(), size * flat * t.sin())
         };
-        Convex::new((0..n).map(corner).collect(), 0.0)
+        convex((0..n).map(corner).collect(), 0.0)
     };
     let pieces = match dice.below(9) {
         0..=2 => vec![polygon(dice, center)],
-        3 => vec![Convex::disc(center, size / 2.0)],
+        3 => vec![disc(center, size / 2.0)],
         4 => {
             let t = dice.range(0.0, TAU);
-            vec![Convex::segment(center, center + Vector::new(t.cos(), t.sin()) * 3.0 * size)]
+            vec![wall(center, center + Vector::new(t.cos(), t.sin()) * 3.0 * size)]
         }
-        5 => vec![Convex::disc(center, 0.0)],
+        5 => vec![disc(center, 0.0)],
         6 => {
             // A bent wall.
             let mut corner = || center + Vector::new(dice.range(-size, size), dice.range(-size, size));
             let points: Vec<Point> = (0..4).map(|_| corner()).collect();
-            points.windows(2).map(|w| Convex::segment(w[0], w[1])).collect()
+            points.windows(2).map(|w| wall(w[0], w[1])).collect()
         }
         7 => {
             // Two walls that leave a passage.

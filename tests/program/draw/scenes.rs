@@ -1,5 +1,6 @@
 //! Made-up problems with results by brute force: every cell of a grid is looked at, nothing of the planners is used.
 
+use crate::common::{self, convex, disc};
 use cplan::cspace::CObstacle;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
@@ -45,26 +46,26 @@ pub fn arm(names: [&str; 2], motions: [Motion; 2], axes: [Axis; 2], lengths: [f6
 }
 
 pub fn capsule(length: f64, radius: f64) -> Convex {
-    Convex::new(vec![Point::origin(), Point::new(length, 0.0)], radius)
+    convex(vec![Point::origin(), Point::new(length, 0.0)], radius)
 }
 
 pub fn block(x0: f64, y0: f64, x1: f64, y1: f64) -> Convex {
-    Convex::new(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
+    convex(vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)], 0.0)
 }
 
 pub fn polygon(name: &str, corners: &[(f64, f64)]) -> Obstacle {
     let corners: Vec<Point> = corners.iter().map(|c| Point::new(c.0, c.1)).collect();
-    obstacle(name, Shape::Polygon(corners.clone()), vec![Convex::new(corners, 0.0)])
+    obstacle(name, Shape::Polygon(corners.clone()), vec![convex(corners, 0.0)])
 }
 
 pub fn circle(name: &str, x: f64, y: f64, radius: f64) -> Obstacle {
     let center = Point::new(x, y);
-    obstacle(name, Shape::Circle { center, radius }, vec![Convex::disc(center, radius)])
+    obstacle(name, Shape::Circle { center, radius }, vec![disc(center, radius)])
 }
 
 pub fn wall(name: &str, corners: &[(f64, f64)]) -> Obstacle {
     let corners: Vec<Point> = corners.iter().map(|c| Point::new(c.0, c.1)).collect();
-    let pieces = corners.windows(2).map(|w| Convex::segment(w[0], w[1])).collect();
+    let pieces = corners.windows(2).map(|w| common::wall(w[0], w[1])).collect();
     obstacle(name, Shape::Polyline(corners), pieces)
 }
 

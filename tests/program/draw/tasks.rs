@@ -2,9 +2,10 @@
 
 use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
+use crate::common::{convex, disc};
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Ending, Picture, TaskPicture, View, svg, task_svg};
-use cplan::geometry::{Convex, Point, Pose};
+use cplan::geometry::{Point, Pose};
 use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
 };
@@ -25,9 +26,9 @@ fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
     let half = 0.09;
     let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|c| Point::new(c.0, c.1)).to_vec();
     let (shape, piece) = if round {
-        (Shape::Circle { center: Point::origin(), radius: half }, Convex::disc(Point::origin(), half))
+        (Shape::Circle { center: Point::origin(), radius: half }, disc(Point::origin(), half))
     } else {
-        (Shape::Polygon(corners.clone()), Convex::new(corners, 0.0))
+        (Shape::Polygon(corners.clone()), convex(corners, 0.0))
     };
     let at = Pose::translation(at[0], at[1]);
     Object { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL, lift: 0.0, holding, at }
@@ -328,7 +329,7 @@ fn repetitions_are_drawn_once() {
 fn a_kit_of_many_parts_is_cut_short() {
     let rows = |i: usize| [1.15 + 0.22 * (i % 3) as f64, -0.6 + 0.22 * (i / 3) as f64];
     let part = |i: usize| Object {
-        pieces: vec![Convex::disc(Point::origin(), 0.05)],
+        pieces: vec![disc(Point::origin(), 0.05)],
         shape: Shape::Circle { center: Point::origin(), radius: 0.05 },
         ..object(&format!("part {}", i + 1), true, Holding::Level, rows(i))
     };

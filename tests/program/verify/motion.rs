@@ -1,8 +1,8 @@
 //! The continuous check against dense sampling and contacts known in closed form.
 
-use crate::common::{all_kinds, clutter, q, rectangle, rr, scene};
+use crate::common::{all_kinds, clutter, disc, q, rectangle, rr, scene};
 use cplan::certify::{Passage, passage};
-use cplan::geometry::{Convex, Point};
+use cplan::geometry::Point;
 use cplan::model::Scene;
 use cplan::space::{Axis, Configuration, Recording};
 use proptest::prelude::*;
@@ -87,7 +87,7 @@ proptest! {
 /// A speck in the way of the outstretched arm, and the angle at which the bar's side meets it.
 fn speck() -> (Scene, f64) {
     let radius = 1e-9;
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![Convex::disc(Point::new(1.2, 1.2), radius)]);
+    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![disc(Point::new(1.2, 1.2), radius)]);
     (scene, FRAC_PI_4 - ((0.05 + radius) / 1.2_f64.hypot(1.2)).asin())
 }
 

@@ -3,7 +3,7 @@
 
 use crate::Result;
 use crate::rounds::Rounds;
-use cplan::geometry::{Point, Vector, minkowski_difference};
+use cplan::geometry::{Convex, Point, Vector};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
@@ -49,12 +49,14 @@ fn plain(b: &[Point], a: &[Point]) -> Vec<Point> {
 
 pub fn run(corners: usize, rounds: usize) -> Result<Value> {
     let (a, b) = (regular(corners, 0.001), regular(corners, 0.002));
+    let (one, other) = (Convex::new(a.clone(), 0.0)?, Convex::new(b.clone(), 0.0)?);
+    let ours = || other.minkowski_difference(&one);
     let mut times = Rounds::default();
     for _ in 0..rounds {
-        times.time("cplan", || (0..BATCH).map(|_| minkowski_difference(&b, &a).len()).sum::<usize>());
+        times.time("cplan", || (0..BATCH).map(|_| ours().core().len()).sum::<usize>());
         times.time("plain", || (0..BATCH).map(|_| plain(&b, &a).len()).sum::<usize>());
     }
-    let (ours, theirs) = (minkowski_difference(&b, &a), plain(&b, &a));
+    let (ours, theirs) = (ours(), plain(&b, &a));
     let area = |polygon: &[Point]| {
         let next = polygon.iter().cycle().skip(1);
         polygon.iter().zip(next).map(|(p, q)| p.x * q.y - p.y * q.x).sum::<f64>() / 2.0
@@ -62,7 +64,7 @@ pub fn run(corners: usize, rounds: usize) -> Result<Value> {
     Ok(json!({
         "times": times.into_json(),
         "batch": BATCH,
-        "corners": {"cplan": ours.len(), "plain": theirs.len()},
-        "areas": {"cplan": area(&ours), "plain": area(&theirs)},
+        "corners": {"cplan": ours.core().len(), "plain": theirs.len()},
+        "areas": {"cplan": area(ours.core()), "plain": area(&theirs)},
     }))
 }
