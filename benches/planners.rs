@@ -14,16 +14,16 @@ use std::path::Path;
 
 /// As the program begins: obstacles grown by a thousandth of the reach, one turn to either side of the start.
 fn polygons(problem: &Problem) -> Regions {
-    regions(&problem.scene, 1e-3 * problem.scene.arm.reach(), problem.start, 1)
+    regions(problem.scene(), 1e-3 * problem.scene().arm().reach(), problem.start(), 1)
 }
 
 fn cells(problem: &Problem, n: usize) -> Grid {
-    outer_grid(&problem.scene, [n, n], problem.scene.workspace.clearance)
+    outer_grid(problem.scene(), [n, n], problem.scene().workspace().clearance)
 }
 
 /// The cells along each axis at which the program finds a path: from 256 on doubled until there is one.
 fn sufficient(problem: &Problem) -> usize {
-    let query = Query { start: problem.start, goals: problem.goals.clone() };
+    let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let planner = Wavefront::default();
     let finds = |&n: &usize| {
         let space = cells(problem, n);
@@ -41,7 +41,7 @@ fn shelf() -> Problem {
 fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &Problem, planner: &P, space: &P::Space) {
     let mut group = c.benchmark_group(format!("{name}/{}", P::NAME));
     group.sample_size(10);
-    let query = Query { start: problem.start, goals: problem.goals.clone() };
+    let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let map = planner.build(space);
     assert!(matches!(planner.query(space, &map, &query).outcome, Outcome::Found(_)), "{name}: {} fails", P::NAME);
     group.bench_function("build", |b| b.iter(|| planner.build(black_box(space))));

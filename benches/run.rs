@@ -10,10 +10,10 @@ use std::path::Path;
 /// What `cplan URDF WORLD --output FILE` does.
 fn run(urdf: &Path, world: &Path, output: &Path, method: Method) -> usize {
     let problem = input::load(urdf, world, &Overrides::default()).expect("a shipped workspace").problem;
-    let joints = &problem.scene.arm.joints;
+    let joints = &problem.scene().arm().joints;
     let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
     let Verdict::Found(certified) = &answer.verdict else { panic!("{method} found no path") };
-    let curve = blend(&problem.scene, certified, f64::INFINITY, problem.scene.workspace.clearance);
+    let curve = blend(problem.scene(), certified, f64::INFINITY, problem.scene().workspace().clearance);
     let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).expect("limits that allow motion");
     let json = Report::found(method.name(), joints, &curve, trajectory).json();
     write_whole(output, json.as_bytes()).expect("a folder to write into");

@@ -5,7 +5,7 @@ mod common;
 
 use cplan::cspace::regions;
 use cplan::geometry::{Point, SimplePolygon};
-use cplan::model::{Heights, Obstacle, Scene, Shape, Workspace};
+use cplan::model::{Heights, Obstacle, Shape, Workspace};
 use cplan::space::Axis;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::f64::consts::TAU;
@@ -53,7 +53,7 @@ fn spaces(c: &mut Criterion) {
             let workspace =
                 Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
             let range = Axis::Interval { lower: -2.8, upper: 2.8 };
-            let scene = Scene::new(common::rr([range; 2]), workspace);
+            let scene = common::placed(common::rr([range; 2]), workspace);
             group.throughput(Throughput::Elements(count as u64));
             group.bench_function(BenchmarkId::new(name, count), |b| {
                 b.iter(|| regions(black_box(&scene), 1.8e-3, common::q(0.0, 0.0), 1).free.len());

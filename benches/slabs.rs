@@ -22,7 +22,7 @@ fn answers(c: &mut Criterion) {
         group.bench_function(format!("{which:?}: certified or proven"), |b| {
             b.iter(|| decide(black_box(&problem), 10_000))
         });
-        let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+        let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         group.bench_function(format!("{which:?}: the search alone"), |b| {
             b.iter(|| slab_connectivity(black_box(scene), start, goals, 0.0, 10_000));
         });

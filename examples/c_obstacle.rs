@@ -18,15 +18,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let file = args.next().unwrap_or_else(|| "c_obstacles.svg".into());
 
     let loaded = input::load(&urdf, &world, &input::Overrides::default())?;
-    let scene = &loaded.problem.scene;
+    let scene = loaded.problem.scene();
 
     // One row: with joint 1 at its start value, exactly which values of joint 2 collide, and with what.
-    let start = loaded.problem.start;
+    let start = loaded.problem.start();
     let mut row = cplan::cspace::Row::default();
     Rows::new(scene).row(start[0], 0.0, &mut row);
-    println!("with {} at {:.4}, {} must stay out of", scene.arm.joints[0].name, start[0], scene.arm.joints[1].name);
+    println!("with {} at {:.4}, {} must stay out of", scene.arm().joints[0].name, start[0], scene.arm().joints[1].name);
     for interval in &row.merged {
-        println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm.joints[1].unit());
+        println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm().joints[1].unit());
     }
 
     // All of it: the boundary curves as polygons, here within a millimetre of workspace distance.
@@ -38,11 +38,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
 
     let picture = Picture {
-        title: vec![format!("{}: {}", scene.workspace.name, scene.arm.name)],
+        title: vec![format!("{}: {}", scene.workspace().name, scene.arm().name)],
         status: String::new(),
         scene,
         start,
-        goals: loaded.problem.goals.pieces(),
+        goals: loaded.problem.goals().pieces(),
         paths: Vec::new(),
         trace: None,
         proof: &[],

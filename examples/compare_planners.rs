@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let answer = solve(&problem, method, &Effort::default(), &mut |text| eprintln!("{text}"));
         match &answer.verdict {
             Verdict::Found(certified) => {
-                let limits = Limits::from(&problem.scene.arm.joints);
+                let limits = Limits::from(&problem.scene().arm().joints);
                 let trajectory = time(certified.clone(), &limits, 0.01)?.trajectory;
                 println!(
                     "{method:<11} length {:.4}, proven clearance {:.4} m, motion {:.2} s; built in {:.1?}, asked in {:.1?}",

@@ -43,7 +43,7 @@ impl Subject {
 
 /// C-obstacles, within less than a pixel.
 fn contours(scene: &Scene) -> Vec<CObstacle> {
-    let tolerance = 1e-3 * scene.arm.reach();
+    let tolerance = 1e-3 * scene.arm().reach();
     c_obstacles(scene, tolerance, tolerance)
 }
 
@@ -76,7 +76,7 @@ fn answer(robot: &str, world: &str, method: Method) -> Result<String, Box<dyn Er
     let urdf = root.join("robots").join(robot).with_extension("urdf");
     let world = root.join("workspaces").join(world).with_extension("toml");
     let problem = input::load(&urdf, &world, &Overrides::default())?.problem;
-    let scene = &problem.scene;
+    let scene = problem.scene();
     let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
     let (status, detail, path) = match &answer.verdict {
         Verdict::Found(certified) => {
@@ -92,11 +92,11 @@ fn answer(robot: &str, world: &str, method: Method) -> Result<String, Box<dyn Er
         Verdict::Unknown(reason) => ("unknown", reason.clone(), None),
     };
     let picture = Picture {
-        title: vec![format!("{}: {}", scene.workspace.name, scene.arm.name), detail],
+        title: vec![format!("{}: {}", scene.workspace().name, scene.arm().name), detail],
         status: status.into(),
         scene,
-        start: problem.start,
-        goals: problem.goals.pieces(),
+        start: problem.start(),
+        goals: problem.goals().pieces(),
         paths: path.map(|path| (method.to_string(), path)).into_iter().collect(),
         trace: Some(&answer.drawn()),
         proof: answer.verdict.proof(),

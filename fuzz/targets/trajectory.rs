@@ -27,9 +27,9 @@ fuzz_target!(|bytes: &[u8]| {
                 assert!(!recording.positions().is_empty());
                 assert!(recording.positions().iter().all(|q| q.iter().all(|v| v.is_finite())));
                 assert!(recording.times().is_none_or(|t| t.windows(2).all(|w| w[0] < w[1])));
-                let topology = SCENE.scene.arm.topology();
+                let topology = SCENE.scene.arm().topology();
                 let _ = (recording.turns(&topology), recording.clone().unwrapped(&topology));
-                let _ = limits_kept(&SCENE.scene.arm.joints, &recording);
+                let _ = limits_kept(&SCENE.scene.arm().joints, &recording);
             }
             Err(error) => assert!(!error.to_string().is_empty()),
         }

@@ -22,12 +22,12 @@ fuzz_target!(|bytes: &[u8]| {
                 "loads, yet the inspection says that it does not: {:?}",
                 inspection.errors
             );
-            assert!(loaded.scene.arm.reach() > 0.0);
-            for part in loaded.scene.arm.links.iter().flat_map(|l| &l.parts) {
+            assert!(loaded.scene.arm().reach() > 0.0);
+            for part in loaded.scene.arm().links.iter().flat_map(|l| &l.parts) {
                 assert!(!part.shape.core().is_empty() && part.shape.radius().is_finite());
                 assert!(part.shape.core().iter().all(|p| p.x.is_finite() && p.y.is_finite()));
             }
-            let _ = loaded.scene.clearance(loaded.scene.arm.topology().axes.map(|a| a.domain().0).into());
+            let _ = loaded.scene.clearance(loaded.scene.arm().topology().axes.map(|a| a.domain().0).into());
         }
         Err(error) => assert!(!error.to_string().is_empty()),
     }

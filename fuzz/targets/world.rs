@@ -48,10 +48,10 @@ fuzz_target!(|bytes: &[u8]| {
         match load(&shipped(robot), &world, &Overrides::default()) {
             Ok(loaded) => {
                 let problem = loaded.problem;
-                assert!(!problem.goals.is_empty());
-                for q in problem.goals.points().chain([problem.start]) {
+                assert!(!problem.goals().is_empty());
+                for q in problem.goals().points().chain([problem.start()]) {
                     assert!(q.iter().all(|v| v.is_finite()));
-                    assert!(problem.scene.clearance(q) > 0.0, "an end is not free");
+                    assert!(problem.scene().clearance(q) > 0.0, "an end is not free");
                 }
             }
             Err(error) => assert!(!error.to_string().is_empty()),

@@ -30,7 +30,7 @@ pub(super) enum Kind {
 
 /// The domain of joint 1 in stretches, ascending. `O(n log n)` in the contacts of link 1.
 pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let joint = &arm.joints[0];
     let (lower, upper) = joint.axis.domain();
     let mut of_pairs: Vec<(Pair, [f64; 2])> = Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
 
 /// A box, as high as the domain, in which the pair is stuck, within an interval of `q1` where it is too near.
 fn wall(scene: &Scene, clearance: f64, pair: Pair, [from, to]: [f64; 2]) -> Option<StuckBox> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let (bottom, top) = arm.joints[1].axis.domain();
     let lever = match arm.joints[0].motion {
         Motion::Revolute { .. } => scene.part(pair).reach_from(Point::origin()),

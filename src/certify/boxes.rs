@@ -166,7 +166,7 @@ const FINEST_BOX: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let topology = scene.arm.topology();
+        let topology = scene.arm().topology();
         let mut this = Self { scene, topology, clearance, nodes: Vec::new(), roots: 0 };
         let (bottom, top) = topology.axes[1].domain();
         let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };

@@ -73,8 +73,8 @@ impl<'a> Posture<'a> {
     /// The arm of `scene` at `q`.
     #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
-        let poses = scene.arm.poses(q);
-        Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm.offset) }
+        let poses = scene.arm().poses(q);
+        Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm().offset) }
     }
 
     /// Distance of a pair here and a lower bound on it over `deviation`.
@@ -102,7 +102,7 @@ impl<'a> Posture<'a> {
         let (fixed, around) = disc(self.scene.piece(pair));
         let (at, extent) = self.place(pair, deviation);
         let between = (at - fixed).norm();
-        let scale = self.scene.arm.base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
+        let scale = self.scene.arm().base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
         between - extent - around - ROUNDING * scale
     }
 
@@ -126,7 +126,7 @@ impl<'a> Posture<'a> {
 
     /// Magnitude of the coordinates that enter a distance.
     pub(super) fn scale(&self, part: &Convex, piece: &Convex) -> f64 {
-        let base = self.scene.arm.base;
+        let base = self.scene.arm().base;
         base.coords.norm() + part.reach_from(base) + piece.reach_from(base)
     }
 
@@ -165,7 +165,7 @@ impl<'a> Posture<'a> {
 
     /// Rate along `n`, for each joint, of the point of link `link` that is at `x` now.
     fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let first = match arm.joints[0].motion {
             Motion::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
             Motion::Prismatic { direction } => n.dot(&direction),
@@ -181,7 +181,7 @@ impl<'a> Posture<'a> {
     /// Bound on `|x''|` of the link's point `a` (link frame) in the plane, per squared parameter of the deviation.
     pub(super) fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
         use Motion::{Prismatic, Revolute};
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
         let turn = turn_of_link_2(arm, deviation);
         match (link, arm.joints[0].motion, arm.joints[1].motion) {
@@ -199,7 +199,7 @@ impl<'a> Posture<'a> {
     /// Bound on `|y''|` of the plane's point `p` seen from the link, per squared parameter of the deviation.
     pub(super) fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
         use Motion::{Prismatic, Revolute};
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
         let turn = turn_of_link_2(arm, deviation);
         let from_base = (p - arm.base).norm();
@@ -215,7 +215,7 @@ impl<'a> Posture<'a> {
     /// Bound on how far any point of the pair's link part moves.
     pub(super) fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
         use Motion::{Prismatic, Revolute};
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let reach = self.scene.part(pair).reach_from(Point::origin());
         let [d1, d2] = deviation.each();
         match (pair.link, arm.joints[0].motion, arm.joints[1].motion) {

@@ -95,7 +95,7 @@ pub enum Rejection {
 /// # Errors
 /// [`Rejection`]; `TooClose` is a proof that the path fails, the others are not.
 pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     for (waypoint, q) in path.waypoints().iter().enumerate() {
         if let Some(joint) = (0..2).find(|&k| !topology.axes[k].contains(q[k])) {
             return Err(Rejection::OutOfLimits { waypoint, joint });

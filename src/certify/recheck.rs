@@ -69,7 +69,7 @@ pub fn recheck(
     goals: &GoalSet,
     clearance: f64,
 ) -> Result<(), ProofDefect> {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     for (index, stuck) in stuck.iter().enumerate() {
         check_box(scene, &topology, index, stuck, clearance)?;
         checkpoint();
@@ -102,18 +102,18 @@ fn check_box(
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
     // The middle is rounded: the farther of the two ends counts.
     let half = [0, 1].map(|k| (cell.upper[k] - middle[k]).max(middle[k] - cell.lower[k]));
-    let part = scene.part(stuck.pair).at(&scene.arm.pose(stuck.pair.link, middle));
+    let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
     let piece = scene.piece(stuck.pair).grown(clearance);
     let depth = penetration_depth(&part, &piece);
     let motion = farthest(scene, stuck, middle, half);
-    let scale = part.reach_from(scene.arm.base) + piece.reach_from(scene.arm.base) + scene.arm.base.coords.norm();
+    let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.coords.norm();
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofDefect::NotStuck { index, depth, motion }) }
 }
 
 /// Farthest that a corner of the link's part can move from where it is at `q` while each joint moves by at most `half`:
 /// a turn by `t` about a point at distance `r` moves by the chord `2 r sin(t / 2)`.
 fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
     let of_corner = |a: nalgebra::Vector2<f64>| match (stuck.pair.link, arm.joints[0].motion, arm.joints[1].motion) {
         (0, Motion::Revolute { .. }, _) => a.norm() * chord(half[0]),

@@ -127,7 +127,7 @@ pub(super) struct Verdicts {
 
 impl<'a> SecondLink<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let joint = &scene.arm.joints[1];
+        let joint = &scene.arm().joints[1];
         let of_second: Vec<Pair> = scene.pairs().iter().filter(|p| p.link == 1).copied().collect();
         let (mut parts, mut pairs) = (Vec::new(), Vec::with_capacity(of_second.len()));
         for of_part in of_second.chunk_by(|a, b| a.part == b.part) {
@@ -141,14 +141,14 @@ impl<'a> SecondLink<'a> {
                     part: parts.len(),
                     piece,
                     features: Features::new(piece),
-                    reach: piece.reach_from(scene.arm.base) + clearance,
+                    reach: piece.reach_from(scene.arm().base) + clearance,
                     depth: piece.depth(),
                     eroded: Vec::new(),
                 });
             }
             parts.push(PreparedPart {
                 carried: Carried::new(joint.motion, shape),
-                reach: swept(shape, joint, scene.arm.offset).reach_from(Point::origin()),
+                reach: swept(shape, joint, scene.arm().offset).reach_from(Point::origin()),
                 depth: shape.depth(),
                 eroded: Vec::new(),
                 first,
@@ -160,7 +160,7 @@ impl<'a> SecondLink<'a> {
 
     /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
     fn motion(&self, reach: f64, half: f64) -> f64 {
-        match self.scene.arm.joints[0].motion {
+        match self.scene.arm().joints[0].motion {
             Motion::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
             Motion::Prismatic { .. } => half,
         }
@@ -188,12 +188,12 @@ impl<'a> SecondLink<'a> {
                 if hits == Hits::Never {
                     continue;
                 }
-                let joint = &self.scene.arm.joints[1];
+                let joint = &self.scene.arm().joints[1];
                 on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
                 let overlap = self.motion(part.reach, half) * OVERLAP + OUTWARD;
                 scratch.clear();
                 let hits = self.stuck(index, level, overlap, elbow, heading, &mut scratch);
-                let joint = &self.scene.arm.joints[1];
+                let joint = &self.scene.arm().joints[1];
                 on_axis(joint, hits, &scratch, |interval| {
                     if interval[0] < interval[1] {
                         verdicts.inner.push((index, interval));
@@ -276,8 +276,8 @@ impl<'a> SecondLink<'a> {
 
     /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
     fn elbow(&self, q1: f64) -> (Point, Vector) {
-        let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
-        (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
+        let pose = self.scene.arm().pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(self.scene.arm().offset), pose * Vector::x())
     }
 }
 
@@ -328,7 +328,7 @@ mod tests {
         };
         let shape = Shape::Polygon(piece.core().to_vec());
         let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
-        Scene::new(
+        Scene::trusted(
             arm,
             Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() },
         )
@@ -354,7 +354,7 @@ mod tests {
             second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
             let Verdicts { mut outer, inner } = verdicts;
             crate::geometry::merge_in_place(&mut outer);
-            let (bottom, top) = scene.arm.joints[1].axis.domain();
+            let (bottom, top) = scene.arm().joints[1].axis.domain();
             for (u, v) in samples {
                 let q1 = (middle + u * half).clamp(from, to);
                 let q2 = bottom + v * (top - bottom);

@@ -148,7 +148,7 @@ fn search(
 
 impl<'a> Slabs<'a> {
     fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let topology = scene.arm.topology();
+        let topology = scene.arm().topology();
         let mut this = Self {
             topology,
             second: SecondLink::new(scene, clearance),

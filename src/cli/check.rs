@@ -85,14 +85,11 @@ struct CornerFinding {
 /// Bad input and I/O. A configuration that is not free is no error: saying why is the job.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
-    let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
-    if let Some(clearance) = args.clearance {
-        loaded.scene.workspace.clearance = clearance;
-    }
+    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     output::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     let scene = &loaded.scene;
-    let q = args.at.resolve(&scene.arm.joints, "--at").map_err(input::InputError::from)?;
+    let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
     let findings = findings(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
@@ -110,19 +107,19 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
 }
 
 fn findings(scene: &Scene, q: Configuration) -> Findings {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     let within_limits = [0, 1].map(|k| topology.axes[k].contains(q[k]));
-    let required = scene.workspace.clearance;
+    let required = scene.workspace().clearance;
     let contacts: Vec<PairFinding> = scene.separations(q).filter_map(|contact| finding(scene, q, contact)).collect();
     let free = within_limits == [true, true] && contacts.is_empty();
     let nearest = if free { None } else { nearest_free(scene, q) };
-    let plane = scene.arm.plane;
+    let plane = scene.arm().plane;
     let array = |v: Vector3<f64>| [v.x, v.y, v.z];
     Findings {
         free,
         configuration: [q[0], q[1]],
         within_limits,
-        tip: pair(scene.arm.tip_at(q)),
+        tip: pair(scene.arm().tip_at(q)),
         clearance: Some(scene.clearance(q)).filter(|c| c.is_finite()),
         required,
         plane: Basis { u: array(plane.u), v: array(plane.v), normal: array(plane.normal) },
@@ -139,10 +136,10 @@ fn findings(scene: &Scene, q: Configuration) -> Findings {
 /// What is to say of a pair, if its shapes touch or are nearer than the distance to keep.
 fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFinding> {
     let Contact { pair: indices, separation } = contact;
-    let part = scene.part(indices).at(&scene.arm.pose(indices.link, q));
+    let part = scene.part(indices).at(&scene.arm().pose(indices.link, q));
     let piece = scene.piece(indices);
     let touching = shapes_meet(&part, piece);
-    if !touching && separation.distance >= scene.workspace.clearance {
+    if !touching && separation.distance >= scene.workspace().clearance {
         return None;
     }
     let (a, b) = (part.core(), piece.core());
@@ -153,11 +150,11 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         found.iter().map(|c| CornerFinding { at: pair(corners[c.corner]), depth: c.depth }).collect()
     };
     let side = |corners: &[Point], i: usize| [pair(corners[i]), pair(corners[(i + 1) % corners.len()])];
-    let link = &scene.arm.links[indices.link];
+    let link = &scene.arm().links[indices.link];
     Some(PairFinding {
         link: link.name.clone(),
         body: link.parts[indices.part].body.clone(),
-        obstacle: scene.workspace.obstacles[indices.obstacle].name.clone(),
+        obstacle: scene.workspace().obstacles[indices.obstacle].name.clone(),
         touching,
         depth: -separation.distance,
         link_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(a, &t.a_inside)),
@@ -173,7 +170,7 @@ fn pair(p: Point) -> [f64; 2] {
 
 fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours: &'a [CObstacle]) -> Picture<'a> {
     Picture {
-        title: vec![scene.arm.name.clone(), configuration(&scene.arm, q)],
+        title: vec![scene.arm().name.clone(), configuration(scene.arm(), q)],
         status: if findings.free { "free".into() } else { "not free".into() },
         scene,
         start: q,
@@ -187,7 +184,7 @@ fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours
 
 fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
     let scene = &loaded.scene;
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let mut text = String::new();
     // Writing to a string cannot fail.
     let mut line = |key: &str, value: String| {

@@ -73,7 +73,7 @@ fn entry(defect: &Defect) -> DefectEntry<'_> {
 /// The arm at zero, if there is one.
 fn posture(inspection: &Inspection) -> Option<Posture<'_>> {
     let scene = inspection.scene.as_ref()?;
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let [first, second] = &arm.joints;
     let outlines: Vec<String> = inspection.outlines.iter().map(|o| format!("{}: {}", o.link, o.source)).collect();
     let outlines = if outlines.is_empty() { "none".into() } else { outlines.join(", ") };

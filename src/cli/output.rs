@@ -141,20 +141,20 @@ pub fn warn_unwritten(path: &Path) {
 
 /// Workspace and robot.
 pub fn title(problem: &Problem) -> String {
-    title_of(&problem.scene)
+    title_of(problem.scene())
 }
 
 /// The same without a start and a goal.
 pub fn title_of(scene: &Scene) -> String {
-    match scene.workspace.name.as_str() {
-        "" => scene.arm.name.clone(),
-        name => format!("{name}: {}", scene.arm.name),
+    match scene.workspace().name.as_str() {
+        "" => scene.arm().name.clone(),
+        name => format!("{name}: {}", scene.arm().name),
     }
 }
 
 /// C-obstacles for pictures.
 pub fn contours(scene: &Scene) -> Vec<CObstacle> {
-    let tolerance = PICTURE_TOLERANCE * scene.arm.reach();
+    let tolerance = PICTURE_TOLERANCE * scene.arm().reach();
     c_obstacles(scene, tolerance, tolerance)
 }
 

@@ -45,7 +45,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
     let mut loaded = loaded.problem(&args.query.overrides())?;
-    args.motion.override_limits(&mut loaded.problem.scene.arm.joints);
+    args.motion.override_limits(loaded.problem.joints_mut());
     clock.stage("load");
     let say = |text: &str| {
         if !args.quiet {
@@ -54,7 +54,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     };
     loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let problem = &loaded.problem;
-    let effort = effort(&problem.scene, args, field)?;
+    let effort = effort(problem.scene(), args, field)?;
     let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
     clock.stages(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
@@ -101,10 +101,10 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
 /// # Errors
 /// A field that follows preferences of the world, which has none.
 pub fn effort(scene: &Scene, args: &PlanArgs, field: Option<FieldPlanner>) -> Result<Effort, Failure> {
-    if let Some(lack) = args.field.lack(&scene.workspace.preferences) {
+    if let Some(lack) = args.field.lack(&scene.workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
-    let metric = args.optimum.metric(scene.arm.joints.each_ref().map(|joint| joint.velocity));
+    let metric = args.optimum.metric(scene.arm().joints.each_ref().map(|joint| joint.velocity));
     let wavefront = args.search.wavefront();
     Ok(Effort { metric, gap: args.optimum.gap, field, path: args.path.path, wavefront, ..args.effort.effort() })
 }
@@ -115,15 +115,15 @@ pub(super) fn report(
     answer: &Answer,
     motion: &MotionArgs,
 ) -> Result<(Report, Option<CertifiedCurve>), Failure> {
-    let joints = &problem.scene.arm.joints;
+    let joints = &problem.scene().arm().joints;
     let planner = answer.method.name();
     let mut followed = None;
     let mut report = match &answer.verdict {
         Verdict::Found(certified) => {
-            let Timed { curve, trajectory } = motion.drive().along(&problem.scene, certified, 1.0)?;
+            let Timed { curve, trajectory } = motion.drive().along(problem.scene(), certified, 1.0)?;
             let mut report = Report::found(planner, joints, &curve, trajectory);
             report.optimum = answer.bound.map(Optimum::from);
-            report.closest = curve.nearest().map(|n| problem.scene.describe(n.contact.pair));
+            report.closest = curve.nearest().map(|n| problem.scene().describe(n.contact.pair));
             followed = Some(curve);
             report
         }
@@ -142,7 +142,7 @@ pub(super) fn report(
     };
     report.free_joints = free_joints(problem);
     report.path_kind = matches!(answer.verdict, Verdict::Found(_)).then(|| answer.path.name());
-    report.name = Some(problem.scene.workspace.name.clone()).filter(|name| !name.is_empty());
+    report.name = Some(problem.scene().workspace().name.clone()).filter(|name| !name.is_empty());
     report.size = match answer.run.size {
         Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
         Size::Windows { cells, windows } => [("cells", cells), ("windows", windows)].into(),
@@ -160,9 +160,9 @@ pub(super) fn tell_how(report: &mut Report, answer: &Answer, effort: &Effort) {
 
 /// The names of the joints that the goal leaves free.
 fn free_joints(problem: &Problem) -> Vec<String> {
-    let goals = problem.goals.pieces();
+    let goals = problem.goals().pieces();
     let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
-    (0..2).filter(is_free).map(|k| problem.scene.arm.joints[k].name.clone()).collect()
+    (0..2).filter(is_free).map(|k| problem.scene().arm().joints[k].name.clone()).collect()
 }
 
 impl From<Bound> for Optimum {

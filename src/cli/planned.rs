@@ -74,7 +74,7 @@ impl Planned<'_> {
 
     fn with_picture<T>(&self, contours: &[CObstacle], show: impl FnOnce(&Picture) -> T) -> T {
         let Self { problem, answer, report, .. } = self;
-        let scene = &problem.scene;
+        let scene = problem.scene();
         let outline = self.curve.map(|curve| curve.curve().outline());
         let detail = match report.length {
             Some(length) => {
@@ -88,8 +88,8 @@ impl Planned<'_> {
             title: vec![output::title(problem), detail],
             status: status(&answer.verdict).into(),
             scene,
-            start: problem.start,
-            goals: problem.goals.pieces(),
+            start: problem.start(),
+            goals: problem.goals().pieces(),
             paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
             trace: Some(&answer.drawn()),
             proof: answer.verdict.proof(),

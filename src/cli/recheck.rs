@@ -18,7 +18,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let source = Source::read(&args.proof)?;
     let boxes = read_proof(source.text()).map_err(|e| failed(e.to_string()))?;
     let problem = &loaded.problem;
-    recheck(&boxes, &problem.scene, problem.start, &problem.goals, problem.scene.workspace.clearance)
+    recheck(&boxes, problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
         .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;
     output::print(&format!(
         "the proof holds: {} boxes of collisions separate the start from every goal\n",

@@ -83,14 +83,14 @@ pub fn range(joint: &Joint) -> String {
 
 /// What was found, in some ten lines.
 pub fn text(loaded: &Loaded, planned: &Planned, sinks: &[Sink], clock: &Clock) -> String {
-    let scene = &planned.problem.scene;
-    let arm = &scene.arm;
+    let scene = planned.problem.scene();
+    let arm = scene.arm();
     let mut lines = arm_lines(arm);
     lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
-    let obstacles = counted(scene.workspace.obstacles.len(), "obstacle");
-    lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace.name))));
-    lines.push(("start", configuration(arm, planned.problem.start)));
-    lines.extend(planned.problem.goals.pieces().iter().map(|goals| ("goal", segment(arm, goals))));
+    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
+    lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))));
+    lines.push(("start", configuration(arm, planned.problem.start())));
+    lines.extend(planned.problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
     lines.extend(outcome(planned));
     for sink in sinks.iter().filter(|sink| sink.is_filled_by(planned.report)) {
         lines.push(("file", sink.path().display().to_string()));
@@ -101,7 +101,7 @@ pub fn text(loaded: &Loaded, planned: &Planned, sinks: &[Sink], clock: &Clock) -
 
 /// What a page says of it: arm and outcome.
 pub fn facts(planned: &Planned) -> Vec<[String; 2]> {
-    named(arm_lines(&planned.problem.scene.arm).into_iter().chain(outcome(planned)))
+    named(arm_lines(planned.problem.scene().arm()).into_iter().chain(outcome(planned)))
 }
 
 /// Lines for a page.
@@ -124,8 +124,8 @@ fn outcome(planned: &Planned) -> Vec<Line> {
             let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
             let found = format!("found and certified: {segments} straight pieces, length {:.4}{kind}", path.length());
             lines.push(("result", found));
-            if problem.goals.pieces().iter().any(|goals| !goals.is_point()) {
-                lines.push(("reached", configuration(&problem.scene.arm, path.goal())));
+            if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
+                lines.push(("reached", configuration(problem.scene().arm(), path.goal())));
             }
             if let Some(bound) = &answer.bound {
                 lines.push(("optimum", optimum(bound)));
@@ -137,7 +137,7 @@ fn outcome(planned: &Planned) -> Vec<Line> {
         Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
     }
     if let (Some(curve), Some(trajectory)) = (curve, &report.trajectory) {
-        lines.push(("clearance", clearance(&problem.scene, curve)));
+        lines.push(("clearance", clearance(problem.scene(), curve)));
         let (samples, corners) = (trajectory.time.len(), corners(curve));
         lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     }
@@ -190,7 +190,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
             "{:.6} m proven; closest: {} at {}",
             curve.clearance(),
             scene.describe(nearest.contact.pair),
-            configuration(&scene.arm, nearest.at)
+            configuration(scene.arm(), nearest.at)
         ),
         None => "nothing can be hit".into(),
     }

@@ -57,7 +57,7 @@ impl Bitmap {
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let rows = Rows::new(scene);
-    let axes: [Axis; 2] = scene.arm.topology().axes;
+    let axes: [Axis; 2] = scene.arm().topology().axes;
     let words = cells[1].div_ceil(WORD);
     let mut bits = vec![0_u64; words * cells[0]];
     let [lines, columns] = [0, 1].map(|k| Centers::new(axes[k], cells[k]));
@@ -74,7 +74,7 @@ pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     for index in rows.second_link_pairs() {
         reached.clear();
         let hits = rows.reach_range(index, clearance, &mut reached);
-        on_axis(&scene.arm.joints[0], hits, &reached, |range| {
+        on_axis(&scene.arm().joints[0], hits, &reached, |range| {
             // One row more at either end, for the rounding of the range.
             let range = lines.within(range);
             let range = range.start.saturating_sub(1)..(range.end + 1).min(cells[0]);
@@ -83,7 +83,7 @@ pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
                 let row = &mut bits[i * words..(i + 1) * words];
                 intervals.clear();
                 let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
-                on_axis(&scene.arm.joints[1], hits, &intervals, |blocked| {
+                on_axis(&scene.arm().joints[1], hits, &intervals, |blocked| {
                     let blocked = columns.within(blocked);
                     fill(row, blocked.start, blocked.end);
                 });

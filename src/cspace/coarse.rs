@@ -24,7 +24,7 @@ pub(super) fn coarse(scene: &Scene, within: f64) -> Cow<'_, Scene> {
         outlined && obstacle.pieces.len() > PLAIN || obstacle.pieces.iter().any(fine)
     };
     let parts = scene.own_parts(0).iter().chain(scene.own_parts(1));
-    if within <= 0.0 || !parts.map(|part| &part.shape).any(fine) && !scene.workspace.obstacles.iter().any(many) {
+    if within <= 0.0 || !parts.map(|part| &part.shape).any(fine) && !scene.workspace().obstacles.iter().any(many) {
         return Cow::Borrowed(scene);
     }
     let each = within / 2.0;

@@ -38,7 +38,7 @@ impl<'a> Curves<'a> {
     pub fn new(rows: &'a Rows<'a>, index: usize, level: f64, tolerance: f64) -> Self {
         let scene = rows.scene();
         let pair = scene.pairs()[index];
-        let motion = PairMotion::new(&scene.arm, scene.part(pair), scene.piece(pair));
+        let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
         // Over half of this no distance changes by more than the tolerance.
         let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
         let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
@@ -50,7 +50,7 @@ impl<'a> Curves<'a> {
         if self.rows.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
             return Vec::new();
         }
-        let turning = self.rows.scene().arm.joints[1].motion.is_revolute();
+        let turning = self.rows.scene().arm().joints[1].motion.is_revolute();
         let overlap = OVERLAP * self.min_width;
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
@@ -60,7 +60,7 @@ impl<'a> Curves<'a> {
     fn breaks(&self) -> Vec<Break> {
         let scene = self.rows.scene();
         let pair = scene.pairs()[self.index];
-        let arm = &scene.arm;
+        let arm = scene.arm();
         let levels = [(self.floor, true), (self.level, false)];
         let joint = &arm.joints[0];
         let (start, end) = if joint.motion.is_revolute() {

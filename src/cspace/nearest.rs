@@ -57,17 +57,17 @@ struct Search<'a> {
 
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, from: Configuration) -> Self {
-        let grow = scene.workspace.clearance + 2.0 * ROUNDING;
+        let grow = scene.workspace().clearance + 2.0 * ROUNDING;
         let rows = Rows::new(scene);
         let bands = rows.bands(grow);
-        let first = &scene.arm.joints[0];
+        let first = &scene.arm().joints[0];
         let extent = first.axis.extent();
         let spacing = if first.motion.is_revolute() { extent.min(TAU) } else { extent } / ROWS;
         Self { scene, rows, bands, row: Row::default(), from, grow, best: None, spacing }
     }
 
     fn run(mut self) -> Option<NearestFree> {
-        let first = &self.scene.arm.joints[0];
+        let first = &self.scene.arm().joints[0];
         let start = match first.axis {
             Axis::Interval { lower, upper } => self.from[0].clamp(lower, upper),
             Axis::Circle => self.from[0],
@@ -117,7 +117,7 @@ impl<'a> Search<'a> {
 
     /// Distance of the nearest free configuration with this value of joint 1, if it is allowed and there is one.
     fn look(&mut self, q1: f64) -> Option<f64> {
-        let [first, second] = self.scene.arm.topology().axes;
+        let [first, second] = self.scene.arm().topology().axes;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
         if !first.contains(q1) || self.bands.merged.iter().any(|band| inside(band, first.wrap(q1))) {
             return None;
@@ -137,7 +137,7 @@ impl<'a> Search<'a> {
         values.into_iter().find_map(|q2| {
             let to = Configuration::new(q1, second.lift(q2, self.from[1]));
             let clearance = self.scene.clearance(to);
-            if clearance <= 0.0 || clearance < self.scene.workspace.clearance {
+            if clearance <= 0.0 || clearance < self.scene.workspace().clearance {
                 return None;
             }
             let distance = (to - self.from).norm();

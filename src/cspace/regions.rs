@@ -123,7 +123,7 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
 
 /// The limits of interval axes, and `periods` turns to either side of `center` on circles.
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     let turns = TAU * periods as f64;
     [0, 1].map(|k| match topology.axes[k] {
         Axis::Interval { lower, upper } => (lower, upper),
@@ -132,9 +132,9 @@ fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 
 }
 
 fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
-    let periods = [0, 1].map(|k| scene.arm.joints[k].motion.is_revolute().then_some(TAU));
+    let periods = [0, 1].map(|k| scene.arm().joints[k].motion.is_revolute().then_some(TAU));
     let free = free_space(window, periods, obstacles.iter().map(|o| o.contour.as_slice()));
-    Regions { topology: scene.arm.topology(), proves, window, obstacles, free }
+    Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
 }
 
 /// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and
@@ -154,10 +154,10 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
 #[must_use]
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
-    let level = scene.workspace.clearance + margin;
+    let level = scene.workspace().clearance + margin;
     let scene = &*coarse(scene, COARSENESS * margin);
     let rows = Rows::new(scene);
-    let map = translation::joint_map(&scene.arm);
+    let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();
     for (index, pair) in scene.pairs().iter().enumerate() {
         checkpoint();
@@ -165,7 +165,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
             (0, _) => bands(&rows, index, level + tolerance, OVERLAP * level.min(1.0)),
             (_, Some(map)) => {
                 let (part, piece) = (scene.part(*pair), scene.piece(*pair));
-                vec![translation::contour(&scene.arm, map, part, piece, level, tolerance)]
+                vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
             }
             (_, None) => Curves::new(&rows, index, level, tolerance).contours(),
         };
@@ -179,7 +179,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
 /// closes the seam between the copies of a whole turn.
 fn bands(rows: &Rows, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.motion.is_revolute() { (-PI, PI) } else { joint.axis.domain() };
-    let [first, second] = &rows.scene().arm.joints;
+    let [first, second] = &rows.scene().arm().joints;
     let mut spans = Vec::new();
     if rows.first_link(index, level, &mut spans) == Hits::Always {
         spans = vec![<[f64; 2]>::from(domain(first))];

@@ -46,7 +46,7 @@ struct PreparedPart {
 impl PreparedPart {
     /// The part of some pairs, which are the next from the number `from` on.
     fn new(scene: &Scene, pairs: &[Pair], from: usize) -> Self {
-        let arm = &scene.arm;
+        let arm = scene.arm();
         let [first, second] = &arm.joints;
         let part = scene.part(pairs[0]);
         let (carried, sweep) = if pairs[0].link == 0 {
@@ -114,7 +114,7 @@ impl<'a> Rows<'a> {
     pub fn first_link(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         assert_eq!(pair.link, 0, "a pair of link 1");
-        self.part(pair).carried.hits(self.scene.arm.base, Vector::x(), self.piece(pair), grow, out)
+        self.part(pair).carried.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
     /// Values of joint 2 at which pair `index`, of link 2, comes within `grow` of contact while joint 1 is at `q1`.
@@ -135,7 +135,7 @@ impl<'a> Rows<'a> {
     pub fn reach_range(&self, index: usize, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         let sweep = self.part(pair).sweep.as_ref().expect("a pair of link 2");
-        sweep.hits(self.scene.arm.base, Vector::x(), self.piece(pair), grow, out)
+        sweep.hits(self.scene.arm().base, Vector::x(), self.piece(pair), grow, out)
     }
 
     /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
@@ -144,7 +144,7 @@ impl<'a> Rows<'a> {
         checkpoint();
         row.clear();
         let (elbow, heading) = self.elbow(q1);
-        let joint = &self.scene.arm.joints[1];
+        let joint = &self.scene.arm().joints[1];
         let mut near = std::mem::take(&mut row.near);
         for part in self.parts.iter().filter(|part| part.sweep.is_some()) {
             part.near(elbow, grow, &mut near);
@@ -167,7 +167,7 @@ impl<'a> Rows<'a> {
             row.scratch.clear();
             let hits = self.first_link(index, grow, &mut row.scratch);
             let Row { forbidden, scratch, .. } = &mut row;
-            let joint = &self.scene.arm.joints[0];
+            let joint = &self.scene.arm().joints[0];
             on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
         }
         row.merge();
@@ -186,12 +186,12 @@ impl<'a> Rows<'a> {
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
-        match self.scene.arm.joints[0].motion {
+        match self.scene.arm().joints[0].motion {
             Motion::Prismatic { .. } => step,
             Motion::Revolute { .. } => {
                 let part = self.part(pair);
                 let carried = part.sweep.as_ref().unwrap_or(&part.carried).shape().reach_from(Point::origin());
-                let touched = self.piece(pair).shape().reach_from(self.scene.arm.base) + clearance;
+                let touched = self.piece(pair).shape().reach_from(self.scene.arm().base) + clearance;
                 2.0 * carried.min(touched) * (step.min(PI) / 2.0).sin()
             }
         }
@@ -209,8 +209,8 @@ impl<'a> Rows<'a> {
 
     /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
     pub(super) fn elbow(&self, q1: f64) -> (Point, Vector) {
-        let pose = self.scene.arm.pose(0, Configuration::new(q1, 0.0));
-        (pose * Point::from(self.scene.arm.offset), pose * Vector::x())
+        let pose = self.scene.arm().pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(self.scene.arm().offset), pose * Vector::x())
     }
 
     /// [`Rows::second_link`] with the elbow at hand.

@@ -19,14 +19,14 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         .map(|&pair| (pair.link, Solid::new(scene.part(pair), 0.0), Solid::new(scene.piece(pair), clearance)))
         .collect();
     let mut grid = Grid {
-        topology: scene.arm.topology(),
+        topology: scene.arm().topology(),
         proves: Proves::Sampled,
         cells,
         blocked: vec![false; cells[0] * cells[1]],
     };
     for index in 0..grid.blocked.len() {
         let q: Configuration = grid.center(index);
-        let poses = scene.arm.poses(q).map(|p| pose(&p));
+        let poses = scene.arm().poses(q).map(|p| pose(&p));
         grid.blocked[index] = pairs.iter().any(|(link, part, piece)| part.meets(&poses[*link], piece));
     }
     grid

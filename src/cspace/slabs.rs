@@ -22,7 +22,7 @@ const COARSENESS: f64 = 1.0 / 16.0;
 #[must_use]
 pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let rows = Rows::new(scene);
-    let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     let columns = Columns::new(&grid);
     let bands = rows.bands(clearance);
     let mut intervals = Vec::new();
@@ -37,7 +37,7 @@ pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid 
         for index in rows.second_link_pairs() {
             intervals.clear();
             let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
-            on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
+            on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
         }
     }
     grid
@@ -54,7 +54,7 @@ pub fn grid_from_rows(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid 
 /// Obstacle by obstacle, only in the rows where link 2 reaches it at all: `O(reached rows * contacts + cells)`.
 #[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
-    let mut grid = Grid { topology: scene.arm.topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
+    let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     let steps = grid.step();
     let kept = clearance + 2.0 * ROUNDING;
     let motions = |rows: &Rows| -> Vec<f64> {
@@ -86,7 +86,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         reached.clear();
         checkpoint();
         let hits = rows.reach_range(index, grow, &mut reached);
-        on_axis(&scene.arm.joints[0], hits, &reached, |[start, end]| {
+        on_axis(&scene.arm().joints[0], hits, &reached, |[start, end]| {
             // One row more at either end, for the rounding of the range.
             let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
             let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
@@ -96,7 +96,9 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
                 intervals.clear();
                 let hits = rows.at_elbow(index, elbow, heading, grow, &mut intervals);
                 intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - WIDENING, *end + WIDENING));
-                on_axis(&scene.arm.joints[1], hits, &intervals, |[start, end]| columns.block_touched(row, start, end));
+                on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| {
+                    columns.block_touched(row, start, end)
+                });
             }
         });
     }

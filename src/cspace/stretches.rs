@@ -49,7 +49,7 @@ fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
 
 /// The forbidden values of joint 1 at a value of joint 2.
 fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let joint = &arm.joints[0];
     let [first, second] = arm.poses(Configuration::new(0.0, q2));
     let in_first = first.inverse() * second;

@@ -29,12 +29,12 @@ impl ZonedGrid {
     /// `O(cells * corners of all regions)`.
     #[must_use]
     pub fn new(grid: Grid, scene: &Scene) -> Self {
-        let preferences = &scene.workspace.preferences;
+        let preferences = &scene.workspace().preferences;
         let zones =
             preferences.iter().map(|p| Zone { name: p.name.clone(), epsilon: p.epsilon, direction: p.direction });
         let of = |cell| {
             let center = grid.center(cell);
-            let holding = preferences.iter().rposition(|preference| preference.holds_at(&scene.arm, center));
+            let holding = preferences.iter().rposition(|preference| preference.holds_at(scene.arm(), center));
             holding.map(|index| index as u32)
         };
         let of_cell = if preferences.is_empty() {

@@ -12,17 +12,17 @@ const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 /// The panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
 pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
-    let chart = Chart::new(&picture.scene.arm, area);
+    let chart = Chart::new(picture.scene.arm(), area);
     let Chart { frame, units, topology, paths, .. } = chart;
 
     let mut inside = frame.grid(units);
     inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &paths)));
-    for index in 0..picture.scene.workspace.obstacles.len() {
+    for index in 0..picture.scene.workspace().obstacles.len() {
         let contours = picture.c_obstacles.iter().filter(|c| c.obstacle == index);
         inside.push(chart.c_obstacle(contours, blocked(color::obstacle(index))));
     }
     inside.extend(picture.trace.into_iter().flat_map(|t| trace::above(t, &frame, &topology, &paths)));
-    inside.extend(preferences::in_cspace(&picture.scene.workspace.preferences, &frame, &paths));
+    inside.extend(preferences::in_cspace(&picture.scene.workspace().preferences, &frame, &paths));
     if !picture.proof.is_empty() {
         inside.push(boxes::proof(picture.proof, &frame));
     }
@@ -30,7 +30,7 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     inside.extend(page::lines(segments.map(|goals| (chart.outline(&Path::new(goals.ends().to_vec())), GOALS))));
     inside.extend(page::path_items(picture.paths.iter().map(|(_, path)| chart.outline(path)).collect()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
-    items.extend(frame.border(units, chart::titles(&picture.scene.arm), chart.seams()));
+    items.extend(frame.border(units, chart::titles(picture.scene.arm()), chart.seams()));
     items.extend(picture.trace.into_iter().flat_map(|t| trace::color_bar(t, &frame)));
     // Where paths were found, the goals that none of them reached are hollow.
     let reached: Vec<Spot> = picture.paths.iter().map(|(_, path)| chart.place(path.goal())).collect();

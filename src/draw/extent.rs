@@ -26,7 +26,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let swept = swept(scene, shown);
     let size = (swept[0].1 - swept[0].0).max(swept[1].1 - swept[1].0);
     let mut sides = swept;
-    for corners in scene.workspace.obstacles.iter().map(extent) {
+    for corners in scene.workspace().obstacles.iter().map(extent) {
         let near = [0, 1]
             .map(|k| (corners[k].0.max(swept[k].0 - NEARBY * size), corners[k].1.min(swept[k].1 + NEARBY * size)));
         if near.iter().all(|(lower, upper)| lower <= upper) {
@@ -38,7 +38,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
 
 /// The box around the arm in a sample of its configurations, which are dense enough for a picture.
 fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
     let mut include = |p: Point, r: f64| {
         for k in 0..2 {

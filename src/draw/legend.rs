@@ -45,9 +45,9 @@ pub fn keys(picture: &Picture) -> Vec<Key> {
     }
     keys.extend(picture.trace.map_or_else(Vec::new, trace::keys));
     keys.extend((!picture.proof.is_empty()).then(boxes::proof_key));
-    keys.extend(preferences::keys(&picture.scene.workspace.preferences));
+    keys.extend(preferences::keys(&picture.scene.workspace().preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
-    let obstacles = &picture.scene.workspace.obstacles;
+    let obstacles = &picture.scene.workspace().obstacles;
     // Obstacles without pieces lie nowhere: they are carried.
     let lying = obstacles.iter().enumerate().filter(|(_, o)| !o.pieces.is_empty());
     if lying.clone().count() <= NAMED {

@@ -29,7 +29,7 @@ pub const GHOST: Look =
 /// The scene's arm at `q`: its own outline, and above it the payload in the colour of the object.
 #[must_use]
 pub fn items(frame: &Frame, scene: &Scene, q: Configuration, look: &Look) -> Vec<Item> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let mut items = Vec::new();
     let body =
         Style { pen_below: true, ..Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity) };
@@ -57,7 +57,7 @@ pub fn items(frame: &Frame, scene: &Scene, q: Configuration, look: &Look) -> Vec
 /// The colour of what is carried: that of the obstacle which it is while it lies somewhere, or the one after all others.
 #[must_use]
 pub fn payload_color(scene: &Scene) -> Rgb {
-    let obstacles = &scene.workspace.obstacles;
+    let obstacles = &scene.workspace().obstacles;
     let lying = scene.payload().and_then(|payload| obstacles.iter().position(|o| o.name == payload.object));
     color::obstacle(lying.unwrap_or(obstacles.len()))
 }

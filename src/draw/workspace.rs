@@ -17,13 +17,13 @@ const GHOSTS: usize = 5;
 #[must_use]
 pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     let scene = picture.scene;
-    let obstacles = &scene.workspace.obstacles;
+    let obstacles = &scene.workspace().obstacles;
     let frame = frame(picture, area);
-    let mut inside = ground(&frame, &scene.arm);
+    let mut inside = ground(&frame, scene.arm());
     for (i, obstacle) in obstacles.iter().enumerate() {
         inside.push(shapes::solid(&frame, obstacle, color::obstacle(i)));
     }
-    inside.extend(preferences::in_workspace(&scene.workspace.preferences, &frame));
+    inside.extend(preferences::in_workspace(&scene.workspace().preferences, &frame));
     if let [(_, path)] = picture.paths[..] {
         for q in between(path, GHOSTS) {
             inside.extend(posture::items(&frame, scene, q, &GHOST));
@@ -32,10 +32,10 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     inside.extend(posture::items(&frame, scene, picture.start, &START));
     let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.single_goals().first().copied());
     inside.extend(goal.into_iter().flat_map(|q| posture::items(&frame, scene, q, &GOAL)));
-    let traces = picture.paths.iter().map(|(_, path)| tip_trace(&frame, &scene.arm, path)).collect();
+    let traces = picture.paths.iter().map(|(_, path)| tip_trace(&frame, scene.arm(), path)).collect();
     inside.extend(page::path_items(traces));
     inside.extend(extent::hidden_note(&frame, obstacles));
-    framed(&frame, &scene.arm.plane, inside)
+    framed(&frame, &scene.arm().plane, inside)
 }
 
 /// The frame of the panel in this part of the page.

@@ -11,7 +11,7 @@ impl LoadedScene {
     /// # Errors
     /// Values on the command line that are none for these joints.
     pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Goal>, Option<Goal>), InputError> {
-        let joints = &self.scene.arm.joints;
+        let joints = &self.scene.arm().joints;
         let start = match &overrides.start {
             Some(values) => Some(Goal::Joints(values.resolve(joints, "--start")?)),
             None => self.world.start.as_ref().map(|(start, _)| *start),

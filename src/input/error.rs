@@ -28,7 +28,7 @@ pub struct Defect {
     pub excerpt: Option<Box<str>>,
     /// What is wrong, naming the joint, link or obstacle.
     pub message: String,
-    /// What to do about it.
+    /// What to do about it; each defect that reaches the user has one.
     pub cure: Option<String>,
     /// What it is about.
     pub kind: DefectKind,
@@ -100,18 +100,19 @@ impl InputError {
     /// All of these; at least one.
     pub(super) fn of(defects: Vec<Defect>) -> Self {
         debug_assert!(!defects.is_empty(), "an error without a defect");
+        debug_assert!(defects.iter().all(|defect| defect.cure.is_some()), "a defect without a cure: {defects:?}");
         Self { defects }
     }
 
     /// `Ok` when there are no defects.
     pub(super) fn check(defects: Vec<Defect>) -> Result<(), Self> {
-        if defects.is_empty() { Ok(()) } else { Err(Self { defects }) }
+        if defects.is_empty() { Ok(()) } else { Err(Self::of(defects)) }
     }
 }
 
 impl From<Defect> for InputError {
     fn from(defect: Defect) -> Self {
-        Self { defects: vec![defect] }
+        Self::of(vec![defect])
     }
 }
 

@@ -52,7 +52,8 @@ impl MapText {
     fn expected(&self, what: &str) -> Result<(&str, Range<usize>), Defect> {
         self.line().ok_or_else(|| {
             let end = self.source.text.trim_end().len();
-            self.source.defect_at(end..end, format!("the file ends where {what} should come"))
+            let message = format!("the file ends where {what} should come");
+            self.source.defect_at(end..end, message).cure("write what is missing, or export the map again")
         })
     }
 
@@ -61,10 +62,14 @@ impl MapText {
         let what = format!("\"{word}\"");
         let (found, at) = self.expected(&what)?;
         if found != word {
-            return Err(self.source.defect_at(at, format!("expected {what}")));
+            return Err(self.unexpected(at, &what));
         }
         self.next += 1;
         Ok(())
+    }
+
+    fn unexpected(&self, at: Range<usize>, what: &str) -> Defect {
+        self.source.defect_at(at, format!("expected {what}")).cure(format!("write {what} on this line"))
     }
 
     /// The numbers of a line `key: n n ...`.
@@ -72,7 +77,7 @@ impl MapText {
         let what = format!("\"{key}:\" and {}", counted(N));
         let (found, at) = self.expected(&what)?;
         let Some(rest) = found.strip_prefix(key).and_then(|rest| rest.trim_start().strip_prefix(':')) else {
-            return Err(self.source.defect_at(at, format!("expected {what}")));
+            return Err(self.unexpected(at, &what));
         };
         let from = at.end - rest.len();
         let values = self.parsed(from..at.end, &what)?;
@@ -84,7 +89,8 @@ impl MapText {
     pub fn count(&mut self, key: &str) -> Result<(usize, Range<usize>), Defect> {
         let Numbers { values: [value], at } = self.keyed::<1>(key)?;
         if value < 0.0 || value.fract() != 0.0 || value > MOST_COUNTED {
-            return Err(self.source.defect_at(at, format!("{key}: {value} is no number of lines")));
+            let message = format!("{key}: {value} is no number of lines");
+            return Err(self.source.defect_at(at, message).cure("count the lines that follow"));
         }
         Ok((value as usize, at))
     }
@@ -163,12 +169,10 @@ impl MapText {
         for word in text.split_whitespace() {
             let from = at.start + (word.as_ptr() as usize - text.as_ptr() as usize);
             let place = from..from + word.len();
-            let value: f64 = word
-                .parse()
-                .map_err(|_| self.source.defect_at(place.clone(), format!("{what}: \"{word}\" is not a number")))?;
-            if !value.is_finite() {
-                return Err(self.source.defect_at(place, format!("{what}: {value} is not a finite number")));
-            }
+            let Some(value) = word.parse().ok().filter(|value: &f64| value.is_finite()) else {
+                let message = format!("{what}: \"{word}\" is not a finite number");
+                return Err(self.source.defect_at(place, message).cure("write numbers, such as 1500 or -0.5"));
+            };
             if let Some(slot) = values.get_mut(found) {
                 *slot = value;
             }
@@ -176,7 +180,7 @@ impl MapText {
         }
         if found != N {
             let message = format!("{what}: expected {}, found {found}", counted(N));
-            return Err(self.source.defect_at(at, message));
+            return Err(self.source.defect_at(at, message).cure("separate numbers by blanks, one item a line"));
         }
         Ok(values)
     }

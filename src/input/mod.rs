@@ -62,7 +62,7 @@ pub use source::{Position, Source};
 pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
-pub use values::{JointValues, Overrides, TipPoint, clearance};
+pub use values::{JointValues, Overrides, TipPoint};
 pub use world::World;
 
 use crate::model::{AssumedLimits, Goal, Problem, RobotJoints, Scene};
@@ -142,9 +142,9 @@ impl LoadedScene {
             return among(world, urdf.clone());
         }
         for pair in &world.in_degrees {
-            pair.check(&world.source, &self.scene.arm.joints)?;
+            pair.check(&world.source, &self.scene.arm().joints)?;
         }
-        let scene = Scene::new(self.scene.arm.clone(), world.at_first());
+        let scene = Scene::trusted(self.scene.arm().clone(), world.at_first());
         Ok(Self { scene, world, robot: self.robot.clone() })
     }
 }
@@ -155,7 +155,7 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
-    let scene = Scene::new(arm, world.at_first());
+    let scene = Scene::trusted(arm, world.at_first());
     Ok(LoadedScene { scene, world, robot })
 }
 

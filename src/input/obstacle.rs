@@ -112,7 +112,7 @@ fn image(
         Some(("free", _)) => true,
         Some((other, at)) => {
             let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
-            return Err(reader.source.defect_at(at, message).into());
+            return Err(reader.source.defect_at(at, message).cure("unknown = \"solid\", or leave it out").into());
         }
     };
     let path = reader.beside(image, what)?;

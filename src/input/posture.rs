@@ -7,7 +7,7 @@ use crate::space::{Axis, Configuration, Segment};
 /// Which postures of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
 /// they rule out, why.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
-    let joints = &scene.arm.joints;
+    let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
         let copies = [0, 1].map(|i| within(joints[i].axis, joints[i].motion.is_revolute(), branch[i]));
@@ -19,12 +19,12 @@ pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, V
         });
         beyond.then(|| format!("({}): {}", describe(scene, shown), beyond_limits(scene, shown).join("; ")))
     };
-    (solved.solutions(&scene.arm), solved.branches.iter().filter_map(outside).collect())
+    (solved.solutions(scene.arm()), solved.branches.iter().filter_map(outside).collect())
 }
 
 /// The joint values in words: `shoulder -0.9 rad, elbow 0.4 rad`.
 pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
-    let value = |i: usize| format!("{} {} {}", scene.arm.joints[i].name, rounded(q[i]), scene.arm.joints[i].unit());
+    let value = |i: usize| format!("{} {} {}", scene.arm().joints[i].name, rounded(q[i]), scene.arm().joints[i].unit());
     format!("{}, {}", value(0), value(1))
 }
 
@@ -32,7 +32,7 @@ pub(super) fn describe(scene: &Scene, q: Configuration) -> String {
 pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
     let [from, to] = segment.ends();
     let value = |i: usize| {
-        let (name, unit) = (&scene.arm.joints[i].name, scene.arm.joints[i].unit());
+        let (name, unit) = (&scene.arm().joints[i].name, scene.arm().joints[i].unit());
         if from[i] == to[i] {
             format!("{name} {} {unit}", rounded(from[i]))
         } else {
@@ -50,7 +50,7 @@ fn rounded(value: f64) -> f64 {
 /// Which joints are outside their limits, in words.
 pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
-    for (joint, value) in scene.arm.joints.iter().zip(q.iter()) {
+    for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
         if let Axis::Interval { lower, upper } = joint.axis
             && !joint.axis.contains(*value)
         {
@@ -76,7 +76,7 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
 
 /// What to do about a posture that is not free.
 pub(super) fn cure_for_contact(scene: &Scene) -> &'static str {
-    if scene.workspace.clearance > 0.0 {
+    if scene.workspace().clearance > 0.0 {
         "move it away from the obstacle, or ask for less clearance"
     } else {
         "move it away from the obstacle (touching counts as contact)"
@@ -85,7 +85,7 @@ pub(super) fn cure_for_contact(scene: &Scene) -> &'static str {
 
 /// That no posture reaches `point`, in words; `what` it is begins the sentence.
 pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     format!(
         "{what} ({}, {}) m is out of reach of the tip \"{}\", whatever the joint limits: it is {:.4} m from joint \"{}\"{}",
         point.x,
@@ -102,7 +102,7 @@ pub(super) const CURE_FOR_REACH: &str = "choose a point nearer by; coordinates a
 
 /// What an arm with two revolute joints reaches, for messages.
 fn reach(scene: &Scene) -> String {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     if arm.kind() != "RR" {
         return String::new();
     }

@@ -67,7 +67,8 @@ fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2],
     let length = vector[0].hypot(vector[1]);
     // Below the square root of the least normal number its components would lose their digits.
     if length < 1e-150 {
-        return Err(reader.source.defect_at(numbers.span(), format!("{what}: the direction has no length")));
+        let defect = reader.source.defect_at(numbers.span(), format!("{what}: the direction has no length"));
+        return Err(defect.cure("direction = [q1, q2], such as [1, 0]; leave it out where there is none"));
     }
     Ok(vector.map(|x| x / length))
 }

@@ -5,7 +5,7 @@ use super::posture::{
     CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, describe_segment, obstructions,
     out_of_reach, within_limits,
 };
-use super::{Loaded, LoadedScene, Overrides, clearance as checked_clearance};
+use super::{Loaded, LoadedScene, Overrides};
 use crate::geometry::Point;
 use crate::model::{BlockedStretch, Freedom, Goal, Problem, Scene, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
@@ -33,27 +33,25 @@ impl LoadedScene {
     /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
     /// clearance, or when no posture puts the tip at the goal. The message says which link hits which obstacle and how
     /// deep.
-    pub fn problem(mut self, overrides: &Overrides) -> Result<Loaded, InputError> {
+    pub fn problem(self, overrides: &Overrides) -> Result<Loaded, InputError> {
         if self.has_steps() {
             return Err(self.has_no_goal(overrides).into());
         }
-        if let Some(clearance) = overrides.clearance {
-            self.scene.workspace.clearance = checked_clearance(clearance)?;
-        }
-        let mut notes = self.world.notes.clone();
-        let (start, place) = self.start(overrides, &mut notes)?;
-        self.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, place) = loaded.start(overrides, &mut notes)?;
+        loaded.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
         let about = |defect: Defect| defect.about(DefectKind::Goal);
-        let (goal, place) = self.goal(overrides).map_err(|error| error.about(DefectKind::Goal))?;
+        let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DefectKind::Goal))?;
         let goals = match goal {
             Goal::Joints(q) => {
-                let q = self.at_limits("the goal", q, &mut notes);
-                self.require("the goal", q, &place).map_err(about)?;
+                let q = loaded.at_limits("the goal", q, &mut notes);
+                loaded.require("the goal", q, &place).map_err(about)?;
                 GoalSet::from(q)
             }
-            Goal::Tip(tip) => self.postures(tip, start, &place, &mut notes).map_err(about)?,
+            Goal::Tip(tip) => loaded.postures(tip, start, &place, &mut notes).map_err(about)?,
         };
-        Ok(Loaded { problem: Problem { scene: self.scene, start, goal, goals }, robot: self.robot, notes })
+        Ok(Loaded { problem: Problem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
 
     fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
@@ -63,7 +61,7 @@ impl LoadedScene {
                 return Err(defect.cure("give one of them").into());
             }
             (Some(values), None) => {
-                let q = values.resolve(&self.scene.arm.joints, "--goal")?;
+                let q = values.resolve(&self.scene.arm().joints, "--goal")?;
                 return Ok((Goal::Joints(q), Place::Option("--goal")));
             }
             (None, Some(tip)) => return Ok((Goal::Tip(tip.0), Place::Option("--goal-tip"))),
@@ -122,7 +120,7 @@ impl LoadedScene {
         notes: &mut Vec<String>,
     ) -> Result<GoalSet, Defect> {
         let scene = &self.scene;
-        let solved = inverse(&scene.arm, tip, start);
+        let solved = inverse(scene.arm(), tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
             return Err(place.defect(out_of_reach(scene, "the goal", tip)).cure(CURE_FOR_REACH));
@@ -147,7 +145,7 @@ impl LoadedScene {
 
 /// What is free when the tip is at a place, in words.
 fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
-    let name = |joint: usize| &scene.arm.joints[joint].name;
+    let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
         Freedom::Joint(joint) => {
             format!("the tip is at {at} whatever the value of joint \"{}\": any that is free will do", name(joint))

@@ -34,7 +34,7 @@ impl LoadedScene {
         notes: &mut Vec<String>,
     ) -> Result<(Configuration, Place<'_>), InputError> {
         if let Some(values) = &overrides.start {
-            return Ok((values.resolve(&self.scene.arm.joints, "--start")?, Place::Option("--start")));
+            return Ok((values.resolve(&self.scene.arm().joints, "--start")?, Place::Option("--start")));
         }
         let Some((start, at)) = &self.world.start else {
             return Err(self.missing("start", "[start] joints = [q1, q2] in the world file, or --start q1,q2").into());
@@ -49,7 +49,7 @@ impl LoadedScene {
 
     /// The same configuration with values that are beyond a limit by rounding alone put there.
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
-        let joints = &self.scene.arm.joints;
+        let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
             let Axis::Interval { lower, upper } = joints[i].axis else { return q[i] };
             let nearest = q[i].clamp(lower, upper);
@@ -68,7 +68,7 @@ impl LoadedScene {
     /// The posture that puts the tip at a point, if it is the only one that is within the limits and free.
     fn only_posture(&self, tip: Point, place: &Place, notes: &mut Vec<String>) -> Result<Configuration, Defect> {
         let scene = &self.scene;
-        let solved = inverse(&scene.arm, tip, Configuration::zeros());
+        let solved = inverse(scene.arm(), tip, Configuration::zeros());
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
             return Err(place.defect(out_of_reach(scene, "the start", tip)).cure(CURE_FOR_REACH));

@@ -199,7 +199,7 @@ impl<'a> StepReader<'a> {
             Some(("free", _)) => Body::AnyOrder(self.pairs(nodes)?),
             Some((other, at)) => {
                 let message = format!("an order is \"fixed\" or \"free\", not \"{other}\"");
-                return Err(source.defect_at(at, message));
+                return Err(source.defect_at(at, message).cure("order = \"free\", or leave it out"));
             }
         };
         Ok(Group { body, repeat, at, renewed, length })

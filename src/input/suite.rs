@@ -98,6 +98,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
             Some(span) => source.defect_at(span, message),
             None => source.defect(message),
         }
+        .cure("a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each")
     })?;
     let beside = |name: &Spanned<String>, what: &str| {
         let path = manifest.with_file_name("").join(name.get_ref());

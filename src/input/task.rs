@@ -3,7 +3,7 @@
 use super::error::{Defect, DefectKind, InputError};
 use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
-use super::{LoadedScene, Overrides, RobotReport, World, clearance as checked_clearance};
+use super::{LoadedScene, Overrides, RobotReport, World};
 use crate::geometry::Point;
 use crate::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
 use crate::space::{Axis, Configuration};
@@ -47,7 +47,7 @@ impl LoadedScene {
         self.task_from(overrides, false)
     }
 
-    fn task_from(mut self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
+    fn task_from(self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
         if !self.has_steps() {
             let defect = self.world.source.defect("there are no steps");
             return Err(defect.cure("[[step]] pick = \"NAME\", and so on").into());
@@ -55,26 +55,24 @@ impl LoadedScene {
         if overrides.goal.is_some() || overrides.goal_tip.is_some() {
             return Err(self.has_no_goal(overrides).into());
         }
-        if let Some(clearance) = overrides.clearance {
-            self.scene.workspace.clearance = checked_clearance(clearance)?;
-        }
-        let mut notes = self.world.notes.clone();
-        let (start, place) = self.start(overrides, &mut notes)?;
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, place) = loaded.start(overrides, &mut notes)?;
         if is_checked {
-            self.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
+            loaded.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
         }
-        let requirements = self.world.steps.iter().flat_map(|steps| &steps.requirements);
-        InputError::check(requirements.filter_map(|r| self.unfulfilled(r, start)).collect())?;
-        let Self { scene, world, robot } = self;
+        let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
+        InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
+        let Self { scene, world, robot } = loaded;
         let stroke = robot.joints.stroke.clone();
         if let Some(stroke) = &stroke {
             InputError::check(too_deep(stroke, &world).collect())?;
         }
-        let workspace = Workspace { clearance: scene.workspace.clearance, ..world.workspace };
+        let workspace = Workspace { clearance: scene.workspace().clearance, ..world.workspace };
         let items = world.steps.map(|steps| steps.items).unwrap_or_default();
         let (wrist, note) = world.wrist.unzip();
         notes.extend(note.flatten());
-        let task = Task { arm: scene.arm.clone(), workspace, objects: world.objects, start, items, wrist, stroke };
+        let task = Task { arm: scene.arm().clone(), workspace, objects: world.objects, start, items, wrist, stroke };
         Ok(LoadedTask { task, scene, robot, notes })
     }
 
@@ -96,7 +94,7 @@ impl LoadedScene {
     }
 
     fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, &'static str)> {
-        let solved = inverse(&self.scene.arm, tip, start);
+        let solved = inverse(self.scene.arm(), tip, start);
         if solved.branches.is_empty() {
             return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), CURE_FOR_REACH));
         }
@@ -115,7 +113,7 @@ impl LoadedScene {
 
     fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
         let object = &self.world.objects[object];
-        let by = Payload::give(&self.scene.arm) + self.scene.workspace.clearance;
+        let by = Payload::give(self.scene.arm()) + self.scene.workspace().clearance;
         if object.pieces.iter().any(|piece| piece.eroded(by).is_some()) {
             return None;
         }

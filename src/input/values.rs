@@ -1,9 +1,10 @@
 //! Joint values and points given on the command line.
 
-use super::error::Defect;
+use super::LoadedScene;
+use super::error::{Defect, InputError};
 use super::world::LARGEST;
 use crate::geometry::Point;
-use crate::model::Joint;
+use crate::model::{Joint, SceneDefect};
 use crate::space::Configuration;
 use std::str::FromStr;
 
@@ -20,15 +21,20 @@ pub struct Overrides {
     pub clearance: Option<f64>,
 }
 
-/// Checks a clearance given with `--clearance`, metres.
-///
-/// # Errors
-/// When it is negative or no finite number.
-pub fn clearance(value: f64) -> Result<f64, Defect> {
-    if value.is_finite() && value >= 0.0 {
-        return Ok(value);
+impl LoadedScene {
+    /// Keeps the distance of `--clearance`, metres, instead of the world's; none keeps the world's.
+    ///
+    /// # Errors
+    /// When it is negative or no finite number.
+    pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
+        if let Some(clearance) = clearance {
+            let refused = |defect: SceneDefect| {
+                Defect::new("--clearance", defect.to_string()).cure("metres: 0 or more, such as 0.02")
+            };
+            self.scene = self.scene.with_clearance(clearance).map_err(refused)?;
+        }
+        Ok(self)
     }
-    Err(Defect::new("--clearance", format!("the clearance must be a finite number that is not negative, is {value}")))
 }
 
 /// Two joint values as written: `-0.9,0.4` or `10deg, 20deg`. Without a suffix radians or metres, as the joint has it.

@@ -388,7 +388,10 @@ impl Reader<'_> {
     /// The path of a file that the world names, relative to itself.
     pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
         let anchor = self.source.anchor();
-        let anchor = anchor.map_err(|why| self.source.defect_at(name.span(), format!("{what}: {why}")))?;
+        let anchor = anchor.map_err(|why| {
+            let cure = "save the world as a file beside it";
+            self.source.defect_at(name.span(), format!("{what}: {why}")).cure(cure)
+        })?;
         let path = anchor.with_file_name(name.get_ref());
         if path.is_file() {
             return Ok(path);

@@ -70,7 +70,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     within(map.bounds, &table.file)?;
     if map.lines.len() > MOST_PIECES {
         let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
-        return Err(reader.source.defect_at(table.file.span(), message).into());
+        return Err(reader.source.defect_at(table.file.span(), message).cure("thin the map out").into());
     }
     let name = stem(&path);
     let mut obstacles = Vec::new();

@@ -23,12 +23,12 @@ impl Scene {
     /// Why `q` is not free: of each link (or payload) and obstacle the worst pair of shapes. Empty if it is.
     #[must_use]
     pub fn obstructions(&self, q: Configuration) -> Vec<Obstruction> {
-        let poses = self.arm.poses(q);
+        let poses = self.arm().poses(q);
         let mut worst: Vec<Obstruction> = Vec::new();
         for contact in self.separations(q) {
             let (pair, distance) = (contact.pair, contact.separation.distance);
             let touches = distance <= 0.0 || shapes_meet(&self.part(pair).at(&poses[pair.link]), self.piece(pair));
-            if !touches && distance >= self.workspace.clearance {
+            if !touches && distance >= self.workspace().clearance {
                 continue;
             }
             let found = Obstruction { contact, touches };
@@ -50,10 +50,10 @@ impl Scene {
     pub fn explain(&self, obstruction: &Obstruction) -> String {
         let Contact { pair, separation } = obstruction.contact;
         let part = self.describe_part(pair);
-        let obstacle = &self.workspace.obstacles[pair.obstacle].name;
+        let obstacle = &self.workspace().obstacles[pair.obstacle].name;
         let distance = separation.distance;
         if !obstruction.touches {
-            let clearance = self.workspace.clearance;
+            let clearance = self.workspace().clearance;
             return format!(
                 "{part} is {distance:.6} m from obstacle \"{obstacle}\", nearer than the clearance of {clearance} m"
             );

@@ -1,6 +1,7 @@
 //! The arm among its obstacles.
 
-use super::{Arm, Grip, Obstacle, Part, Payload, Workspace};
+use super::scene_defect::{check, check_clearance};
+use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneDefect, Workspace};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -35,10 +36,8 @@ pub struct Contact {
 /// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
-    /// The arm, with what it carries.
-    pub arm: Arm,
-    /// What surrounds it.
-    pub workspace: Workspace,
+    arm: Arm,
+    workspace: Workspace,
     payload: Option<Payload>,
     /// Obstacles that link 2 itself is free to meet.
     spared: Vec<usize>,
@@ -60,16 +59,44 @@ pub(crate) enum Meets {
 
 impl Scene {
     /// Puts the arm into the workspace.
-    #[must_use]
-    pub fn new(arm: Arm, workspace: Workspace) -> Self {
+    ///
+    /// # Errors
+    /// When a number of either makes no sense: see [`SceneDefect`].
+    pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneDefect> {
         Self::handling(arm, workspace, None, &[])
     }
 
     /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
     /// just let go of or is about to take. Where a payload may press into its supports, parts of it that are thinner than
     /// that (and the clearance) do not count there.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]; when what is carried is held at no finite place, or an obstacle's number is none.
+    pub fn handling(
+        arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        spared: &[usize],
+    ) -> Result<Self, SceneDefect> {
+        check(&arm, &workspace, payload.as_ref(), spared)?;
+        Ok(Self::handling_trusted(arm, workspace, payload, spared))
+    }
+
+    /// [`Scene::new`] of what is known to be valid.
     #[must_use]
-    pub fn handling(mut arm: Arm, workspace: Workspace, payload: Option<Payload>, spared: &[usize]) -> Self {
+    pub(crate) fn trusted(arm: Arm, workspace: Workspace) -> Self {
+        Self::handling_trusted(arm, workspace, None, &[])
+    }
+
+    /// [`Scene::handling`] of what is known to be valid.
+    #[must_use]
+    pub(crate) fn handling_trusted(
+        mut arm: Arm,
+        workspace: Workspace,
+        payload: Option<Payload>,
+        spared: &[usize],
+    ) -> Self {
+        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), spared), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len()];
         let carried = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &mut differences));
@@ -104,7 +131,42 @@ impl Scene {
         for obstacle in &mut workspace.obstacles {
             obstacle.pieces = pieces(obstacle);
         }
-        Self::handling(arm, workspace, self.payload.clone(), &self.spared)
+        Self::handling_trusted(arm, workspace, self.payload.clone(), &self.spared)
+    }
+
+    /// The same scene with another distance to keep, metres.
+    ///
+    /// # Errors
+    /// When it is negative or not finite.
+    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneDefect> {
+        check_clearance(clearance)?;
+        let (payload, spared) = (self.payload.take(), std::mem::take(&mut self.spared));
+        let (arm, workspace) = self.into_parts();
+        Ok(Self::handling_trusted(arm, Workspace { clearance, ..workspace }, payload, &spared))
+    }
+
+    /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
+    #[must_use]
+    pub fn into_parts(mut self) -> (Arm, Workspace) {
+        self.arm.links[1].parts.truncate(self.own_parts);
+        (self.arm, self.workspace)
+    }
+
+    /// The arm, with what it carries.
+    #[must_use]
+    pub fn arm(&self) -> &Arm {
+        &self.arm
+    }
+
+    /// What surrounds it.
+    #[must_use]
+    pub fn workspace(&self) -> &Workspace {
+        &self.workspace
+    }
+
+    /// The joints, to give them other limits on speed, acceleration and jerk: the pairs do not depend on them.
+    pub(crate) fn joints_mut(&mut self) -> &mut [Joint; 2] {
+        &mut self.arm.joints
     }
 
     /// What the arm carries, if anything.

@@ -47,7 +47,7 @@ impl Scene {
             let lasting = obstructions.into_iter().find(|obstruction| {
                 let Contact { pair, separation } = obstruction.contact;
                 let (motion, scale) = self.farthest_motion(pair, q, moves);
-                separation.distance + motion + ROUNDING * scale < self.workspace.clearance
+                separation.distance + motion + ROUNDING * scale < self.workspace().clearance
             });
             match lasting {
                 Some(lasting) => blocked.push((from, to, lasting)),
@@ -74,7 +74,7 @@ impl Scene {
     /// Farthest that a point of a pair's part moves while the joints move by at most `moves` from `q`, and the greatest length
     /// that counts in it: joint 2 first, then joint 1 from wherever that has put the part.
     fn farthest_motion(&self, pair: Pair, q: Configuration, moves: [f64; 2]) -> (f64, f64) {
-        let arm = &self.arm;
+        let arm = self.arm();
         let part = self.part(pair);
         let from_base = part.at(&arm.pose(pair.link, q)).reach_from(arm.base);
         let second = match arm.joints[1].motion {

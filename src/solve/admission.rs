@@ -58,7 +58,7 @@ fn stand_in(scene: &Scene, space: &impl Admit, q: Configuration) -> Configuratio
         let length = SHORTEST * (1_u32 << step) as f64;
         for k in 0..DIRECTIONS {
             let there = q + direction(k) * length;
-            let way = || certify(scene, Path::new(vec![q, there]), scene.workspace.clearance);
+            let way = || certify(scene, Path::new(vec![q, there]), scene.workspace().clearance);
             if space.admits(there) && way().is_ok() {
                 return there;
             }
@@ -90,11 +90,11 @@ impl Ends {
     /// Single goals that the space does not know are replaced; of segments the space knows some part, as a rule, and for each
     /// free stretch of which it knows nothing something stands in for its middle.
     pub fn new(problem: &Problem, space: &impl Admit) -> Self {
-        let (scene, start) = (&problem.scene, problem.start);
-        let topology = scene.arm.topology();
+        let (scene, start) = (problem.scene(), problem.start());
+        let topology = scene.arm().topology();
         let mut goals: Vec<Segment> = Vec::new();
         let mut stand_ins = Vec::new();
-        for piece in problem.goals.pieces() {
+        for piece in problem.goals().pieces() {
             if !piece.is_point() {
                 goals.push(*piece);
             }
@@ -147,7 +147,7 @@ fn singles(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configurat
         return vec![piece.ends()[0]];
     }
     let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
-    let mut unknown = free_stretches(scene, piece, scene.workspace.clearance);
+    let mut unknown = free_stretches(scene, piece, scene.workspace().clearance);
     unknown.retain(|stretch| !knows(stretch));
     unknown.sort_by(|a, b| b.length().total_cmp(&a.length()));
     unknown.truncate(MOST_STRETCHES);

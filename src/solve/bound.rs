@@ -34,9 +34,9 @@ pub fn percent(share: f64) -> String {
 /// thousandth), or cannot be. Milliseconds, as a rule.
 #[must_use]
 pub fn bound(problem: &Problem, path: &Path, metric: Metric, gap: f64) -> Bound {
-    let scene = &problem.scene;
+    let scene = problem.scene();
     let upper = metric.length(path);
-    let clearance = scene.workspace.clearance;
-    let lower = least_length(scene, problem.start, &problem.goals, clearance, metric, upper, gap);
+    let clearance = scene.workspace().clearance;
+    let lower = least_length(scene, problem.start(), problem.goals(), clearance, metric, upper, gap);
     Bound { metric, lower, upper }
 }

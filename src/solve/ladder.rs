@@ -139,7 +139,7 @@ impl Climb<'_> {
                 self.unless_content(format!("its path is longer than the bound by {excess}"))
             }
             Err(rejection) => {
-                let why = explain(&self.problem.scene, rejection);
+                let why = explain(self.problem.scene(), rejection);
                 self.unless_content(format!("its path is not certified: {why}"))
             }
         }
@@ -154,7 +154,7 @@ impl Climb<'_> {
     /// The certified path from start to goal along a proposal between their stand-ins.
     fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
-        let judge = |path| certify(&self.problem.scene, path, self.problem.scene.workspace.clearance);
+        let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
         let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
         let certified = straight.map_or_else(|| judge(ends.complete(proposal)), Ok);
         self.stages.certify += clock.elapsed();
@@ -193,7 +193,7 @@ impl Climb<'_> {
         let most_pieces = TAUT_PIECES * path.path().waypoints().len();
         let (mut path, mut bound) = (path, bound);
         for kept in KEPT.into_iter().map(|share| share * gap) {
-            let (scene, way) = (&self.problem.scene, path.path().waypoints());
+            let (scene, way) = (self.problem.scene(), path.path().waypoints());
             let Some(taut) = pulled_taut(scene, way, gap / 4.0, kept, TAUT_ROWS) else { break };
             let taut = last_leg::shortened(self.problem, &taut, self.effort.metric, kept).unwrap_or(taut);
             let upper = self.effort.metric.length(taut.path());
@@ -236,8 +236,8 @@ enum Known {
 /// Whether there is a path at all, by slabs and boxes; none if these do not tell.
 fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Known> {
     let clock = Instant::now();
-    let clearance = problem.scene.workspace.clearance;
-    let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+    let clearance = problem.scene().workspace().clearance;
+    let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let known = |answer| match answer {
         Connectivity::Disconnected(proof) => checked(problem, proof).map(Known::NoPath),
         Connectivity::Connected(channel) => certified(problem, &channel).ok().map(Known::Path),
@@ -260,7 +260,7 @@ fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Known>
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {
     match rejection {
         Rejection::OutOfLimits { waypoint, joint } => {
-            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm.joints[joint].name)
+            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm().joints[joint].name)
         }
         Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => format!(
             "{} come within {:.3e} m of each other at ({:.6}, {:.6})",

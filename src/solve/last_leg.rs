@@ -12,21 +12,21 @@ const ON: f64 = 1e-9;
 /// the share `kept` of the arm's reach beyond the clearance there. None if it leads to a single goal, if that would not make
 /// it shorter, or if the new leg is not certified.
 pub(super) fn shortened(problem: &Problem, path: &CertifiedPath, metric: Metric, kept: f64) -> Option<CertifiedPath> {
-    let scene = &problem.scene;
-    let topology = scene.arm.topology();
+    let scene = problem.scene();
+    let topology = scene.arm().topology();
     let waypoints = path.path().waypoints();
     let (&end, before) = waypoints.split_last()?;
     let &last = before.last()?;
     let here = topology.wrap(end);
     let by = end - here;
     let measure = Measure::from(metric);
-    let grow = scene.workspace.clearance + kept * scene.arm.reach();
+    let grow = scene.workspace().clearance + kept * scene.arm().reach();
     let holds = |stretch: &Segment| stretch.distance(Measure::from(Metric::Euclidean), here) <= ON;
-    let pieces = problem.goals.wrapped(&topology).filter(|piece| !piece.is_point() && holds(piece));
+    let pieces = problem.goals().wrapped(&topology).filter(|piece| !piece.is_point() && holds(piece));
     let stretches = pieces.flat_map(|piece| free_stretches(scene, &piece, grow));
     let best = stretches.filter(holds).map(|stretch| stretch.shifted(by).nearest(measure, last));
     let shorter = |goal: &Configuration| metric.norm(goal - last) < metric.norm(end - last);
     let goal = best.filter(shorter).min_by(|a, b| metric.norm(a - last).total_cmp(&metric.norm(b - last)))?;
     let moved = Path::new(before.iter().copied().chain([goal]).collect());
-    certify(scene, moved, scene.workspace.clearance).ok()
+    certify(scene, moved, scene.workspace().clearance).ok()
 }

@@ -18,12 +18,12 @@ pub(super) type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
 
 /// Polygons grown by the level's margin.
 pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
-    Some(regions(&problem.scene, margin(problem, effort, level), problem.start, PERIODS))
+    Some(regions(problem.scene(), margin(problem, effort, level), problem.start(), PERIODS))
 }
 
 /// The level's margin, metres.
 fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
-    let arm = &problem.scene.arm;
+    let arm = problem.scene().arm();
     let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
     let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
     effort.margin * scale * 0.25_f64.powi(level as i32)
@@ -47,7 +47,7 @@ pub(super) fn field_cells(problem: &Problem, effort: &Effort, level: usize) -> O
         return cells(problem, effort, level);
     }
     let n = side(effort, level)? as f64;
-    let [a, b] = problem.scene.arm.topology().axes.map(|axis| axis.extent());
+    let [a, b] = problem.scene().arm().topology().axes.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
     Some(grid(problem, level, shape))
@@ -55,7 +55,7 @@ pub(super) fn field_cells(problem: &Problem, effort: &Effort, level: usize) -> O
 
 /// The same with the workspace's preferences.
 pub(super) fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
-    field_cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, &problem.scene))
+    field_cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
 /// Cells along an axis, if the level is not too fine.
@@ -66,7 +66,7 @@ fn side(effort: &Effort, level: usize) -> Option<usize> {
 
 fn grid(problem: &Problem, level: usize, shape: [usize; 2]) -> Grid {
     let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_rows };
-    build(&problem.scene, shape, problem.scene.workspace.clearance)
+    build(problem.scene(), shape, problem.scene().workspace().clearance)
 }
 
 /// A space in a few words.

@@ -20,9 +20,9 @@ const MOST_ROWS: usize = 20_000;
 /// where there is none; and whatever [`decide`] says where the attempt fails.
 #[must_use]
 pub fn shorten(problem: &Problem, tolerance: f64, slabs: usize) -> Verdict {
-    let scene = &problem.scene;
-    let clearance = scene.workspace.clearance;
-    let found = match short_slab_channel(scene, problem.start, &problem.goals, clearance, slabs) {
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
+    let found = match short_slab_channel(scene, problem.start(), problem.goals(), clearance, slabs) {
         Connectivity::Connected(channel) => {
             pulled_taut(scene, &places(&channel), tolerance, KEPT, MOST_ROWS).map(Verdict::Found)
         }

@@ -13,11 +13,11 @@ use std::time::Instant;
 /// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
 /// [`Effort::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
 pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
-    let scene = &problem.scene;
-    let clearance = scene.workspace.clearance;
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
     let mut stages = Stages::default();
     let clock = Instant::now();
-    let exploration = explore(scene, problem.start, &problem.goals, clearance, effort.boxes);
+    let exploration = explore(scene, problem.start(), problem.goals(), clearance, effort.boxes);
     let size = Size::Graph { nodes: exploration.boxes.len(), edges: exploration.adjacencies };
     let trace = trace(&exploration);
     stages.query = clock.elapsed();
@@ -39,7 +39,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
         }
         Connectivity::Disconnected(proof) => {
             // The search is not trusted either: what it found must pass a check that shares no code with it.
-            let defect = proof.recheck(scene, problem.start, &problem.goals, clearance).err();
+            let defect = proof.recheck(scene, problem.start(), problem.goals(), clearance).err();
             stages.prove = clock.elapsed();
             let verdict = match defect {
                 None => Verdict::Infeasible(proof),
@@ -72,8 +72,8 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
 /// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
 /// middles.
 pub(super) fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
-    let clearance = problem.scene.workspace.clearance;
-    certify(&problem.scene, taut(channel), clearance).or_else(|_| certify(&problem.scene, channel.path(), clearance))
+    let clearance = problem.scene().workspace().clearance;
+    certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
 }
 
 /// The channel's shortest path.

@@ -19,9 +19,9 @@ const BOXES: usize = 200_000;
 /// [`super::solve`] knows other ways.
 #[must_use]
 pub fn decide(problem: &Problem, slabs: usize) -> Verdict {
-    let scene = &problem.scene;
-    let clearance = scene.workspace.clearance;
-    match slab_connectivity(scene, problem.start, &problem.goals, clearance, slabs) {
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
+    match slab_connectivity(scene, problem.start(), problem.goals(), clearance, slabs) {
         Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
             |rejection| Verdict::Unknown(format!("its path is not certified: {}", explain(scene, rejection))),
             Verdict::Found,
@@ -29,7 +29,7 @@ pub fn decide(problem: &Problem, slabs: usize) -> Verdict {
         Connectivity::Disconnected(proof) => checked(problem, proof)
             .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
         Connectivity::Undecided { boxes } => {
-            let proof = match connectivity(scene, problem.start, &problem.goals, clearance, BOXES) {
+            let proof = match connectivity(scene, problem.start(), problem.goals(), clearance, BOXES) {
                 Connectivity::Disconnected(proof) => checked(problem, proof),
                 _ => None,
             };
@@ -41,7 +41,8 @@ pub fn decide(problem: &Problem, slabs: usize) -> Verdict {
 
 /// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
 pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
-    let clearance = problem.scene.workspace.clearance;
-    let holds = |proof: &Disconnection| proof.recheck(&problem.scene, problem.start, &problem.goals, clearance).is_ok();
+    let clearance = problem.scene().workspace().clearance;
+    let holds =
+        |proof: &Disconnection| proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok();
     holds(&proof).then(|| proof.slimmed(holds))
 }

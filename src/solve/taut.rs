@@ -49,8 +49,9 @@ pub(super) fn pulled_taut(
     most_rows: usize,
 ) -> Option<CertifiedPath> {
     let (&[start, ..], &[.., goal]) = (way, way) else { return None };
-    let clearance = scene.workspace.clearance;
-    let mut source = Source { rows: Rows::new(scene), row: Row::default(), grow: clearance + kept * scene.arm.reach() };
+    let clearance = scene.workspace().clearance;
+    let mut source =
+        Source { rows: Rows::new(scene), row: Row::default(), grow: clearance + kept * scene.arm().reach() };
     let mut gates = source.gates(way)?;
     let mut before = f64::INFINITY;
     for _ in 0..ATTEMPTS {
@@ -125,7 +126,7 @@ impl Source<'_> {
 
     /// The free interval about `at`; none if that is blocked.
     fn gate(&mut self, at: Configuration) -> Option<Gate> {
-        let topology = self.rows.scene().arm.topology();
+        let topology = self.rows.scene().arm().topology();
         let (q1, axis) = (topology.axes[0].wrap(at[0]), topology.axes[1]);
         self.rows.row(q1, self.grow, &mut self.row);
         let value = axis.wrap(at[1]);

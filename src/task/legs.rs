@@ -6,7 +6,7 @@ use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
 use crate::certify::{CertifiedPath, Connectivity, StuckBox, WristTurn, certify, slab_connectivity, wrist_turn};
 use crate::geometry::Pose;
-use crate::model::{Goal, Grip, Problem, Scene, Step, Task};
+use crate::model::{Grip, Problem, Scene, Step, Task};
 use crate::solve::{Effort, Method, Verdict, solve};
 use crate::space::{Configuration, Path};
 use crate::trajectory::{Timed, single};
@@ -201,7 +201,7 @@ impl Legs {
                 Err(refusal) if refusal.proven => return Err(refusal.clone()),
                 Err(_) => break,
             };
-            if let Ok(path) = certify(scene, found.clone(), scene.workspace.clearance) {
+            if let Ok(path) = certify(scene, found.clone(), scene.workspace().clearance) {
                 return Ok(path);
             }
             let before = among.len();
@@ -302,8 +302,8 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
     if let Err(refusal) = ends {
         return Way::Barred(refusal);
     }
-    let clearance = scene.workspace.clearance;
-    let straight = Path::new(vec![from, scene.arm.topology().lift(to, from)]);
+    let clearance = scene.workspace().clearance;
+    let straight = Path::new(vec![from, scene.arm().topology().lift(to, from)]);
     if let Ok(path) = certify(scene, straight, clearance) {
         return Way::Straight(path);
     }
@@ -318,7 +318,7 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
 
 /// The planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, manner: &Manner) -> Result<CertifiedPath, Refusal> {
-    let problem = Problem { scene: scene.clone(), start: from, goal: Goal::Joints(to), goals: to.into() };
+    let problem = Problem::trusted(scene.clone(), from, to);
     match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
         Verdict::Found(path) => Ok(path),
         Verdict::Infeasible(proof) => Err(Refusal::barred(proof.stuck())),

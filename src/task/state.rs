@@ -117,7 +117,7 @@ impl State {
         let spared: Vec<usize> =
             self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|held| held.payload(task));
-        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
+        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
     }
 
     /// The ways to do each of the steps that can be next.

@@ -40,7 +40,7 @@ pub(super) fn stroke(task: &Task, from: &State, candidate: &Candidate) -> Result
     let scene = lowered(task, from, candidate, stroke, depth);
     unobstructed(&scene, candidate.to, "while the tool is lowered")?;
     let there = Path::new(vec![candidate.to, candidate.to]);
-    let certified = certify(&scene, there, scene.workspace.clearance);
+    let certified = certify(&scene, there, scene.workspace().clearance);
     let certified =
         certified.map_err(|_| Refusal::new("the tool cannot be shown to be free while it is lowered", false))?;
     let way = single(depth.abs(), stroke.velocity, stroke.acceleration);
@@ -64,5 +64,5 @@ fn lowered(task: &Task, from: &State, candidate: &Candidate, stroke: &Stroke, de
         payload
     });
     let spared: Vec<usize> = with.released.iter().map(|&object| task.obstacle_number(object)).collect();
-    Scene::handling(stroke.swept(&task.arm, depth), task.obstacles(&with.poses), payload, &spared)
+    Scene::handling_trusted(stroke.swept(&task.arm, depth), task.obstacles(&with.poses), payload, &spared)
 }

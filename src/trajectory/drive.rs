@@ -31,10 +31,10 @@ impl Drive {
     /// # Errors
     /// A motion that lasts too long, or has too many samples.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<Timed, TimingError> {
-        let tip = self.tip_speed.map(|speed| TipSpeed { arm: &scene.arm, speed });
-        let limits = Limits { tip, ..Limits::from(&scene.arm.joints) }.scaled(speed);
+        let tip = self.tip_speed.map(|speed| TipSpeed { arm: scene.arm(), speed });
+        let limits = Limits { tip, ..Limits::from(&scene.arm().joints) }.scaled(speed);
         let curve = if self.blend > 0.0 && !limits.stops_at_corners() {
-            blend(scene, path, self.blend, scene.workspace.clearance)
+            blend(scene, path, self.blend, scene.workspace().clearance)
         } else {
             CertifiedCurve::from(path.clone())
         };

@@ -5,13 +5,14 @@ pub mod mazes;
 pub mod random;
 pub mod reference;
 pub mod roadmap;
+pub mod slips;
 
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{
-    Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
 
 pub fn q(a: f64, b: f64) -> Configuration {
@@ -115,9 +116,19 @@ pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
     Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL }
 }
 
+/// An arm in a workspace, both of which must be valid.
+pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
+    Scene::new(arm, workspace).expect("a scene")
+}
+
+/// A problem that must be valid.
+pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Problem {
+    Problem::new(scene, start, goals).expect("a problem")
+}
+
 pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
     let obstacles = pieces.into_iter().enumerate().map(|(i, p)| obstacle(&format!("o{i}"), p)).collect();
-    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
+    placed(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// The benchmark problems with published truths: a 2R arm on the torus among four polygons.
@@ -178,13 +189,13 @@ pub fn w20() -> Scene {
 /// A benchmark problem as the solver takes it.
 pub fn problem(which: Benchmark) -> Problem {
     let (scene, start, goal) = benchmark(which);
-    Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() }
+    asked(scene, start, goal)
 }
 
 /// The configuration at these shares of the joints' ranges.
 pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm.topology().axes[k].domain();
+        let (lower, upper) = scene.arm().topology().axes[k].domain();
         lower + t * (upper - lower)
     };
     q(at(0, u), at(1, v))

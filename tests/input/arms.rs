@@ -104,7 +104,7 @@ proptest! {
 
     #[test]
     fn planar_kinematics_are_the_spatial_ones_projected(joints in arms(), q in [-3.0..3.0f64, -3.0..3.0]) {
-        let arm = load_arm(&urdf(joints), "").scene.arm;
+        let arm = load_arm(&urdf(joints), "").scene.into_parts().0;
         prop_assert!((arm.plane.u.cross(&arm.plane.v).dot(&arm.plane.normal).abs() - 1.0).abs() < 1e-12);
         let q = Configuration::from(q);
         let one = joints[0].step((Matrix3::identity(), Vector3::zeros()), q[0]);
@@ -119,7 +119,7 @@ proptest! {
 
     #[test]
     fn inverse_kinematics_put_the_tip_back(joints in arms(), q in [-3.0..3.0f64, -3.0..3.0]) {
-        let arm = load_arm(&urdf(joints), "").scene.arm;
+        let arm = load_arm(&urdf(joints), "").scene.into_parts().0;
         let q = Configuration::from(q);
         let target = arm.tip_at(q);
         let solved = inverse(&arm, target, Configuration::zeros());
@@ -141,7 +141,7 @@ proptest! {
         let r = if right { r.map(|a| a.round() * std::f64::consts::FRAC_PI_2) } else { r };
         let (xml, points) = solid(shape, seed);
         let urdf = urdf_with(&format!("<origin xyz=\"0.1 0.2 0.3\" rpy=\"{} {} {}\"/><geometry>{xml}</geometry>", r[0], r[1], r[2]));
-        let arm = load_arm(&urdf, "").scene.arm;
+        let arm = load_arm(&urdf, "").scene.into_parts().0;
         let part = &arm.links[0].parts[0];
         let placed: Vec<Vector3<f64>> = points.iter().map(|p| Vector3::new(0.1, 0.2, 0.3) + rpy(r) * p).collect();
         for p in &placed {
@@ -234,7 +234,7 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
         let path = package.join("urdf/arm.urdf");
         fs::write(&path, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"0.1 -0.1 1\"/></geometry>")))
             .unwrap();
-        let arm = load_scene(&path, &world).unwrap_or_else(|e| panic!("{e}")).scene.arm;
+        let arm = load_scene(&path, &world).unwrap_or_else(|e| panic!("{e}")).scene.into_parts().0;
         let part = &arm.links[0].parts[0];
         assert!((part.shape.area() - 0.01).abs() < 1e-8, "{mesh}: {:?}", part.shape);
         assert!(part.shape.core().iter().all(|p| p.y <= 0.0));
@@ -250,12 +250,12 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
 fn a_bar_stands_in_only_where_it_is_asked_for() {
     let bare = urdf_with("<geometry><cylinder radius=\"0\" length=\"0\"/></geometry>");
     let loaded = load_arm(&bare, "bar = 0.05");
-    let arm: &Arm = &loaded.scene.arm;
+    let arm: &Arm = loaded.scene.arm();
     assert_eq!(arm.links[0].source, OutlineSource::Bar);
     assert_eq!(arm.links[0].parts[0].shape, convex(vec![Point::origin(), Point::new(1.0, 0.0)], 0.05));
     assert!(loaded.robot.notes.iter().any(|n| n.contains("size zero are ignored (in \"one\")")));
     let half = load_arm(&urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>"), "");
-    assert_eq!(half.scene.arm.links[1].source, OutlineSource::None);
+    assert_eq!(half.scene.arm().links[1].source, OutlineSource::None);
     assert!(half.robot.warnings[0].contains("link 2 \"two\" has no geometry"));
 }
 
@@ -269,12 +269,13 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
         "<safety_controller soft_lower_limit=\"-1\" soft_upper_limit=\"9\" k_velocity=\"1\"/></joint>",
         1,
     );
-    assert_eq!(load_arm(&hard, "").scene.arm.joints[0].axis, limit(-3.0, 3.0));
-    assert_eq!(load_arm(&soft, "").scene.arm.joints[0].axis, limit(-1.0, 3.0));
+    assert_eq!(load_arm(&hard, "").scene.arm().joints[0].axis, limit(-3.0, 3.0));
+    assert_eq!(load_arm(&soft, "").scene.arm().joints[0].axis, limit(-1.0, 3.0));
     let world =
         load_arm(&soft, "limits = { a = [-9, 9] }\nvelocity = { a = 3 }\nacceleration = { b = 7 }\njerk = { b = 90 }")
             .scene
-            .arm;
+            .into_parts()
+            .0;
     assert_eq!(world.joints[0].axis, limit(-9.0, 9.0));
     assert_eq!(
         (world.joints[0].velocity, world.joints[0].acceleration, world.joints[1].acceleration),
@@ -282,10 +283,10 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     );
     assert_eq!(world.joints.map(|joint| joint.jerk), [None, Some(90.0)]);
     let newer = hard.replacen("velocity=\"1\"", "velocity=\"1\" acceleration=\"5\"", 1);
-    assert_eq!(load_arm(&newer, "").scene.arm.joints[0].acceleration, 5.0);
+    assert_eq!(load_arm(&newer, "").scene.arm().joints[0].acceleration, 5.0);
     let turning = urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>");
-    assert!(load_arm(&turning, "").scene.arm.joints[0].axis.is_circle());
-    assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm.joints[0].axis, limit(-1.0, 1.0));
+    assert!(load_arm(&turning, "").scene.arm().joints[0].axis.is_circle());
+    assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm().joints[0].axis, limit(-1.0, 1.0));
 }
 
 /// An RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.
@@ -297,7 +298,7 @@ fn folding() -> LoadedScene {
 
 #[test]
 fn where_a_joint_does_not_matter_the_preferred_value_is_taken() {
-    let arm = folding().scene.arm;
+    let arm = folding().scene.into_parts().0;
     let folded = inverse(&arm, Point::origin(), Configuration::new(0.7, 0.2));
     assert_eq!(folded.free, Some(Freedom::Joint(0)));
     assert_eq!((folded.branches.len(), folded.branches[0][0]), (1, 0.7));
@@ -316,7 +317,7 @@ fn a_goal_of_the_tip_counts_every_turn_within_the_limits() {
     };
     let problem = folding().problem(&overrides).unwrap().problem;
     // Elbow up: 0 and -+2 pi; elbow down: pi/2, pi/2 + 2 pi and pi/2 - 2 pi.
-    let mut first: Vec<f64> = problem.goals.points().map(|q| q[0]).collect();
+    let mut first: Vec<f64> = problem.goals().points().map(|q| q[0]).collect();
     first.sort_by(f64::total_cmp);
     let pi = std::f64::consts::PI;
     let expected = [-2.0 * pi, -1.5 * pi, 0.0, 0.5 * pi, 2.0 * pi, 2.5 * pi];
@@ -324,7 +325,7 @@ fn a_goal_of_the_tip_counts_every_turn_within_the_limits() {
     for (q, e) in first.iter().zip(expected) {
         assert!((q - e).abs() < 1e-9, "{first:?}");
     }
-    for q in problem.goals.points() {
-        assert!((problem.scene.arm.tip_at(q) - Point::new(1.0, 1.0)).norm() < 1e-9);
+    for q in problem.goals().points() {
+        assert!((problem.scene().arm().tip_at(q) - Point::new(1.0, 1.0)).norm() < 1e-9);
     }
 }

@@ -75,7 +75,7 @@ fn with_robot(table: &str, parts: &[&str]) {
 #[test]
 fn the_healthy_files_load() {
     let loaded = load_files("arm.urdf", ARM, WORLD, &Overrides::default()).unwrap();
-    assert_eq!(loaded.problem.scene.arm.tip_name, "tool");
+    assert_eq!(loaded.problem.scene().arm().tip_name, "tool");
     assert!(loaded.robot.notes.iter().any(|n| n.contains("heights along z")));
     assert!(loaded.robot.notes.iter().any(|n| n.contains("top speed in 0.25 s")));
     assert!(loaded.robot.warnings.is_empty());
@@ -298,11 +298,11 @@ fn overrides_replace_the_world() {
         ..Overrides::default()
     };
     let problem = load_files("arm.urdf", ARM, WORLD, &overrides).unwrap().problem;
-    assert!((problem.start[0] - 10f64.to_radians()).abs() < 1e-15);
-    assert_eq!(problem.scene.workspace.clearance, 0.01);
-    assert_eq!(problem.goals.points().count(), 2);
-    for q in problem.goals.points() {
-        assert!((problem.scene.arm.tip_at(q) - cplan::geometry::Point::new(1.2, 1.0)).norm() < 1e-9);
+    assert!((problem.start()[0] - 10f64.to_radians()).abs() < 1e-15);
+    assert_eq!(problem.scene().workspace().clearance, 0.01);
+    assert_eq!(problem.goals().points().count(), 2);
+    for q in problem.goals().points() {
+        assert!((problem.scene().arm().tip_at(q) - cplan::geometry::Point::new(1.2, 1.0)).norm() < 1e-9);
     }
 }
 
@@ -341,7 +341,7 @@ epsilon = 1.5
 polygon = [[0, 0], [0, 1], [1, 1]]
 "#;
     let loaded = load_files("arm.urdf", ARM, &format!("{WORLD}{tables}"), &Overrides::default()).unwrap();
-    let [first, second] = &loaded.problem.scene.workspace.preferences[..] else { panic!("two preferences") };
+    let [first, second] = &loaded.problem.scene().workspace().preferences[..] else { panic!("two preferences") };
     assert_eq!((first.name.as_str(), first.epsilon, first.direction), ("preference 1", -0.5, Some([0.0, -1.0])));
     assert_eq!((second.name.as_str(), second.epsilon, second.direction), ("bay", 1.5, None));
     assert!(matches!(&first.region, Region::Configurations(polygon) if polygon.corners().len() == 3));

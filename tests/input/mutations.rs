@@ -1,86 +1,9 @@
 //! Files with a slip of the pen, by the hundred: read or refused with place and cure, never a panic, never a long wait.
 
+use crate::common::random::times;
+use crate::common::slips::{Dice, slipped};
 use cplan::input::{InputError, Overrides, Source, load_recording, scene_from};
 use std::time::{Duration, Instant};
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
-}
-
-/// What numbers become.
-const NUMBERS: [&str; 16] = [
-    "0",
-    "-0",
-    "1",
-    "-1",
-    "1e308",
-    "-1e308",
-    "1e-320",
-    "nan",
-    "inf",
-    "-inf",
-    "1e16",
-    "\"30deg\"",
-    "[]",
-    "{}",
-    "0x7f",
-    "",
-];
-/// What is put in anywhere.
-const BITS: [&str; 18] =
-    ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
-
-/// The text with a few slips.
-fn slipped(dice: &mut Dice, text: &str) -> String {
-    let mut text: Vec<char> = text.chars().collect();
-    for _ in 0..1 + dice.below(3) {
-        let n = text.len().max(1);
-        let at = dice.below(n).min(text.len());
-        let insert = |text: &mut Vec<char>, at: usize, bit: &str| {
-            text.splice(at..at, bit.chars());
-        };
-        match dice.below(7) {
-            // A number becomes another.
-            0 | 1 => {
-                let is_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
-                let starts: Vec<usize> =
-                    (0..text.len()).filter(|&i| is_number(&text[i]) && (i == 0 || !is_number(&text[i - 1]))).collect();
-                if let Some(&start) = starts.get(dice.below(starts.len().max(1))) {
-                    let end = start + text[start..].iter().take_while(|c| is_number(c)).count();
-                    let bit = NUMBERS[dice.below(NUMBERS.len())];
-                    text.splice(start..end, bit.chars());
-                }
-            }
-            2 => insert(&mut text, at, BITS[dice.below(BITS.len())]),
-            3 => {
-                let end = (at + 1 + dice.below(8)).min(text.len());
-                text.drain(at..end);
-            }
-            // A line again, or away.
-            4 | 5 => {
-                let lines: Vec<String> = text.iter().collect::<String>().lines().map(str::to_owned).collect();
-                let k = dice.below(lines.len().max(1));
-                let twice = dice.below(2);
-                let again = lines
-                    .iter()
-                    .enumerate()
-                    .flat_map(|(i, line)| vec![line.clone(); if i == k { 2 * twice } else { 1 }]);
-                text = again.collect::<Vec<_>>().join("\n").chars().collect();
-            }
-            _ => text.truncate(at.max(1)),
-        }
-    }
-    text.into_iter().collect()
-}
 
 const ARM: &str = include_str!("../../src/cli/starter/rr.urdf");
 
@@ -117,14 +40,15 @@ fn is_helpful(error: &InputError, text: &str) {
     assert!(!error.defects().is_empty());
     for defect in error.defects() {
         assert!(!defect.message.is_empty() && !defect.origin.is_empty(), "{defect}\n{text}");
+        assert!(defect.cure.as_ref().is_some_and(|cure| !cure.is_empty()), "no cure: {defect}\n{text}");
     }
 }
 
 #[test]
 fn slips_in_worlds_and_robots_are_read_or_refused() {
     let (mut read, mut refused) = (0, 0);
-    let mut dice = Dice(13);
-    for k in 0..1500 {
+    let mut dice = Dice::new(13);
+    for k in 0..times(1500) {
         let (urdf, world) = match k % 2 {
             0 => (ARM.to_owned(), slipped(&mut dice, WORLD)),
             _ => (slipped(&mut dice, ARM), WORLD.to_owned()),
@@ -144,7 +68,7 @@ fn slips_in_worlds_and_robots_are_read_or_refused() {
             }
         }
     }
-    assert!(read > 100 && refused > 500, "{read} {refused}");
+    assert!(read > refused / 20 && refused > read / 20, "{read} {refused}");
 }
 
 #[test]
@@ -153,9 +77,9 @@ fn slips_in_tables_are_read_or_refused() {
     let scene = scene_from(Source::in_memory("arm.urdf", ARM), Source::in_memory("world.toml", WORLD)).unwrap();
     let table =
         "# logged\ntime;shoulder;elbow;elbow_velocity\n0;-0.9;0.5;0\n1;-0.8;0.4;0.1\n1;-0.8;0.4;0.1\n2;-0.7;0.4;0\n";
-    let mut dice = Dice(14);
+    let mut dice = Dice::new(14);
     let (mut read, mut refused) = (0, 0);
-    for _ in 0..600 {
+    for _ in 0..times(600) {
         let table = slipped(&mut dice, table);
         let path = folder.path().join("m.csv");
         std::fs::write(&path, &table).unwrap();
@@ -170,5 +94,5 @@ fn slips_in_tables_are_read_or_refused() {
             }
         }
     }
-    assert!(read > 50 && refused > 100, "{read} {refused}");
+    assert!(read > refused / 20 && refused > read / 20, "{read} {refused}");
 }

@@ -118,12 +118,12 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
         match (loaded, outcome) {
             (Ok(loaded), Loads(kind, sources, tip)) => {
                 println!("{file} [{robot}]: loads\n  {}", loaded.robot.notes.join("\n  "));
-                let arm = &loaded.scene.arm;
+                let arm = loaded.scene.arm();
                 assert_eq!(arm.kind(), kind, "{file}");
                 assert_eq!([arm.links[0].source, arm.links[1].source], sources, "{file}");
                 assert_eq!(arm.tip_name, tip, "{file}");
                 let loaded = loaded.problem(&Overrides::default()).unwrap_or_else(|e| panic!("{file}: {e}"));
-                assert_eq!(loaded.problem.goals.pieces().len(), 1, "{file}");
+                assert_eq!(loaded.problem.goals().pieces().len(), 1, "{file}");
             }
             (Err(error), Refused(parts)) => {
                 println!("{file} [{robot}]: refused\n{error}");
@@ -145,7 +145,7 @@ fn the_tutorial_scara_has_the_known_dimensions() {
     let work = tempfile::tempdir().unwrap();
     let world = work.path().join("world.toml");
     std::fs::write(&world, "[robot]\njoints = [\"joint1\", \"joint2\"]\n").unwrap();
-    let arm = load_scene(&folder.join("icube_scara.urdf"), &world).unwrap().scene.arm;
+    let arm = load_scene(&folder.join("icube_scara.urdf"), &world).unwrap().scene.into_parts().0;
     assert!((arm.offset - cplan::geometry::Vector::new(0.425, 0.0)).norm() < 1e-12);
     // The tool hangs 0.11 m along a z axis that was turned over by 3.14, not pi.
     let roll: f64 = 314.0 / 100.0;

@@ -3,7 +3,6 @@
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
 use cplan::certify::{Passage, blend, certify, limits_kept, passage};
-use cplan::geometry::Convex;
 use cplan::model::Scene;
 use cplan::space::{Configuration, Path, Recording};
 use cplan::trajectory::{Limits, time};
@@ -34,7 +33,7 @@ proptest! {
         reach in 0.05..0.7_f64, asked in prop_oneof![Just(0.0), 0.0..0.05_f64],
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let domain = [0, 1].map(|k| scene.arm.topology().axes[k].domain());
+        let domain = [0, 1].map(|k| scene.arm().topology().axes[k].domain());
         let place = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let near = |k: usize, t: f64| place(k, corners[0][k] + reach * (t - corners[0][k]));
         let waypoints: Vec<_> = corners.iter().map(|c| q(near(0, c[0]), near(1, c[1]))).collect();
@@ -52,12 +51,12 @@ proptest! {
         prop_assert!(small.curve().radii().iter().all(|radius| *radius <= 0.01));
 
         // The motion as others read it: the cubic through positions and velocities.
-        let trajectory = time(curve.clone(), &Limits::from(&scene.arm.joints), 0.02).unwrap().trajectory;
+        let trajectory = time(curve.clone(), &Limits::from(&scene.arm().joints), 0.02).unwrap().trajectory;
         let rows = |rows: &[[f64; 2]]| rows.iter().map(|row| q(row[0], row[1])).collect();
         let recording =
             Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(rows(&trajectory.velocity)));
         let recording = recording.unwrap();
-        prop_assert_eq!(limits_kept(&scene.arm.joints, &recording), []);
+        prop_assert_eq!(limits_kept(&scene.arm().joints, &recording), []);
         let verdict = passage(&scene, &recording, asked);
         let Passage::Free { clearance, .. } = verdict else { panic!("{verdict:?}") };
         prop_assert!(clearance >= 0.9 * curve.clearance());
@@ -68,7 +67,7 @@ proptest! {
 #[test]
 fn the_clearance_bounds_the_radius() {
     // A tool of radius 0.1 at (x, y), a post inside the right angle of its path.
-    let mut gantry = crate::empty([1.0, 1.0], [4.0, 4.0]).arm;
+    let (mut gantry, _) = crate::empty([1.0, 1.0], [4.0, 4.0]).into_parts();
     gantry.links[1] = crate::common::link("tool", vec![disc(cplan::geometry::Point::origin(), 0.1)]);
     let post = disc(cplan::geometry::Point::new(0.8, 0.2), 0.05);
     let scene = scene(gantry, vec![post]);

@@ -1,6 +1,6 @@
 //! Motions with a limit on the jerk: against closed forms, by integration, and as `verify` judges them.
 
-use crate::common::q;
+use crate::common::{placed, q};
 use crate::sampled::{as_vector, between, recording};
 use crate::{curve, empty, waypoints};
 use cplan::certify::{Limit, limits_kept};
@@ -10,9 +10,9 @@ use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, TipSpeed, time};
 use proptest::prelude::*;
 
 fn room(velocity: [f64; 2], acceleration: [f64; 2], jerk: [Option<f64>; 2]) -> Scene {
-    let mut scene = empty(velocity, acceleration);
-    scene.arm.joints.iter_mut().zip(jerk).for_each(|(joint, jerk)| joint.jerk = jerk);
-    scene
+    let (mut arm, workspace) = empty(velocity, acceleration).into_parts();
+    arm.joints.iter_mut().zip(jerk).for_each(|(joint, jerk)| joint.jerk = jerk);
+    placed(arm, workspace)
 }
 
 /// The shortest duration from rest to rest in closed form, by which limits are reached (Biagiotti, Melchiorri,
@@ -108,8 +108,8 @@ fn check(joints: &[Joint; 2], timed: &Timed) {
 fn seven_phases_on_each_leg_of_a_right_angle() {
     let scene = room([1.0, 1.0], [4.0, 4.0], [Some(40.0), Some(20.0)]);
     let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
-    let timed = time(curve(&scene, &points, 0.3), &Limits::from(&scene.arm.joints), 1.0).unwrap();
-    check(&scene.arm.joints, &timed);
+    let timed = time(curve(&scene, &points, 0.3), &Limits::from(&scene.arm().joints), 1.0).unwrap();
+    check(&scene.arm().joints, &timed);
     // L / v + v / a + a / j, twice; samples at the ends of the phases and nowhere else, but for the second at 1 s.
     let trajectory = &timed.trajectory;
     assert!((trajectory.duration() - (1.0 + 0.25 + 0.1) - (1.0 + 0.25 + 0.2)).abs() < 1e-8);
@@ -122,8 +122,8 @@ fn seven_phases_on_each_leg_of_a_right_angle() {
 fn a_joint_without_a_limit_may_jump_where_it_moves_alone() {
     let scene = room([1.0, 1.0], [4.0, 4.0], [None, Some(20.0)]);
     let along = |points: &[[f64; 2]]| {
-        let timed = time(curve(&scene, points, 0.3), &Limits::from(&scene.arm.joints), 0.01).unwrap();
-        check(&scene.arm.joints, &timed);
+        let timed = time(curve(&scene, points, 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
+        check(&scene.arm().joints, &timed);
         timed.trajectory
     };
     let alone = along(&[[0.0, 0.0], [1.0, 0.0]]);
@@ -136,7 +136,7 @@ fn a_joint_without_a_limit_may_jump_where_it_moves_alone() {
 #[test]
 fn less_speed_takes_that_much_longer() {
     let scene = room([1.0, 2.0], [4.0, 7.0], [Some(40.0), Some(20.0)]);
-    let limits = Limits::from(&scene.arm.joints);
+    let limits = Limits::from(&scene.arm().joints);
     let [fast, slow] = [limits, limits.scaled(0.25)].map(|limits| {
         time(curve(&scene, &[[0.0, 0.0], [1.0, 0.4], [0.7, 1.0]], 0.3), &limits, 0.01).unwrap().trajectory
     });
@@ -147,9 +147,9 @@ fn less_speed_takes_that_much_longer() {
 fn a_jump_of_the_acceleration_is_a_broken_limit() {
     // Timed without the limit, judged with it.
     let scene = room([1.0, 1.0], [4.0, 4.0], [None, None]);
-    let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.5]], 0.3), &Limits::from(&scene.arm.joints), 0.01).unwrap();
+    let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.5]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let smooth = room([1.0, 1.0], [4.0, 4.0], [None, Some(1000.0)]);
-    let found = limits_kept(&smooth.arm.joints, &recording(&timed.trajectory));
+    let found = limits_kept(&smooth.arm().joints, &recording(&timed.trajectory));
     assert_eq!(found.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>(), [(1, Limit::AccelerationJump)]);
     assert!((found[0].value.abs() - 2.0).abs() < 1e-9 && found[0].allowed == 0.0 && found[0].moment.sample == 0);
 }
@@ -157,9 +157,9 @@ fn a_jump_of_the_acceleration_is_a_broken_limit() {
 #[test]
 fn a_jerk_beyond_the_limit_is_a_broken_limit() {
     let scene = room([1.0, 1.0], [4.0, 4.0], [Some(20.2), Some(20.2)]);
-    let timed = time(curve(&scene, &[[0.0, 0.0], [0.7, 0.7]], 0.3), &Limits::from(&scene.arm.joints), 0.01).unwrap();
+    let timed = time(curve(&scene, &[[0.0, 0.0], [0.7, 0.7]], 0.3), &Limits::from(&scene.arm().joints), 0.01).unwrap();
     let gentler = room([1.0, 1.0], [4.0, 4.0], [Some(20.0), Some(20.2)]);
-    let found = limits_kept(&gentler.arm.joints, &recording(&timed.trajectory));
+    let found = limits_kept(&gentler.arm().joints, &recording(&timed.trajectory));
     assert_eq!(found.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>(), [(0, Limit::Jerk)]);
     assert!((found[0].value.abs() - 20.2).abs() < 1e-6 && found[0].allowed == 20.0);
 }
@@ -167,9 +167,9 @@ fn a_jerk_beyond_the_limit_is_a_broken_limit() {
 #[test]
 fn the_tip_keeps_its_limit() {
     let scene = room([3.0, 3.0], [40.0, 40.0], [Some(300.0), Some(900.0)]);
-    let limits = Limits { tip: Some(TipSpeed { arm: &scene.arm, speed: 0.5 }), ..Limits::from(&scene.arm.joints) };
+    let limits = Limits { tip: Some(TipSpeed { arm: scene.arm(), speed: 0.5 }), ..Limits::from(&scene.arm().joints) };
     let timed = time(curve(&scene, &[[0.0, 0.0], [0.3, 0.4], [1.0, 0.4]], 0.3), &limits, 0.01).unwrap();
-    check(&scene.arm.joints, &timed);
+    check(&scene.arm().joints, &timed);
     // On a gantry the tip is where the joints are.
     let top = timed.trajectory.velocity.iter().map(|v| as_vector(*v).norm()).fold(0.0, f64::max);
     assert!((0.499..=0.5 + 1e-12).contains(&top), "{top}");
@@ -190,7 +190,7 @@ proptest! {
     ) {
         let jerk = [0, 1].map(|k| (k != unlimited).then_some(jerk[k]));
         let scene = room(velocity, acceleration, jerk);
-        let joints = &scene.arm.joints;
+        let joints = &scene.arm().joints;
         let timed = time(curve(&scene, &waypoints, 0.1), &Limits::from(joints), period).unwrap();
         check(joints, &timed);
         let points: Vec<_> = waypoints.iter().map(|w| q(w[0], w[1])).collect();
@@ -211,7 +211,7 @@ proptest! {
         let [length, speed, acceleration, jerk] = [length, speed, acceleration, jerk].map(|e| 10f64.powf(e));
         let scene = room([speed, 1.0], [acceleration, 1.0], [Some(jerk), None]);
         let points = [[0.0, 0.0], [length, 0.0]];
-        let joints = &scene.arm.joints;
+        let joints = &scene.arm().joints;
         let (duration, floor) = shortest(&points.map(|p| q(p[0], p[1])), joints);
         let timed = time(curve(&scene, &points, 0.1), &Limits::from(joints), (duration / 20.0).max(1e-5)).unwrap();
         let took = timed.trajectory.duration();

@@ -114,7 +114,7 @@ fn optimum(curve: &CertifiedCurve, limits: &Limits, per_unit: f64) -> f64 {
 }
 
 fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
-    time(curve, &Limits::from(&scene.arm.joints), 0.01).unwrap().trajectory.duration()
+    time(curve, &Limits::from(&scene.arm().joints), 0.01).unwrap().trajectory.duration()
 }
 
 /// Waypoints, limits of velocity and of acceleration, radius.
@@ -146,7 +146,7 @@ fn within_a_hundredth_of_the_optimum() {
             curve.curve().radii().iter().filter(|radius| **radius > 0.0).count() == waypoints.len() - 2,
             "path {i}"
         );
-        let limits = Limits::from(&scene.arm.joints);
+        let limits = Limits::from(&scene.arm().joints);
         let [coarse, fine] = [500.0, 2000.0].map(|per_unit| optimum(&curve, &limits, per_unit));
         assert!((coarse - fine).abs() < 3e-3 * fine, "path {i}: the oracle itself is off: {coarse} {fine}");
         let took = duration(&scene, curve);
@@ -174,8 +174,8 @@ fn a_slow_tip_is_as_fast_as_it_may() {
         let scene = crate::common::scene(arm, vec![]);
         let curve = curve(&scene, &[[-0.6, 0.2], [0.4, 0.7], [0.9, -0.1]], f64::INFINITY);
         for speed in [0.1, 0.4, 100.0] {
-            let tip = Some(TipSpeed { arm: &scene.arm, speed });
-            let limits = Limits { tip, ..Limits::from(&scene.arm.joints) };
+            let tip = Some(TipSpeed { arm: scene.arm(), speed });
+            let limits = Limits { tip, ..Limits::from(&scene.arm().joints) };
             for curve in [curve.clone(), curve.clone().without(1)] {
                 let timed = time(curve.clone(), &limits, 0.002).unwrap();
                 let (took, least) = (timed.trajectory.duration(), optimum(&timed.curve, &limits, 1000.0));
@@ -184,7 +184,7 @@ fn a_slow_tip_is_as_fast_as_it_may() {
                 let (at, rate) = (rows(&timed.trajectory.position), rows(&timed.trajectory.velocity));
                 let step = 1e-6;
                 let moved = |(at, rate): (&Configuration, &Configuration)| {
-                    (scene.arm.tip_at(at + rate * step) - scene.arm.tip_at(at - rate * step)).norm() / (2.0 * step)
+                    (scene.arm().tip_at(at + rate * step) - scene.arm().tip_at(at - rate * step)).norm() / (2.0 * step)
                 };
                 let fastest = at.iter().zip(&rate).map(moved).fold(0.0, f64::max);
                 assert!(fastest <= speed * (1.0 + 1e-6), "kind {kind} at {speed}: {fastest}");
@@ -212,8 +212,8 @@ proptest! {
     #[test]
     fn near_the_optimum_on_random_paths(waypoints in waypoints(), [velocity, acceleration] in limits()) {
         let scene = empty(velocity, acceleration);
-        let timed = time(curve(&scene, &waypoints, 10.0), &Limits::from(&scene.arm.joints), 0.01).unwrap();
-        let least = optimum(&timed.curve, &Limits::from(&scene.arm.joints), 300.0);
+        let timed = time(curve(&scene, &waypoints, 10.0), &Limits::from(&scene.arm().joints), 0.01).unwrap();
+        let least = optimum(&timed.curve, &Limits::from(&scene.arm().joints), 300.0);
         let took = timed.trajectory.duration();
         // Of others than the usual cases one in some thousands is slower: steps of a millimetre, with limits far apart.
         let most = if usual() { 1.05 } else { 1.3 };

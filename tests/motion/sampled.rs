@@ -133,9 +133,9 @@ fn check(joints: &[Joint; 2], timed: &Timed, period: f64) {
 #[test]
 fn a_right_angle() {
     let scene = empty([2.0, 3.0], [8.0, 12.0]);
-    let limits = Limits::from(&scene.arm.joints);
+    let limits = Limits::from(&scene.arm().joints);
     let timed = time(curve(&scene, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]], 0.3), &limits, 0.01).unwrap();
-    check(&scene.arm.joints, &timed, 0.01);
+    check(&scene.arm().joints, &timed, 0.01);
     // It never rests on the way.
     let moving = |k: usize| as_vector(timed.trajectory.velocity[k]).norm() > 0.1;
     let n = timed.trajectory.time.len();
@@ -156,7 +156,7 @@ proptest! {
         period in prop_oneof![Just(0.01), 0.003..1.0_f64],
     ) {
         let scene = empty(velocity, acceleration);
-        let timed = time(curve(&scene, &waypoints, 10f64.powf(radius)), &Limits::from(&scene.arm.joints), period);
-        check(&scene.arm.joints, &timed.unwrap(), period);
+        let timed = time(curve(&scene, &waypoints, 10f64.powf(radius)), &Limits::from(&scene.arm().joints), period);
+        check(&scene.arm().joints, &timed.unwrap(), period);
     }
 }

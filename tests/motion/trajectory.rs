@@ -1,6 +1,6 @@
 //! From a certified path to files, and back through independent readers.
 
-use crate::common::disc;
+use crate::common::{disc, placed};
 use cplan::certify::{CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::Heights;
@@ -22,7 +22,7 @@ fn scene(obstacle: bool) -> Scene {
         acceleration: 4.0,
         jerk: None,
     };
-    let disc = Part { shape: disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
+    let tool = Part { shape: disc(Point::origin(), 0.1), heights: Heights::ALL, body: "slider".into() };
     let arm = Arm {
         name: "polar".into(),
         joints: [
@@ -31,7 +31,7 @@ fn scene(obstacle: bool) -> Scene {
         ],
         links: [
             Link { name: "turret".into(), parts: vec![], source: OutlineSource::None },
-            Link { name: "slider".into(), parts: vec![disc], source: OutlineSource::Collision },
+            Link { name: "slider".into(), parts: vec![tool], source: OutlineSource::Collision },
         ],
         base: Point::origin(),
         offset: Vector::zeros(),
@@ -47,7 +47,7 @@ fn scene(obstacle: bool) -> Scene {
         heights: Heights::ALL,
     };
     let obstacles = if obstacle { vec![far] } else { vec![] };
-    Scene::new(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
+    placed(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {
@@ -59,8 +59,9 @@ fn found(obstacle: bool, waypoints: &[[f64; 2]]) -> Report {
     let scene = scene(obstacle);
     let path = certified(&scene, waypoints);
     let curve = blend(&scene, &path, f64::INFINITY, 0.0);
-    let Timed { curve, trajectory } = time(curve, &Limits::from(&scene.arm.joints), 0.01).expect("an ordinary motion");
-    Report::found("visibility", &scene.arm.joints, &curve, trajectory)
+    let Timed { curve, trajectory } =
+        time(curve, &Limits::from(&scene.arm().joints), 0.01).expect("an ordinary motion");
+    Report::found("visibility", &scene.arm().joints, &curve, trajectory)
 }
 
 const WAYPOINTS: [[f64; 2]; 3] = [[-0.9, 0.4], [0.1, 1.7 + 1e-8], [1.55, 1.0 / 3.0]];
@@ -122,7 +123,7 @@ fn infinite_clearance_is_null() {
 
 #[test]
 fn without_a_path_there_is_a_reason() {
-    let joints = scene(false).arm.joints;
+    let joints = scene(false).into_parts().0.joints;
     let reports = [
         (Report::infeasible("trapezoid", &joints, "start is walled in".into()), Status::Infeasible, "infeasible"),
         (Report::unknown("trapezoid", &joints, "time ran out".into()), Status::Unknown, "unknown"),

@@ -1,10 +1,10 @@
 //! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
 
-use crate::common::{self, Benchmark, disc, obstacle, q, rr, scene, shipped_feasible};
+use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
 use cplan::geometry::{Convex, Point};
-use cplan::model::{Goal, Problem};
+use cplan::model::Problem;
 use cplan::solve::{Answer, Bound, Effort, Method, Verdict, bound, solve};
-use cplan::space::{Axis, Configuration, Metric, Path};
+use cplan::space::{Axis, Configuration, GoalSet, Metric, Path};
 use std::f64::consts::TAU;
 
 fn answer(problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
@@ -36,7 +36,7 @@ fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
 #[test]
 fn no_planner_finds_a_path_below_the_bound() {
     for (name, problem) in shipped_feasible() {
-        let speeds = problem.scene.arm.joints.each_ref().map(|joint| joint.velocity);
+        let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
         let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds }];
         let lower = metrics.map(|metric| bounded(&answer(&problem, metric, Some(0.01))).lower);
         for method in [Method::Visibility, Method::Trapezoid, Method::Wavefront, Method::Subdivision] {
@@ -63,12 +63,7 @@ fn published_optima_lie_within_the_bounds() {
 fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> Problem {
     let obstacles = pieces.into_iter().map(|piece| obstacle("block", piece)).collect::<Vec<_>>();
     let pieces = obstacles.into_iter().flat_map(|o| o.pieces).collect();
-    Problem {
-        scene: scene(rr(axes), pieces),
-        start,
-        goal: Goal::Joints(goals[0]),
-        goals: goals.iter().copied().collect(),
-    }
+    asked(scene(rr(axes), pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
 #[test]
@@ -102,12 +97,7 @@ fn around_a_block_the_bound_is_the_taut_string() {
     let links = [common::link("beam", Vec::new()), common::link("tool", vec![tool])];
     let arm = common::arm(joints, links, Point::origin().coords, Point::origin());
     let block = common::rectangle(-0.5, 0.5, -2.5, 0.25);
-    let problem = Problem {
-        scene: scene(arm, vec![block]),
-        start: q(-1.5, 0.0),
-        goal: Goal::Joints(q(1.5, 0.0)),
-        goals: q(1.5, 0.0).into(),
-    };
+    let problem = asked(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
     let found = bounded(&answer(&problem, Metric::Euclidean, Some(1e-5)));
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 
 fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
     let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm.topology().axes[k].domain();
+        let (lower, upper) = scene.arm().topology().axes[k].domain();
         lower + t * (upper - lower)
     };
     q(at(0, u), at(1, v))
@@ -146,7 +146,7 @@ fn benchmark_problems_are_decided() {
         };
         let path = channel.path();
         assert_eq!(path.start(), start);
-        assert!(scene.arm.topology().distance(path.goal(), goal) < 1e-12);
+        assert!(scene.arm().topology().distance(path.goal(), goal) < 1e-12);
         certify(&scene, path, 0.0).expect("a chain of free boxes is free");
     }
     for which in [Benchmark::Inf, Benchmark::T] {
@@ -315,7 +315,7 @@ fn proofs_leave_out_boxes_that_do_not_matter() {
 fn the_boxes_cover_the_domain_and_are_what_they_say() {
     for (kind, arm) in all_kinds().into_iter().enumerate() {
         let scene = scene(arm, clutter());
-        let topology = scene.arm.topology();
+        let topology = scene.arm().topology();
         let free = |i: u32| {
             let at = inside(&scene, f64::from(i % 29) / 28.5, f64::from(i % 31) / 30.5);
             (scene.clearance(at) > 0.01).then_some(at)

@@ -85,7 +85,7 @@ fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
 /// The path of a run that must have one, after the checks that hold for every path.
 fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
     let Outcome::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     assert_eq!(path.start(), query.start, "{name}");
     let is_copy = |axis: Axis, goal: f64, end: f64| {
         let turns = ((end - goal) / TAU).round();
@@ -279,7 +279,7 @@ fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
 #[test]
 fn on_an_interval_longer_than_a_turn_a_posture_a_turn_away_is_another_goal() {
     let mut long = polar(range(-1.0, 7.5));
-    long = scene(long.arm, vec![]);
+    long = scene(long.into_parts().0, vec![]);
     let query = query(q(0.5, 1.0), &[q(0.5 + TAU, 1.0)]);
     for (name, plan) in PLANNERS {
         let path = path(name, &long, &query, &plan(&long, &query));

@@ -1,11 +1,11 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
 
 use crate::common::random::{seeds, times};
-use crate::common::{arm, disc, joint, link, rectangle, scene, wall};
+use crate::common::{arm, asked, disc, joint, link, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
 use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Arm, Goal, Motion, Problem, Scene, inverse};
+use cplan::model::{Arm, Motion, Problem, Scene, inverse};
 use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -72,16 +72,16 @@ fn world(seed: u64) -> Option<Problem> {
     let pieces = (0..count).map(|_| piece(&mut dice)).collect();
     let scene: Scene = scene(arm, pieces);
     let start = (0..50).map(|_| anywhere(&mut dice, &scene)).find(|&q| scene.clearance(q) > 1e-3)?;
-    let solved = inverse(&scene.arm, tip, start);
+    let solved = inverse(scene.arm(), tip, start);
     assert!(solved.free.is_some(), "the generator's goals leave a joint free");
-    let mut goals = solved.solutions(&scene.arm);
+    let mut goals = solved.solutions(scene.arm());
     goals.retain(|goals| scene.blocked_along(goals).is_none());
     let goals: GoalSet = goals.into_iter().collect();
-    (!goals.is_empty()).then_some(Problem { scene, start, goal: Goal::Tip(tip), goals })
+    (!goals.is_empty()).then_some(asked(scene, start, goals))
 }
 
 fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     Configuration::from_fn(|k, _| {
         let (lower, upper) = topology.axes[k].domain();
         dice.range(lower, upper)
@@ -91,8 +91,8 @@ fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
 /// Free goals at several values of the free joint.
 fn tried(problem: &Problem) -> Vec<Configuration> {
     let along = |goals: &Segment| (0..TRIED).map(|k| goals.at((k as f64 + 0.5) / TRIED as f64)).collect::<Vec<_>>();
-    let mut tried: Vec<Configuration> = problem.goals.pieces().iter().flat_map(along).collect();
-    tried.retain(|&goal| problem.scene.clearance(goal) > 1e-6);
+    let mut tried: Vec<Configuration> = problem.goals().pieces().iter().flat_map(along).collect();
+    tried.retain(|&goal| problem.scene().clearance(goal) > 1e-6);
     tried
 }
 
@@ -102,8 +102,8 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
     for seed in seeds(120) {
         let Some(problem) = world(seed) else { continue };
         worlds += 1;
-        let (scene, start) = (&problem.scene, problem.start);
-        let topology = scene.arm.topology();
+        let (scene, start) = (problem.scene(), problem.start());
+        let topology = scene.arm().topology();
         let each: Vec<_> = tried(&problem)
             .into_iter()
             .map(|goal| {
@@ -116,18 +116,18 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             .filter(|(_, answer)| matches!(answer, Connectivity::Connected(_)))
             .map(|(goal, _)| *goal)
             .collect();
-        let whole = slab_connectivity(scene, start, &problem.goals, 0.0, 4_000);
-        let boxes = connectivity(scene, start, &problem.goals, 0.0, 20_000);
+        let whole = slab_connectivity(scene, start, problem.goals(), 0.0, 4_000);
+        let boxes = connectivity(scene, start, problem.goals(), 0.0, 20_000);
         for answer in [&whole, &boxes] {
             match answer {
                 Connectivity::Disconnected(proof) => {
                     assert!(connected.is_empty(), "seed {seed}: a false proof, {connected:?} can be reached");
-                    assert_eq!(recheck(proof.stuck(), scene, start, &problem.goals, 0.0), Ok(()), "seed {seed}");
+                    assert_eq!(recheck(proof.stuck(), scene, start, problem.goals(), 0.0), Ok(()), "seed {seed}");
                     infeasible += 1;
                 }
                 Connectivity::Connected(channel) => {
                     let end = channel.path().goal();
-                    assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
+                    assert!(problem.goals().contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
                 }
                 Connectivity::Undecided { .. } => assert!(connected.is_empty(), "seed {seed}: undecided"),
             }
@@ -135,7 +135,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
         // A proof for one value holds for the set only if nothing of the set can be reached.
         for (goal, answer) in &each {
             if let (Connectivity::Disconnected(proof), false) = (answer, connected.is_empty()) {
-                let whole = recheck(proof.stuck(), scene, start, &problem.goals, 0.0);
+                let whole = recheck(proof.stuck(), scene, start, problem.goals(), 0.0);
                 assert!(whole.is_err(), "seed {seed}: a proof about {goal} is taken for one about all goals");
             }
         }
@@ -143,11 +143,11 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
         match &answer.verdict {
             Verdict::Found(path) => {
                 let end = path.path().goal();
-                assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
-                slid += u64::from(problem.goals.pieces().iter().any(|goals| !goals.is_point()));
+                assert!(problem.goals().contains(&topology, end, 1e-9), "seed {seed}: {end} is no goal");
+                slid += u64::from(problem.goals().pieces().iter().any(|goals| !goals.is_point()));
                 let bound = answer.bound.expect("visibility bounds what it finds");
                 for &goal in &connected {
-                    let single = Problem { goal: Goal::Joints(goal), goals: goal.into(), ..problem.clone() };
+                    let single = asked(problem.scene().clone(), problem.start(), goal);
                     let Verdict::Found(other) =
                         solve(&single, Method::Visibility, &Effort::default(), &mut |_| {}).verdict
                     else {
@@ -159,7 +159,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                         "seed {seed}: {} above {length} to {goal}",
                         bound.lower
                     );
-                    let least = least_length(scene, start, &problem.goals, 0.0, Metric::Euclidean, length, 1e-3);
+                    let least = least_length(scene, start, problem.goals(), 0.0, Metric::Euclidean, length, 1e-3);
                     assert!(least <= length, "seed {seed}");
                     assert!(bound.upper <= 1.02 * length, "seed {seed}: {} beside {length} to {goal}", bound.upper);
                 }
@@ -180,8 +180,8 @@ fn planners_agree_about_sets_of_goals() {
             let verdict = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict;
             if let Verdict::Found(path) = &verdict {
                 let end = path.path().goal();
-                let topology = problem.scene.arm.topology();
-                assert!(problem.goals.contains(&topology, end, 1e-9), "seed {seed}, {method}: {end} is no goal");
+                let topology = problem.scene().arm().topology();
+                assert!(problem.goals().contains(&topology, end, 1e-9), "seed {seed}, {method}: {end} is no goal");
             }
             verdict
         });
@@ -204,26 +204,26 @@ fn joints_about_one_axis_share_the_angle() {
     let start = Configuration::new(-0.5, -1.0);
     let problem = |angle: f64| {
         let target = Point::new(0.7 * angle.cos(), 0.7 * angle.sin());
-        let goals: GoalSet = inverse(&scene.arm, target, start).solutions(&scene.arm).into_iter().collect();
+        let goals: GoalSet = inverse(scene.arm(), target, start).solutions(scene.arm()).into_iter().collect();
         for goals in goals.pieces() {
             for k in 0..=10 {
                 let q = goals.at(f64::from(k) / 10.0);
-                assert!((scene.arm.tip_at(q) - target).norm() < 1e-9, "{q}");
+                assert!((scene.arm().tip_at(q) - target).norm() < 1e-9, "{q}");
             }
         }
-        Problem { scene: scene.clone(), start, goal: Goal::Tip(target), goals }
+        asked(scene.clone(), start, goals)
     };
     // A sum of 1.5; 1.5 - tau is beyond both limits, and the obstacle is in between.
     let barred = problem(1.5);
-    assert_eq!(barred.goals.pieces().len(), 1, "{:?}", barred.goals);
+    assert_eq!(barred.goals().pieces().len(), 1, "{:?}", barred.goals());
     // Of 1.9 and 1.9 - tau one can be reached the other way round.
     let open = problem(1.9);
-    assert_eq!(open.goals.pieces().len(), 2, "{:?}", open.goals);
+    assert_eq!(open.goals().pieces().len(), 2, "{:?}", open.goals());
     for method in Method::ALL {
         let Verdict::Infeasible(proof) = solve(&barred, method, &Effort::default(), &mut |_| {}).verdict else {
             panic!("{method}: link 2 has to pass the obstacle")
         };
-        assert_eq!(recheck(proof.stuck(), &scene, start, &barred.goals, 0.0), Ok(()), "{method}");
+        assert_eq!(recheck(proof.stuck(), &scene, start, barred.goals(), 0.0), Ok(()), "{method}");
         let Verdict::Found(path) = solve(&open, method, &Effort::default(), &mut |_| {}).verdict else {
             panic!("{method}: the other way round is free")
         };

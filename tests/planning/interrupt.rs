@@ -70,7 +70,7 @@ fn a_stopped_plan_says_nothing_and_leaves_nothing() {
 #[test]
 fn proofs_and_tasks_stop_too() {
     let problem = problem("thin_wall_closed.toml");
-    let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+    let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let stopped = |work: &mut dyn FnMut()| {
         let interrupt = Interrupt::new();
         let handle = interrupt.clone();

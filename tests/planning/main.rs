@@ -19,4 +19,5 @@ mod solve;
 mod task_optimum;
 mod tasks;
 mod twins;
+mod validity;
 mod workspaces;

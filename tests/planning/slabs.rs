@@ -21,7 +21,7 @@ fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -
     match slab_connectivity(scene, start, goals, clearance, SLABS) {
         Connectivity::Connected(channel) => {
             let path = channel.path();
-            let topology = scene.arm.topology();
+            let topology = scene.arm().topology();
             assert_eq!(path.start(), start);
             assert!(goals.contains(&topology, path.goal(), 1e-12), "{path:?}");
             for (a, b) in path.segments() {
@@ -175,7 +175,7 @@ fn odd_links_and_elbows_on_obstacles() {
             let scene = scene(arm.clone(), vec![first.clone(), second.clone()]);
             let free: Vec<_> = (0..40)
                 .map(|k| q(f64::from(k) * 2.4 - 40.0, f64::from(k) * 1.7))
-                .map(|at| scene.arm.topology().wrap(at))
+                .map(|at| scene.arm().topology().wrap(at))
                 .filter(|&at| scene.clearance(at) > 1e-3)
                 .collect();
             assert!(free.len() > 1);
@@ -232,9 +232,9 @@ fn shipped_workspaces_are_answered_as_they_say() {
         let stated = |key: &str| text.lines().find_map(|l| l.strip_prefix(key)).unwrap().trim().to_owned();
         let urdf = root.join("robots").join(format!("{}.urdf", stated("# robot: ")));
         let problem = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}")).problem;
-        let (scene, clearance) = (&problem.scene, problem.scene.workspace.clearance);
+        let (scene, clearance) = (problem.scene(), problem.scene().workspace().clearance);
         let feasible = stated("# expect: ") == "found";
-        match check(scene, problem.start, &problem.goals, clearance) {
+        match check(scene, problem.start(), problem.goals(), clearance) {
             Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
             None => undecided.push(file.file_stem().unwrap().to_owned()),
         }
@@ -258,6 +258,6 @@ fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
         let length = certified.path().length();
         // The published optima have four digits behind the point.
         assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");
-        assert!(certify(&problem.scene, certified.path().clone(), 0.0).is_ok());
+        assert!(certify(problem.scene(), certified.path().clone(), 0.0).is_ok());
     }
 }

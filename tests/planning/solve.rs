@@ -1,7 +1,6 @@
 //! The benchmark problems whose answers are published, with every planner.
 
-use crate::common::{Benchmark, benchmark, problem, q, rectangle, rr, scene};
-use cplan::model::{Goal, Problem, Scene};
+use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene};
 use cplan::solve::{Answer, Effort, Method, Verdict, solve};
 use cplan::space::Axis;
 
@@ -73,14 +72,14 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
     let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
     let effort = Effort { levels: 1, ..Effort::default() };
     for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {
-        let problem = Problem { scene: scene.clone(), start, goal: Goal::Joints(goal), goals: goal.into() };
+        let problem = asked(scene.clone(), start, goal);
         for method in Method::ALL {
             let answer = solve(&problem, method, &effort, &mut |_| {});
             let Verdict::Found(certified) = &answer.verdict else {
                 panic!("{method} from {start:?}: {:?}\n{:?}", answer.verdict, answer.history);
             };
             assert_eq!(certified.path().start(), start, "{method}");
-            assert!(problem.scene.arm.topology().distance(certified.path().goal(), goal) < 1e-9, "{method}");
+            assert!(problem.scene().arm().topology().distance(certified.path().goal(), goal) < 1e-9, "{method}");
             assert!(certified.clearance() > 0.0 && certified.clearance() <= 1e-6 + 1e-12, "{method}");
         }
     }
@@ -90,10 +89,8 @@ fn ends_with_little_room_are_answered_at_the_first_level() {
 #[test]
 fn a_start_without_room_to_spare_is_answered() {
     let (scene, start, goal) = benchmark(Benchmark::A);
-    let (arm, mut workspace) = (scene.arm, scene.workspace);
-    workspace.clearance = Scene::new(arm.clone(), workspace.clone()).clearance(start);
-    let scene = Scene::new(arm, workspace);
-    let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() };
+    let clearance = scene.clearance(start);
+    let problem = asked(scene.with_clearance(clearance).unwrap(), start, goal);
     let effort = Effort { levels: 1, boxes: 1000, ..Effort::default() };
     for method in [Method::Visibility, Method::Trapezoid] {
         let answer = solve(&problem, method, &effort, &mut |_| {});

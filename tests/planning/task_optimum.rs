@@ -1,6 +1,6 @@
 //! The choice of postures and order against trying all of them.
 
-use crate::common::{arm, disc, joint, link, obstacle, q, rectangle};
+use crate::common::{arm, disc, joint, link, obstacle, placed, q, rectangle};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, Motion, Object, Shape, Step, Task, Workspace, inverse, within,
@@ -155,7 +155,7 @@ fn the_fastest_of_all_postures_and_orders_is_found() {
                     let there = Step { dwell: 0.0, ..step(Action::Move(Goal::Joints(to)), 1) };
                     let blocked = |q: Configuration| {
                         let poses: Vec<_> = task.objects.iter().map(|o| Some(o.at)).collect();
-                        let scene = cplan::model::Scene::new(task.arm.clone(), task.obstacles(&poses));
+                        let scene = placed(task.arm.clone(), task.obstacles(&poses));
                         !scene.obstructions(q).is_empty()
                     };
                     if blocked(from) || blocked(to) {
@@ -199,7 +199,7 @@ fn a_large_group_gets_a_good_order() {
     let (arm, _) = cell(limits);
     let free = |at: &Point| {
         let empty = task(limits, &[], false);
-        let scene = cplan::model::Scene::new(empty.arm.clone(), empty.workspace.clone());
+        let scene = placed(empty.arm.clone(), empty.workspace.clone());
         postures(&arm, *at).iter().any(|q| scene.obstructions(*q).is_empty())
     };
     let spots: Vec<[Point; 2]> = spots(3, 30, &arm).into_iter().filter(|pair| pair.iter().all(free)).take(12).collect();

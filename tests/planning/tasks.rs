@@ -96,7 +96,7 @@ fn carrying_closes_a_passage() {
     let [to] = &impossible.postures[..] else { panic!("{:?}", impossible.postures) };
     assert_eq!((impossible.from, to.posture), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
     assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
-    let clearance = impossible.scene.workspace.clearance;
+    let clearance = impossible.scene.workspace().clearance;
     let held = recheck(&to.proof, &impossible.scene, impossible.from, &to.posture.into(), clearance);
     assert!(!to.proof.is_empty() && held.is_ok(), "{held:?}");
 }

@@ -38,7 +38,7 @@ fn load(name: &str, robot: &str) -> Problem {
 fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
     for (what, robot) in TWINS {
         let problem = load(&format!("{what}_closed"), robot);
-        let (scene, start, goals) = (&problem.scene, problem.start, &problem.goals);
+        let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         let Connectivity::Disconnected(proof) = connectivity(scene, start, goals, 0.0, BOXES) else {
             panic!("{what} is not proven");
         };
@@ -49,7 +49,7 @@ fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
         assert_eq!(recheck(&claim, scene, start, goals, 0.0), Ok(()), "{what}");
         // It says nothing about the twin, whose way is open: some box cannot be true there.
         let twin = load(&format!("{what}_open"), robot);
-        assert!(recheck(&claim, &twin.scene, twin.start, &twin.goals, 0.0).is_err(), "{what}");
+        assert!(recheck(&claim, twin.scene(), twin.start(), twin.goals(), 0.0).is_err(), "{what}");
     }
 }
 
@@ -77,7 +77,7 @@ fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     let pairs: Vec<_> = scene.pairs().iter().map(|&p| (p.link, scene.part(p), scene.piece(p))).collect();
     let shapes: Vec<_> = pairs.iter().map(|(link, a, b)| (*link, shape(a), place(a), shape(b), place(b))).collect();
     let meets = |q: Configuration| {
-        let poses = scene.arm.poses(q).map(|pose| {
+        let poses = scene.arm().poses(q).map(|pose| {
             let t = pose.translation.vector;
             let rotation = Rotation { re: pose.rotation.re, im: pose.rotation.im };
             Pose::from_parts(Vector::new(t.x, t.y), rotation)
@@ -102,7 +102,7 @@ fn open_ways_are_found_by(method: Method) {
         let Verdict::Found(certified) = &answer.verdict else {
             panic!("{what} by {method}: {:?}", answer.verdict);
         };
-        assert_eq!(first_contact(&problem.scene, certified.path()), None, "{what} by {method}");
+        assert_eq!(first_contact(problem.scene(), certified.path()), None, "{what} by {method}");
     }
 }
 
@@ -128,6 +128,6 @@ fn the_sweep_sees_contacts() {
         let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
         let answer = solve(&open, Method::Visibility, &Effort::default(), &mut |_| {});
         let Verdict::Found(certified) = &answer.verdict else { panic!("{what}") };
-        assert!(first_contact(&closed.scene, certified.path()).is_some(), "{what}");
+        assert!(first_contact(closed.scene(), certified.path()).is_some(), "{what}");
     }
 }

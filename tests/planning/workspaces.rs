@@ -48,7 +48,7 @@ fn sampled_clearance(problem: &Problem, path: &cplan::space::Path, step: f64) ->
         let n = ((b - a).norm() / step).ceil().max(1.0);
         let mut i = 0.0;
         while i <= n {
-            least = least.min(problem.scene.clearance(a + (b - a) * (i / n)));
+            least = least.min(problem.scene().clearance(a + (b - a) * (i / n)));
             i += 1.0;
         }
     }
@@ -59,7 +59,7 @@ fn check(method: Method) {
     let all = shipped();
     assert!(all.len() >= 10, "only {} workspaces", all.len());
     for kind in ["RR", "RP", "PR", "PP"] {
-        assert!(all.iter().any(|s| s.problem.scene.arm.kind() == kind), "no workspace for an {kind} arm");
+        assert!(all.iter().any(|s| s.problem.scene().arm().kind() == kind), "no workspace for an {kind} arm");
     }
     let mut wrong = Vec::new();
     let mut told = [0, 0];
@@ -68,12 +68,12 @@ fn check(method: Method) {
         match (&answer.verdict, expect.as_str()) {
             (Verdict::Found(certified), "found") => {
                 let path = certified.path();
-                assert_eq!(path.start(), problem.start, "{name}");
-                let topology = problem.scene.arm.topology();
-                assert!(problem.goals.contains(&topology, path.goal(), 1e-9), "{name}: {:?}", path.goal());
+                assert_eq!(path.start(), problem.start(), "{name}");
+                let topology = problem.scene().arm().topology();
+                assert!(problem.goals().contains(&topology, path.goal(), 1e-9), "{name}: {:?}", path.goal());
                 let sampled = sampled_clearance(problem, path, 2e-3);
                 assert!(certified.clearance() > 0.0, "{name}");
-                assert!(certified.clearance() >= problem.scene.workspace.clearance, "{name}");
+                assert!(certified.clearance() >= problem.scene().workspace().clearance, "{name}");
                 assert!(sampled >= certified.clearance(), "{name}: sampled {sampled}");
                 told[0] += 1;
             }

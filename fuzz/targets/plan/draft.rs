@@ -3,9 +3,9 @@
 use arbitrary::Arbitrary;
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{
-    Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
 
 #[derive(Arbitrary, Debug)]
@@ -115,7 +115,8 @@ impl Draft {
         let obstacles = self.obstacles.iter().take(usize::from(self.count) % 7).map(obstacle).collect();
         let clearance = if self.clearance < 192 { 0.0 } else { f64::from(self.clearance - 192) / 1024.0 };
         let scene = Scene::new(arm, Workspace { name: "draft".into(), obstacles, clearance, preferences: Vec::new() });
-        let topology = scene.arm.topology();
+        let scene = scene.ok()?;
+        let topology = scene.arm().topology();
         let place = |(a, b): (i16, i16)| {
             Configuration::from_fn(|k, _| {
                 let (lower, upper) = topology.axes[k].domain();
@@ -126,7 +127,9 @@ impl Draft {
         let free = |q: &Configuration| scene.clearance(*q) > clearance;
         let start = Some(place(self.start)).filter(free)?;
         let goals: Vec<Configuration> = self.goals.iter().map(|&g| place(g)).filter(free).collect();
-        let goal = Goal::Joints(*goals.first()?);
-        Some(Problem { scene, start, goal, goals: goals.into_iter().collect() })
+        if goals.is_empty() {
+            return None;
+        }
+        Some(Problem::new(scene, start, goals.into_iter().collect::<GoalSet>()).expect("its ends are free"))
     }
 }

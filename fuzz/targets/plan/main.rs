@@ -40,7 +40,7 @@ fn core(shape: &Convex, angle: f64, by: Vector) -> Option<(Pose, SharedShape)> {
 
 /// Angle and place of both links.
 fn frames(scene: &Scene, q: Configuration) -> [(f64, Vector); 2] {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let mut angle = 0.0_f64;
     let mut place = Vector::new(arm.base.x, arm.base.y);
     let turned =
@@ -59,12 +59,12 @@ fn frames(scene: &Scene, q: Configuration) -> [(f64, Vector); 2] {
 
 fn check_sample(scene: &Scene, q: Configuration, promised: f64) {
     let frames = frames(scene, q);
-    for (link, (angle, place)) in scene.arm.links.iter().zip(frames) {
+    for (link, (angle, place)) in scene.arm().links.iter().zip(frames) {
         for part in &link.parts {
             let Some((p, a)) = core(&part.shape, angle, place) else {
                 continue;
             };
-            for obstacle in &scene.workspace.obstacles {
+            for obstacle in &scene.workspace().obstacles {
                 if !part.heights.meet(obstacle.heights) {
                     continue;
                 }
@@ -84,11 +84,11 @@ fn check_sample(scene: &Scene, q: Configuration, promised: f64) {
 }
 
 fn check_path(problem: &Problem, found: &CertifiedPath) {
-    let (scene, path) = (&problem.scene, found.path());
-    let topology = scene.arm.topology();
-    assert!(found.clearance() > 0.0 && found.clearance() >= scene.workspace.clearance);
-    assert_eq!(path.start(), problem.start);
-    assert!(problem.goals.contains(&topology, path.goal(), 1e-9));
+    let (scene, path) = (problem.scene(), found.path());
+    let topology = scene.arm().topology();
+    assert!(found.clearance() > 0.0 && found.clearance() >= scene.workspace().clearance);
+    assert_eq!(path.start(), problem.start());
+    assert!(problem.goals().contains(&topology, path.goal(), 1e-9));
     assert!(path.waypoints().iter().all(|&q| topology.contains(q)));
     for (a, b) in path.segments().chain([(path.goal(), path.goal())]) {
         for i in 0..=SAMPLES {
@@ -108,12 +108,12 @@ fuzz_target!(|draft: Draft| {
                 found = true;
             }
             Verdict::Infeasible(proof) => {
-                let clearance = problem.scene.workspace.clearance;
-                proof.recheck(&problem.scene, problem.start, &problem.goals, clearance).expect("the proof holds");
-                let topology = problem.scene.arm.topology();
-                for goal in problem.goals.points() {
-                    let straight = Path::new(vec![problem.start, topology.lift(goal, problem.start)]);
-                    assert!(certify(&problem.scene, straight, clearance).is_err(), "the straight way is free");
+                let clearance = problem.scene().workspace().clearance;
+                proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).expect("the proof holds");
+                let topology = problem.scene().arm().topology();
+                for goal in problem.goals().points() {
+                    let straight = Path::new(vec![problem.start(), topology.lift(goal, problem.start())]);
+                    assert!(certify(problem.scene(), straight, clearance).is_err(), "the straight way is free");
                 }
                 infeasible = true;
             }

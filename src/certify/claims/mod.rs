@@ -105,7 +105,7 @@ impl Ledger {
                 self.note("path", format!("{what} at ({}, {}), the motion at ({}, {})", end[0], end[1], at[0], at[1]));
             }
         }
-        match certify(scene, path, scene.workspace.clearance) {
+        match certify(scene, path, scene.workspace().clearance) {
             Err(Rejection::TooClose(nearest)) => {
                 let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
                 let distance = nearest.contact.separation.distance;
@@ -113,7 +113,7 @@ impl Ledger {
                 self.note("path", why);
             }
             Err(Rejection::OutOfLimits { waypoint, joint }) => {
-                let name = &scene.arm.joints[joint].name;
+                let name = &scene.arm().joints[joint].name;
                 self.note("path", format!("waypoint {waypoint} is beyond the limits of joint \"{name}\""));
             }
             // Nearer to the clearance than can be told apart; or free.
@@ -172,7 +172,7 @@ fn nearer(
 #[must_use]
 pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &Passage) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
-    ledger.general(&scene.arm, recording, claims);
+    ledger.general(scene.arm(), recording, claims);
     if let Some(path) = &claims.path {
         ledger.path(scene, recording, path, claims.length, claims.blends);
         ledger.optimum(scene, path, claims.optimum.as_ref());
@@ -204,7 +204,7 @@ impl Ledger {
 
     fn optimum(&mut self, scene: &Scene, path: &[Configuration], claim: Option<&OptimumClaim>) {
         let Some(claim) = claim.filter(|_| !path.is_empty()) else { return };
-        let speeds = scene.arm.joints.each_ref().map(|joint| joint.velocity);
+        let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
         let metric = match (claim.metric.as_str(), claim.weights) {
             ("euclidean", _) => Some(Metric::Euclidean),
             ("weighted", Some(weights)) => Some(Metric::Weighted { weights }),

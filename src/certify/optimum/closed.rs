@@ -58,7 +58,7 @@ pub(super) struct Closed<'a> {
 
 impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let motion = scene.arm.joints[1].motion;
+        let motion = scene.arm().joints[1].motion;
         let (mut parts, mut pairs): (Vec<PreparedPart>, Vec<Prepared>) = (Vec::new(), Vec::new());
         for of_part in chosen(scene, clearance).chunk_by(|a, b| a.part == b.part) {
             let carried = Carried::new(motion, scene.part(of_part[0]));
@@ -82,7 +82,7 @@ impl<'a> Closed<'a> {
 
     /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
     pub fn bands(&self) -> Vec<[f64; 2]> {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let joint = &arm.joints[0];
         let (mut bands, mut arcs) = (Vec::new(), Vec::new());
         for &pair in self.scene.pairs().iter().filter(|pair| pair.link == 0) {
@@ -100,7 +100,7 @@ impl<'a> Closed<'a> {
     /// What is closed at `q1`, in the order of the pairs.
     pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
         checkpoint();
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let pose = arm.pose(0, Configuration::new(q1, 0.0));
         let (elbow, heading) = (pose * Point::from(arm.offset), pose * Vector::x());
         let joint = &arm.joints[1];
@@ -136,7 +136,7 @@ impl<'a> Closed<'a> {
         if self.follows(pair, &posture, ends) {
             return true;
         }
-        let pose = self.scene.arm.pose(1, middle);
+        let pose = self.scene.arm().pose(1, middle);
         halvings > 0
             && separation(&self.parts[pair.part].carried.shape().at(&pose), pair.piece.shape()).distance
                 < self.clearance
@@ -153,7 +153,7 @@ impl<'a> Closed<'a> {
     fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (PreparedPart { carried, sides: of_part }, of_piece) = (&self.parts[pair.part], &pair.sides);
         let (part, piece) = (carried.shape(), pair.piece.shape());
-        let poses = ends.map(|q| self.scene.arm.pose(1, q));
+        let poses = ends.map(|q| self.scene.arm().pose(1, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
@@ -168,7 +168,7 @@ impl<'a> Closed<'a> {
         if piece.core().iter().any(|p| of_world(*p)) || part.core().iter().any(|a| of_link(*a)) {
             return true;
         }
-        let pose = self.scene.arm.pose(1, (ends[0] + ends[1]) / 2.0);
+        let pose = self.scene.arm().pose(1, (ends[0] + ends[1]) / 2.0);
         common_point(part, piece, &pose).is_some_and(|p| of_world(p) || of_link(pose.inverse_transform_point(&p)))
     }
 }
@@ -176,7 +176,7 @@ impl<'a> Closed<'a> {
 /// The pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces, and of
 /// pieces of about a size some all over the list.
 fn chosen(scene: &Scene, clearance: f64) -> Vec<Pair> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let in_reach = |pair: &Pair| {
         let swept = swept(scene.part(*pair), &arm.joints[1], arm.offset);
         let piece = scene.piece(*pair);

@@ -103,8 +103,8 @@ fn meets(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2], w
     let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
     let does_meet = |pair: Pair| {
         shares.iter().any(|&share| {
-            let part = scene.part(pair).at(&scene.arm.pose(pair.link, (ends[0] + way * share).coords));
-            let bulge = scene.arm.reach() * (worth * length * share.min(1.0 - share)).sqrt();
+            let part = scene.part(pair).at(&scene.arm().pose(pair.link, (ends[0] + way * share).coords));
+            let bulge = scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt();
             separation(&part, scene.piece(pair)).distance < least - bulge
         })
     };

@@ -99,7 +99,7 @@ pub(super) struct Strips<'a> {
 
 impl<'a> Strips<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let topology = scene.arm.topology();
+        let topology = scene.arm().topology();
         let (lower, upper) = topology.axes[0].domain();
         let mut closed = Closed::new(scene, clearance);
         let bands = apart(closed.bands(), [lower, upper]);

@@ -45,7 +45,7 @@ impl State {
         let spared: Vec<usize> =
             self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
-        Scene::handling(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
+        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
     }
 
     /// Takes the object that a step picks with the arm at `q`, held as it lies to the arm then; `then` is what it will rest
@@ -93,7 +93,7 @@ impl State {
         let spared: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
         let payload = Payload { heights: object.handled_heights(), ..payload.clone() };
         let arm = stroke.swept(&task.arm, stroke.depth(object));
-        Some(Scene::handling(arm, task.obstacles(&self.poses), Some(payload), &spared))
+        Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &spared))
     }
 
     /// Goes on after a motion without an event.

@@ -5,7 +5,7 @@ use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
 use crate::cli::output;
 use crate::input::{self, DefectKind, Overrides, Refused, Suite};
-use crate::model::{Goal, Problem};
+use crate::model::Problem;
 use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
@@ -56,7 +56,7 @@ impl Case {
 }
 
 fn asked(base: &Problem, start: Configuration, goal: Configuration) -> Problem {
-    Problem { scene: base.scene.clone(), start, goal: Goal::Joints(goal), goals: goal.into() }
+    Problem::trusted(base.scene().clone(), start, goal)
 }
 
 impl Cases {
@@ -87,7 +87,7 @@ impl Cases {
             if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
         let mut refused: Vec<Refusal> = refused.iter().map(refusal).collect();
         for (_, problem) in &mut bases {
-            args.motion.override_limits(&mut problem.scene.arm.joints);
+            args.motion.override_limits(problem.joints_mut());
         }
         if let [(_, only)] = &bases[..]
             && args.suite.is_none()
@@ -126,7 +126,7 @@ impl Cases {
 /// A robot in a world as a suite of one.
 fn one(urdf: &Path, world: &Path) -> Result<Suite, Failure> {
     let scene = input::load_scene(urdf, world)?;
-    let name = scene.scene.workspace.name.clone();
+    let name = scene.scene.workspace().name.clone();
     Ok(Suite {
         name: name.clone(),
         members: vec![input::Member { name, scene }],
@@ -163,12 +163,9 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
         if member.scene.has_steps() {
             member.scene.clone().problem(overrides)?;
         }
-        let mut scene = member.scene.scene;
-        if let Some(clearance) = overrides.clearance {
-            scene.workspace.clearance = input::clearance(clearance).map_err(input::InputError::from)?;
-        }
+        let scene = member.scene.keeping(overrides.clearance)?.scene;
         let nowhere = Configuration::zeros();
-        Ok((member.name, Problem { scene, start: nowhere, goal: Goal::Joints(nowhere), goals: nowhere.into() }))
+        Ok((member.name, Problem::trusted(scene, nowhere, nowhere)))
     };
     let scenes: Result<Vec<_>, Failure> = suite.members.into_iter().map(scene).collect();
     Ok((scenes?, suite.refused))
@@ -182,11 +179,11 @@ fn drawn(name: &str, world: usize, base: Arc<Problem>, sampling: Option<Sampling
     let Some(Sampling { queries, seed }) = sampling else {
         return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);
     };
-    let Some(pairs) = free_pairs(&base.scene, queries, seed) else {
+    let Some(pairs) = free_pairs(base.scene(), queries, seed) else {
         return Err(format!(
             "--queries: {name} has hardly a configuration that keeps the clearance of {} m; a smaller --clearance or \
              other obstacles leave room for random queries",
-            base.scene.workspace.clearance
+            base.scene().workspace().clearance
         ));
     };
     let width = queries.to_string().len();

@@ -34,7 +34,7 @@ pub fn save(
     file: &std::path::Path,
 ) -> Result<(), Failure> {
     let problem = case.problem();
-    let contours = output::contours(&problem.scene);
+    let contours = output::contours(problem.scene());
     output::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
 }
 
@@ -53,7 +53,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
     let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
         let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
         let problem = case.problem();
-        let contours = output::contours(&problem.scene);
+        let contours = output::contours(problem.scene());
         let svg = draw::svg(&picture(&problem, comparison, &done.paths[i], &contours));
         report::Picture { title: case.name.clone(), svg }
     });
@@ -68,16 +68,16 @@ pub fn overlays(cases: &Cases, study: &Study, done: &Compared) -> Vec<Overlay> {
 }
 
 fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay {
-    let scene = &first.base().scene;
+    let scene = first.base().scene();
     let shown = &paths[..paths.len().min(OVERLAID)];
     let of = |planner: usize| {
         let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());
         found.map(|path| path.waypoints().iter().map(|q| [q[0], q[1]]).collect()).collect()
     };
-    let axes = scene.arm.topology().axes;
+    let axes = scene.arm().topology().axes;
     Overlay {
         title: output::title_of(scene),
-        joints: scene.arm.joints.each_ref().map(|joint| {
+        joints: scene.arm().joints.each_ref().map(|joint| {
             let around = if joint.axis.is_circle() { ", wraps around" } else { "" };
             format!("{} [{}{around}]", joint.name, joint.unit())
         }),
@@ -90,7 +90,7 @@ fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay 
 }
 
 fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
-    let tolerance = COARSE * scene.arm.reach();
+    let tolerance = COARSE * scene.arm().reach();
     let contours = crate::cspace::c_obstacles(scene, tolerance, tolerance);
     contours.into_iter().map(|c| c.contour.iter().map(|p| [p.x, p.y]).collect()).collect()
 }
@@ -107,9 +107,9 @@ fn picture<'a>(
     Picture {
         title: vec![output::title(problem), format!("lengths in {}", comparison.length_unit)],
         status: format!("{found} of {} found a certified path", comparison.rows.len()),
-        scene: &problem.scene,
-        start: problem.start,
-        goals: problem.goals.pieces(),
+        scene: problem.scene(),
+        start: problem.start(),
+        goals: problem.goals().pieces(),
         paths,
         trace: None,
         proof: &[],

@@ -105,7 +105,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         });
         let mut entries: Vec<Entry> = plain.collect();
         for variant in &args.with {
-            let preferences = &case.base().scene.workspace.preferences;
+            let preferences = &case.base().scene().workspace().preferences;
             let effort = variant.effort(effort, preferences).map_err(|lack| {
                 Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) })
             })?;

@@ -38,14 +38,14 @@ pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configu
 }
 
 fn free(scene: &Scene, random: &mut SplitMix64) -> Option<Configuration> {
-    let axes = scene.arm.topology().axes;
+    let axes = scene.arm().topology().axes;
     (0..MOST_DRAWS).find_map(|_| {
         let [q1, q2] = axes.map(|axis| {
             let (lower, upper) = axis.domain();
             (lower + (upper - lower) * random.unit()).clamp(lower, upper)
         });
         let q = Configuration::new(q1, q2);
-        (scene.clearance(q) > scene.workspace.clearance).then_some(q)
+        (scene.clearance(q) > scene.workspace().clearance).then_some(q)
     })
 }
 
@@ -93,7 +93,7 @@ mod tests {
         let scene = scene("planar_2r", "shelf");
         let pairs = free_pairs(&scene, 40, 3).unwrap();
         for q in pairs.iter().flatten() {
-            assert!(scene.arm.topology().contains(*q) && scene.clearance(*q) > 0.0, "{q:?}");
+            assert!(scene.arm().topology().contains(*q) && scene.clearance(*q) > 0.0, "{q:?}");
         }
         assert_eq!(free_pairs(&scene, 40, 3).unwrap(), pairs);
         assert_eq!(free_pairs(&scene, 7, 3).unwrap(), pairs[..7]);
@@ -112,7 +112,7 @@ mod tests {
             for k in 0..200 {
                 let at = |i: usize| -std::f64::consts::PI + (i as f64 + 0.5) * std::f64::consts::TAU / 200.0;
                 let q = Configuration::new(at(i), at(k));
-                if scene.clearance(q) > scene.workspace.clearance {
+                if scene.clearance(q) > scene.workspace().clearance {
                     area[quarter(&q)] += 1.0;
                     all += 1.0;
                 }
@@ -130,8 +130,7 @@ mod tests {
 
     #[test]
     fn a_world_without_room_has_no_pairs() {
-        let mut scene = scene("planar_2r", "shelf");
-        scene.workspace.clearance = 1e3;
+        let scene = scene("planar_2r", "shelf").with_clearance(1e3).unwrap();
         assert_eq!(free_pairs(&scene, 1, 1), None);
     }
 }

@@ -163,7 +163,7 @@ impl Runner<'_> {
         let mut path = None;
         match answer.verdict {
             Verdict::Found(certified) => {
-                let Timed { curve, trajectory } = self.motion.drive().along(&problem.scene, &certified, 1.0)?;
+                let Timed { curve, trajectory } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
                 row.outcome = Outcome::Found;
                 row.length = Some(certified.path().length());
                 row.pieces = Some(certified.path().segments().count());
@@ -189,7 +189,7 @@ impl Runner<'_> {
         let Verdict::Found(certified) = solve(problem, entry.method, &effort, &mut |_| {}).verdict else {
             return Ok(None);
         };
-        let Timed { curve, .. } = self.motion.drive().along(&problem.scene, &certified, 1.0)?;
+        let Timed { curve, .. } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
         Ok(Some(OtherPath {
             length: certified.path().length(),
             clearance: Some(curve.clearance()).filter(|c| c.is_finite()),
@@ -205,7 +205,7 @@ fn lower_bound<'a>(problem: &Problem, paths: impl Iterator<Item = &'a Path>) -> 
 
 /// The unit of lengths in joint space.
 pub fn length_unit(problem: &Problem) -> String {
-    let units = problem.scene.arm.joints.each_ref().map(|j| j.unit());
+    let units = problem.scene().arm().joints.each_ref().map(|j| j.unit());
     if units[0] == units[1] { units[0].into() } else { units.join(", ") }
 }
 

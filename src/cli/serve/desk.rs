@@ -72,8 +72,8 @@ impl<'a> Desk<'a> {
 
     /// The world, for the page to change.
     pub fn world(&self, id: Option<u64>) -> Reply {
-        let arm = &self.scene.scene.arm;
-        let names = self.scene.scene.workspace.obstacles.iter().map(|obstacle| obstacle.name.clone());
+        let arm = self.scene.scene.arm();
+        let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
         let pieces = names.zip(self.document.forms());
         let limits = |axis: &Axis| match *axis {
             Axis::Circle => None,
@@ -86,12 +86,12 @@ impl<'a> Desk<'a> {
         Reply::World(Box::new(WorldReply {
             id,
             base: self.base,
-            name: self.scene.scene.workspace.name.clone(),
+            name: self.scene.scene.workspace().name.clone(),
             robot: format!("{} ({})", arm.name, arm.kind()),
             obstacles: pieces.map(|(name, shape)| PieceReply { name, shape }).collect(),
             start: self.document.start(),
             goal: self.document.goal(),
-            clearance: self.scene.scene.workspace.clearance,
+            clearance: self.scene.scene.workspace().clearance,
             has_steps: self.scene.has_steps(),
             joints: [0, 1].map(joint),
             reach: arm.reach(),
@@ -182,7 +182,7 @@ impl<'a> Desk<'a> {
         };
         let problem = match loaded.clone().problem(&Overrides::default()) {
             Ok(mut read) => {
-                options.override_limits(&mut read.problem.scene.arm.joints);
+                options.override_limits(read.problem.joints_mut());
                 read.problem
             }
             Err(error) => {
@@ -198,7 +198,7 @@ impl<'a> Desk<'a> {
                 return Ok(AnswerReply { toml, start, view: shown.view, ..refusal });
             }
         };
-        let (start, goals) = (problem.start, problem.goals.pieces());
+        let (start, goals) = (problem.start(), problem.goals().pieces());
         let places = |answer: AnswerReply| {
             let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
             AnswerReply { start: Some(start.into()), goals, ..answer }
@@ -267,7 +267,7 @@ impl<'a> Desk<'a> {
     fn begin(&self, start: Option<Begin>) -> Option<Pair> {
         Some(match start? {
             Begin::Joints { joints } => joints,
-            Begin::Tip { tip, near } => follow(&self.scene.scene.arm, tip.into(), near.into()).into(),
+            Begin::Tip { tip, near } => follow(self.scene.scene.arm(), tip.into(), near.into()).into(),
         })
     }
 }

@@ -48,7 +48,7 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
         };
     }
     let mut loaded = loaded.problem(&Overrides::default()).map_err(|error| in_words(&error))?;
-    options.override_limits(&mut loaded.problem.scene.arm.joints);
+    options.override_limits(loaded.problem.joints_mut());
     let found = Found::in_full(&loaded.problem, options, &effort);
     let planned = found.planned()?;
     match kind {

@@ -100,10 +100,10 @@ impl Options {
     /// A field that follows preferences of the world, which has none.
     pub fn effort(&self, scene: &Scene) -> Result<Effort, String> {
         let Grammar { effort, optimum, path, search, field, .. } = &self.grammar;
-        if let Some(lack) = field.lack(&scene.workspace.preferences) {
+        if let Some(lack) = field.lack(&scene.workspace().preferences) {
             return Err(lack);
         }
-        let metric = optimum.metric(scene.arm.joints.each_ref().map(|joint| joint.velocity));
+        let metric = optimum.metric(scene.arm().joints.each_ref().map(|joint| joint.velocity));
         let (field, wavefront) = (self.field, search.wavefront());
         Ok(Effort { metric, gap: optimum.gap, field, path: path.path, wavefront, ..effort.effort() })
     }

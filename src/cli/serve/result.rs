@@ -30,14 +30,14 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
 pub fn quick(problem: &Problem, method: Method, effort: &Effort, contours: &Contours) -> AnswerReply {
     let effort = Effort { bounded: false, gap: None, ..*effort };
     let answer = solve(problem, method, &effort, &mut |_| ());
-    let contours = contours.of(&problem.scene);
+    let contours = contours.of(problem.scene());
     let mut reply = judged(&answer.verdict);
     reply.figures.size = Some(answer.run.size.to_string());
     let mut picture = Picture {
         trace: Some(&answer.run.trace),
         proof: answer.verdict.proof(),
         status: planned::status(&answer.verdict).into(),
-        ..picture(&problem.scene, problem.start, problem.goals.pieces(), &contours)
+        ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
     };
     if let Verdict::Found(path) = &answer.verdict {
         reply.figures.length = Some(effort.metric.length(path.path()));
@@ -69,8 +69,8 @@ fn picture<'a>(
 
 /// What is planned for, in a line; so that a page keeps its lines while something moves.
 fn arm_of(scene: &Scene) -> String {
-    let [first, second] = scene.arm.joints.each_ref().map(|joint| joint.name.as_str());
-    format!("{} arm, joints {first} and {second}", scene.arm.kind())
+    let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
+    format!("{} arm, joints {first} and {second}", scene.arm().kind())
 }
 
 fn ending(verdict: &Verdict) -> Ending {

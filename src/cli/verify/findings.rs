@@ -137,7 +137,7 @@ impl Findings {
         Self {
             verdict: verdict(passage, broken),
             way: WayFinding::new(scene, passage, timed),
-            limits_broken: limits(&scene.arm.joints, broken, timed),
+            limits_broken: limits(&scene.arm().joints, broken, timed),
             notes,
             ..Self::of_nothing(scene, recording)
         }
@@ -145,14 +145,14 @@ impl Findings {
 
     /// What there is to say of a recording before it is judged.
     pub fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
-        let joints = &scene.arm.joints;
+        let joints = &scene.arm().joints;
         Self {
             verdict: Verdict::Free,
             joints: joints.each_ref().map(|j| j.name.clone()),
             units: joints.each_ref().map(Joint::unit),
             samples: recording.positions().len(),
             duration: recording.duration(),
-            required: scene.workspace.clearance,
+            required: scene.workspace().clearance,
             way: WayFinding::default(),
             limits_broken: Vec::new(),
             faults: Vec::new(),
@@ -216,12 +216,12 @@ pub(super) fn limits(joints: &[Joint; 2], broken: &[Excess], timed: bool) -> Vec
 
 fn encounter(scene: &Scene, e: &Encounter, timed: bool) -> EncounterFinding {
     let pair = e.contact.pair;
-    let link = &scene.arm.links[pair.link];
+    let link = &scene.arm().links[pair.link];
     EncounterFinding {
         moment: moment(&e.moment, timed),
         link: link.name.clone(),
         body: link.parts[pair.part].body.clone(),
-        obstacle: scene.workspace.obstacles[pair.obstacle].name.clone(),
+        obstacle: scene.workspace().obstacles[pair.obstacle].name.clone(),
         depth: -e.contact.separation.distance,
         pair: scene.describe(pair),
     }

@@ -24,17 +24,16 @@ use findings::{Findings, Verdict};
 /// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = output::sinks(&[], &args.picture)?;
-    let mut loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
-    if let Some(clearance) = args.clearance {
-        loaded.scene.workspace.clearance = input::clearance(clearance).map_err(input::InputError::from)?;
-    }
+    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     if !args.quiet {
         loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
     }
-    let LoadedRecording { mut recording, steps, claims, mut notes } = input::load_recording(&args.trajectory, &loaded)?;
+    let LoadedRecording { mut recording, steps, claims, notes: read } =
+        input::load_recording(&args.trajectory, &loaded)?;
+    let mut notes = [loaded.world.notes.clone(), read].concat();
     output::spare_inputs(sinks.iter().map(Sink::path))?;
     if args.unwrap {
-        recording = recording.unwrapped(&loaded.scene.arm.topology());
+        recording = recording.unwrapped(&loaded.scene.arm().topology());
     }
     notes.extend(turns(&loaded.scene, &recording));
     let scene = loaded.scene.clone();
@@ -51,7 +50,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
         output::print_json(&(json + "\n"))?;
     } else if !args.quiet {
-        output::tell(&text::summary(&scene.arm, &recording, &findings))?;
+        output::tell(&text::summary(scene.arm(), &recording, &findings))?;
     }
     Ok(match findings.verdict {
         Verdict::Free => DONE,
@@ -87,10 +86,10 @@ fn judge_motion(
         }
         (false, false) => "where it begins and ends is not judged".into(),
     });
-    let passage = passage(scene, recording, scene.workspace.clearance);
-    let broken = limits_kept(&scene.arm.joints, recording);
+    let passage = passage(scene, recording, scene.workspace().clearance);
+    let broken = limits_kept(&scene.arm().joints, recording);
     let findings = Findings::new(scene, recording, &passage, &broken, notes);
-    let misses = ends_kept(&scene.arm, recording, start, goal);
+    let misses = ends_kept(scene.arm(), recording, start, goal);
     let false_claims = claims_kept(scene, recording, claims, &passage);
     Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims).leaving(claims))
 }
@@ -126,9 +125,9 @@ fn overrides(args: &VerifyArgs) -> Overrides {
 
 /// Steps that look like a seam in wrapped angles.
 fn turns(scene: &Scene, recording: &Recording) -> Option<String> {
-    let turns = recording.turns(&scene.arm.topology());
+    let turns = recording.turns(&scene.arm().topology());
     let &(sample, k) = turns.first()?;
-    let joint = &scene.arm.joints[k];
+    let joint = &scene.arm().joints[k];
     let step = recording.positions()[sample + 1][k] - recording.positions()[sample][k];
     let others = match turns.len() {
         1 => String::new(),

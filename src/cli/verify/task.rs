@@ -79,7 +79,7 @@ impl StepFinding {
             seconds: replayed.seconds,
             way: WayFinding::new(scene, passage, true),
             turn,
-            limits_broken: limits(&scene.arm.joints, broken, true),
+            limits_broken: limits(&scene.arm().joints, broken, true),
             faults: faults.iter().map(ToString::to_string).collect(),
         }
     }
@@ -100,7 +100,7 @@ impl TurnFinding {
     fn new(scene: &Scene, ReplayedTurn { turn, verdict }: &ReplayedTurn) -> Self {
         let contact = verdict.err().map(|contact| TurnContactFinding {
             angle: contact.angle,
-            obstacle: scene.workspace.obstacles[contact.obstacle].name.clone(),
+            obstacle: scene.workspace().obstacles[contact.obstacle].name.clone(),
         });
         let clearance = verdict.ok().map(|free| free.clearance).filter(|clearance| clearance.is_finite());
         Self { from: turn.from, to: turn.to, seconds: turn.seconds, clearance, contact }

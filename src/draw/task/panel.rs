@@ -55,7 +55,7 @@ impl<'a> Panel<'a> {
     #[must_use]
     pub fn at_start(task: &Task) -> Self {
         let poses: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
-        let scene = Scene::new(task.arm.clone(), task.obstacles(&poses));
+        let scene = Scene::trusted(task.arm.clone(), task.obstacles(&poses));
         Self { title: describe(None), scene, spared: Vec::new(), motions: Vec::new(), start: task.start, fails: None }
     }
 
@@ -65,7 +65,7 @@ impl<'a> Panel<'a> {
         let Chart { frame, units, paths, .. } = chart;
         let mut inside = frame.grid(*units);
         inside.extend(self.c_obstacles(picture, chart));
-        inside.extend(preferences::in_cspace(&self.scene.workspace.preferences, frame, paths));
+        inside.extend(preferences::in_cspace(&self.scene.workspace().preferences, frame, paths));
         let curves: Vec<_> = self.motions.iter().map(|leg| leg.timed.curve.curve().outline()).collect();
         let pens = self.motions.iter().map(|leg| motion_pen(picture.task, leg));
         inside.extend(page::lines(curves.iter().map(|path| chart.outline(path)).zip(pens)));
@@ -98,15 +98,15 @@ impl<'a> Panel<'a> {
         let solid = if self.spared.is_empty() {
             whole
         } else {
-            let (arm, workspace) = (picture.task.arm.clone(), self.scene.workspace.clone());
-            let spares = Scene::handling(arm, workspace, self.scene.payload().cloned(), &self.spared);
+            let (arm, workspace) = (picture.task.arm.clone(), self.scene.workspace().clone());
+            let spares = Scene::handling_trusted(arm, workspace, self.scene.payload().cloned(), &self.spared);
             for &obstacle in &self.spared {
                 let contours = whole.iter().filter(|c| c.obstacle == obstacle && c.link == 1);
                 items.push(chart.c_obstacle(contours, passable(color::obstacle(obstacle))));
             }
             (picture.c_obstacles)(&spares)
         };
-        for obstacle in 0..self.scene.workspace.obstacles.len() {
+        for obstacle in 0..self.scene.workspace().obstacles.len() {
             let contours = solid.iter().filter(|c| c.obstacle == obstacle);
             items.push(chart.c_obstacle(contours, blocked(color::obstacle(obstacle))));
         }
@@ -117,13 +117,13 @@ impl<'a> Panel<'a> {
 /// World and payload of a scene with link 2 free of nothing, and the obstacles that it may reach into in some of these
 /// scenes, which differ in nothing else.
 fn unspared(task: &Task, scene: &Scene, scenes: &[&Scene]) -> (Scene, Vec<usize>) {
-    let all = Scene::handling(task.arm.clone(), scene.workspace.clone(), scene.payload().cloned(), &[]);
+    let all = Scene::handling_trusted(task.arm.clone(), scene.workspace().clone(), scene.payload().cloned(), &[]);
     let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
     let spared = |obstacle: &usize| {
         let most = pairs(&all, *obstacle);
         scenes.iter().any(|scene| pairs(scene, *obstacle) < most)
     };
-    let spared = (0..all.workspace.obstacles.len()).filter(spared).collect();
+    let spared = (0..all.workspace().obstacles.len()).filter(spared).collect();
     (all, spared)
 }
 

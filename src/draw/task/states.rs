@@ -43,7 +43,7 @@ pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadSt
 }
 
 fn same_world(a: &Leg, b: &Leg) -> bool {
-    let same = || a.scene.payload() == b.scene.payload() && a.scene.workspace == b.scene.workspace;
+    let same = || a.scene.payload() == b.scene.payload() && a.scene.workspace() == b.scene.workspace();
     Rc::ptr_eq(&a.scene, &b.scene) || same()
 }
 

@@ -25,7 +25,7 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     let everything =
         task.workspace.obstacles.iter().chain(&lying).chain(placed.iter().map(|(_, object)| object)).cloned().collect();
     let workspace = Workspace { obstacles: everything, ..task.workspace.clone() };
-    let overview = Scene::new(arm.clone(), workspace);
+    let overview = Scene::trusted(arm.clone(), workspace);
     let frame = extent::frame(&overview, &[task.start], area);
 
     let mut inside = ground(&frame, arm);
@@ -60,9 +60,9 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
         inside.push(Item::Disc(spot, 3.6, Style::line(BARRED, 1.4).filled(WHITE)));
         tags::add(&mut numbers, spot, fails.step.number);
     }
-    let shapes: Vec<Rect> = overview.workspace.obstacles.iter().map(|o| extent::on_page(&frame, o)).collect();
+    let shapes: Vec<Rect> = overview.workspace().obstacles.iter().map(|o| extent::on_page(&frame, o)).collect();
     inside.extend(tags::items(&numbers, frame.rect, &shapes, &spots));
-    inside.extend(extent::hidden_note(&frame, &overview.workspace.obstacles));
+    inside.extend(extent::hidden_note(&frame, &overview.workspace().obstacles));
     framed(&frame, &arm.plane, inside)
 }
 

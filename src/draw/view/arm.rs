@@ -68,7 +68,7 @@ pub struct ArmView {
 
 impl ArmView {
     pub fn new(scene: &Scene, grain: Grain) -> Self {
-        let arm = &scene.arm;
+        let arm = scene.arm();
         let link = |k: usize| {
             let part = |part: &crate::model::Part| PartView {
                 body: part.body.clone(),

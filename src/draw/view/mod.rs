@@ -80,7 +80,7 @@ impl View {
     /// The view of a picture; with a trajectory, that of the motion along its only path.
     #[must_use]
     pub fn of_picture(picture: &Picture, ending: Ending, facts: Vec<[String; 2]>, motion: Option<&Trajectory>) -> Self {
-        let arm = &picture.scene.arm;
+        let arm = picture.scene.arm();
         let grain = Grain::of(arm);
         let world = WorldView::new(picture.scene, String::new(), picture.c_obstacles, grain);
         let world = match picture.trace {
@@ -113,7 +113,7 @@ impl View {
     /// The view of an arm in one configuration, without its configuration space.
     #[must_use]
     pub fn of_posture(posture: &Posture) -> Self {
-        let grain = Grain::of(&posture.scene.arm);
+        let grain = Grain::of(posture.scene.arm());
         let frames = posture.frames.iter().map(|frame| FrameView {
             name: frame.name.clone(),
             at: grain.point(frame.at),

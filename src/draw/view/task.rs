@@ -32,7 +32,7 @@ pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> V
             MotionView { world: worlds.failing(fails), path: None, from, label }
         }
         None => {
-            let scene = Scene::new(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
+            let scene = Scene::trusted(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
             MotionView { world: worlds.of(&Rc::new(scene)), path: None, from, label: "done".to_owned() }
         }
     };
@@ -40,7 +40,7 @@ pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> V
     let ends = legs.iter().map(|leg| leg.timed.curve.curve().path().goal());
     let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();
     let at_first: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
-    let overview = Scene::new(task.arm.clone(), task.obstacles(&at_first));
+    let overview = Scene::trusted(task.arm.clone(), task.obstacles(&at_first));
     let (title, status) = words(picture);
     View {
         title,

@@ -100,10 +100,10 @@ impl WorldView {
             link: c.link,
             contour: grain.configurations(c.contour.iter().map(|p| &p.coords)),
         };
-        let obstacles = scene.workspace.obstacles.iter().enumerate();
+        let obstacles = scene.workspace().obstacles.iter().enumerate();
         Self {
             label,
-            clearance: scene.workspace.clearance,
+            clearance: scene.workspace().clearance,
             obstacles: obstacles.map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
             payload: payload(scene, grain),
             pairs: ranges(scene.pairs()),
@@ -167,7 +167,7 @@ fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
             ),
             Grip::Level { angle, point } => GripView::Level([angle, point.x, point.y].map(|x| grain.number(x))),
         },
-        parts: scene.arm.links[1].parts[own..].iter().map(|part| ShapeView::new(&part.shape, grain)).collect(),
+        parts: scene.arm().links[1].parts[own..].iter().map(|part| ShapeView::new(&part.shape, grain)).collect(),
     })
 }
 
@@ -188,7 +188,7 @@ fn ranges(pairs: &[Pair]) -> Vec<[usize; 5]> {
 }
 
 fn regions(scene: &Scene, grain: Grain) -> Vec<RegionView> {
-    let preferences = scene.workspace.preferences.iter();
+    let preferences = scene.workspace().preferences.iter();
     let region = |preference: &crate::model::Preference| {
         let (joints, corners) = match &preference.region {
             Region::Configurations(polygon) => {

@@ -69,9 +69,14 @@ impl Stamp {
 
 /// Reads JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
+    let cure = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+    // A list would be taken for the members of an object in their order.
+    let begins = source.text.len() - source.text.trim_start().len();
+    if source.text[begins..].starts_with('[') {
+        let message = "is a list: an object { ... } is expected";
+        return Err(source.defect_at(begins..begins + 1, message).cure(cure).into());
+    }
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
-        let cure =
-            "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
         source.defect_at_position(error.line(), error.column(), without_place(&error.to_string())).cure(cure)
     })?;
     Ok(samples(source, document)?)

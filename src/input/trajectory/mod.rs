@@ -88,7 +88,7 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
             .into());
     }
     let names = Names {
-        arm: scene.scene.arm.joints.each_ref().map(|j| j.name.as_str()),
+        arm: scene.scene.arm().joints.each_ref().map(|j| j.name.as_str()),
         held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
         has_steps: scene.has_steps(),
     };
@@ -159,7 +159,7 @@ impl Names<'_> {
             notes.push(self.stands_still(source, &samples, other)?);
         }
         let Ok([one, two]) = <[Series; 2]>::try_from(chosen) else {
-            return Err(source.defect("two joints are needed"));
+            return Err(source.defect("two joints are needed").cure("name the positions of both"));
         };
         let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| Configuration::new(*a, *b)).collect();
         let mut rows = |what: &str, a: &Option<Vec<f64>>, b: &Option<Vec<f64>>| match (a, b) {

@@ -6,8 +6,8 @@ use crate::input::source::Source;
 use crate::input::world::LARGEST;
 use roxmltree::Node;
 
-/// Attributes that hold numbers, in any element of a link or joint.
-const NUMERIC: [&str; 31] = [
+/// Attributes that hold numbers, in any element of a link or joint; those of [`UNLIMITED`] do, too.
+const NUMERIC: [&str; 22] = [
     "xyz",
     "rpy",
     "quat_xyzw",
@@ -15,17 +15,8 @@ const NUMERIC: [&str; 31] = [
     "radius",
     "length",
     "scale",
-    "lower",
-    "upper",
-    "effort",
-    "velocity",
-    "acceleration",
-    "deceleration",
-    "jerk",
     "multiplier",
     "offset",
-    "soft_lower_limit",
-    "soft_upper_limit",
     "k_position",
     "k_velocity",
     "damping",
@@ -41,7 +32,7 @@ const NUMERIC: [&str; 31] = [
     "izz",
 ];
 
-/// Those of them where an infinity says that there is no limit.
+/// Attributes that hold numbers, where an infinity says that there is no limit.
 const UNLIMITED: [&str; 9] = [
     "lower",
     "upper",
@@ -83,8 +74,11 @@ impl Attributes<'_> {
     /// not just say that there is no limit: a file that has them was not written right.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
-            for attribute in element.attributes().filter(|a| NUMERIC.contains(&a.name())) {
+            for attribute in element.attributes() {
                 let may_be_infinite = UNLIMITED.contains(&attribute.name());
+                if !may_be_infinite && !NUMERIC.contains(&attribute.name()) {
+                    continue;
+                }
                 let bad =
                     |word: &&str| word.parse::<f64>().is_ok_and(|x| x.is_nan() || x.is_infinite() && !may_be_infinite);
                 if let Some(word) = attribute.value().split_whitespace().find(bad) {

@@ -83,7 +83,7 @@ impl Bodies<'_> {
             return Ok(Some(radius));
         }
         let message = format!("[robot] bar: the radius must be positive, is {radius}");
-        Err(self.world.source.defect_at(bar.span(), message))
+        Err(self.world.source.defect_at(bar.span(), message).cure("bar = 0.05, metres"))
     }
 
     fn link(

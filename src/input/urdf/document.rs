@@ -82,7 +82,8 @@ impl Document {
             Ok(robot) => Ok(Self { robot, links, joints, others, defects, tree_is_sound, source }),
             Err(error) => {
                 InputError::check(defects)?;
-                Err(source.defect(format!("is not a URDF that can be read: {error}")).into())
+                let defect = source.defect(format!("is not a URDF that can be read: {error}"));
+                Err(defect.cure("check_urdf, of the package liburdfdom-tools, says what else it finds").into())
             }
         }
     }
@@ -150,7 +151,11 @@ impl Reader<'_> {
         }
         self.copy.push_str("</robot>");
         if links.is_empty() && self.defects.is_empty() {
-            self.defects.push(self.source.defect("the robot has no link"));
+            self.defects.push(
+                self.source
+                    .defect("the robot has no link")
+                    .cure("add a <link name=\"...\"> for each body, and the joints between them"),
+            );
         }
         (links, joints)
     }

@@ -200,7 +200,11 @@ impl Limits<'_> {
             Some(value) if value.get_ref().is_finite() && *value.get_ref() > 0.0 => Ok(Some(*value.get_ref())),
             Some(value) => {
                 let message = format!("[robot] {what} of \"{name}\" must be positive, is {}", value.get_ref());
-                Err(self.world.source.defect_at(value.span(), message))
+                Err(self
+                    .world
+                    .source
+                    .defect_at(value.span(), message)
+                    .cure("limits are magnitudes, in radians or metres and seconds"))
             }
         }
     }

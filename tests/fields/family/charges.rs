@@ -1,9 +1,10 @@
 //! Repulsion by all obstacle cells together, and figure 3.4 of the sources: four times the charge cures a trap, then keeps
 //! the robot from the goal.
 
+use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
-use cplan::model::{Scene, Workspace};
+use cplan::model::Workspace;
 use cplan::plan::{FieldChoice, FieldPlanner, Outcome, PathKind, Planner, Query};
 use cplan::space::{Axis, Configuration, Topology};
 use proptest::prelude::*;
@@ -91,7 +92,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     let topology = Topology { axes: [axis(40.0), axis(44.0)] };
     let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
-    let scene = Scene::new(crate::common::rr([axis(3.0), axis(3.0)]), workspace);
+    let scene = placed(crate::common::rr([axis(3.0), axis(3.0)]), workspace);
     let query = Query { start: Configuration::new(3.5, 19.75), goals: Configuration::new(35.5, 22.5).into() };
     (ZonedGrid::new(grid, &scene), query)
 }

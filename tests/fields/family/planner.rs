@@ -1,6 +1,6 @@
 //! The planner for any field.
 
-use crate::common::rr;
+use crate::common::{placed, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion};
 use cplan::geometry::{Point, SimplePolygon};
@@ -15,7 +15,7 @@ const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::
 
 fn scene(preferences: Vec<Preference>) -> Scene {
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences };
-    Scene::new(rr([Axis::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
+    placed(rr([Axis::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
 }
 
 /// Cells of width 1; `#` is blocked.

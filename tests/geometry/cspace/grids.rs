@@ -81,7 +81,7 @@ fn at(axis: Axis, t: f64) -> f64 {
 /// Whether a value of joint 1 is in a reach range; the turn at which it is, if so. Ranges begin within half a turn of zero
 /// and are up to a turn long, limits are anywhere: a value may be two turns off.
 fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
-    let turns = if scene.arm.joints[0].motion.is_revolute() { -2..=2 } else { 0..=0 };
+    let turns = if scene.arm().joints[0].motion.is_revolute() { -2..=2 } else { 0..=0 };
     let is_within = |r: &[f64; 2], value: f64| r[0] <= value && value <= r[1];
     turns.into_iter().find(|turn| ranges.iter().any(|r| is_within(r, value + TAU * f64::from(*turn))))
 }
@@ -89,7 +89,7 @@ fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
 /// Checks this for 400 configurations, and returns the most turns by which one of them was off the range that it is in.
 fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> Result<i32, TestCaseError> {
     let rows = Rows::new(scene);
-    let [first, second] = scene.arm.topology().axes;
+    let [first, second] = scene.arm().topology().axes;
     let mut most = 0;
     for index in rows.second_link_pairs() {
         let mut ranges = Vec::new();
@@ -153,7 +153,7 @@ proptest! {
     #[test]
     fn rows_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
         let rows = Rows::new(&scene);
-        let [first, second] = scene.arm.topology().axes;
+        let [first, second] = scene.arm().topology().axes;
         let bands = rows.bands(grow);
         let mut row = Row::default();
         let q1 = at(first, s);

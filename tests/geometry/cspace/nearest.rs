@@ -1,6 +1,6 @@
 //! The nearest free configuration against a lattice of configurations, each asked for its distance to the obstacles.
 
-use crate::common::{all_kinds, arm, disc, joint, link, obstacle, q, rectangle, rr, scene, wall};
+use crate::common::{all_kinds, arm, disc, joint, link, obstacle, placed, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene, Workspace};
@@ -9,12 +9,12 @@ use cplan::space::{Axis, Configuration};
 /// Free as a user means it: the definition, without rows.
 fn is_free(scene: &Scene, at: Configuration) -> bool {
     let clearance = scene.clearance(at);
-    scene.arm.topology().contains(at) && clearance > 0.0 && clearance >= scene.workspace.clearance
+    scene.arm().topology().contains(at) && clearance > 0.0 && clearance >= scene.workspace().clearance
 }
 
 /// Least distance from `from` to a free configuration of an `n` by `n` lattice over the domain.
 fn lattice(scene: &Scene, from: Configuration, n: u32) -> f64 {
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     let value = |axis: Axis, i: u32| {
         let (lower, upper) = axis.domain();
         lower + (upper - lower) * f64::from(i) / f64::from(n)
@@ -38,9 +38,7 @@ fn crowded(which: usize, clearance: f64) -> Scene {
         rectangle(-0.9, -0.4, -0.7, -0.3),
         wall(Point::new(0.4, -0.9), Point::new(1.1, -0.2)),
     ];
-    let mut scene = scene(all_kinds().remove(which), pieces);
-    scene.workspace.clearance = clearance;
-    scene
+    scene(all_kinds().remove(which), pieces).with_clearance(clearance).unwrap()
 }
 
 #[test]
@@ -52,7 +50,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
             let scene = crowded(which, clearance);
             for i in 0..6 {
                 for k in 0..6 {
-                    let domain = scene.arm.topology().axes.map(Axis::domain);
+                    let domain = scene.arm().topology().axes.map(Axis::domain);
                     let part = |j: usize, i: i32| {
                         domain[j].0 + (domain[j].1 - domain[j].0) * (f64::from(i) * 1.09 - 0.2) / 5.0
                     };
@@ -87,12 +85,12 @@ fn the_way_out_has_the_known_angle() {
         Vector::new(1.0, 0.0),
         Point::new(0.5, 0.0),
     );
-    let mut scene = scene(blind, vec![disc(Point::new(0.8, 0.0), 0.2)]);
+    let scene = scene(blind, vec![disc(Point::new(0.8, 0.0), 0.2)]);
     // Tangent from the base to the disc.
     let angle = (0.2f64 / 0.8).asin();
     let found = nearest_free(&scene, q(0.1, 0.4)).unwrap();
     assert!((found.configuration - q(angle, 0.4)).norm() < 1e-7, "{}", found.configuration);
-    scene.workspace.clearance = 0.1;
+    let scene = scene.with_clearance(0.1).unwrap();
     let found = nearest_free(&scene, q(-0.1, 0.4)).unwrap();
     assert!((found.configuration - q(-(0.3f64 / 0.8).asin(), 0.4)).norm() < 1e-7, "{}", found.configuration);
     assert!(found.clearance >= 0.1);
@@ -115,7 +113,7 @@ fn the_short_way_round_the_circle_counts() {
 fn an_arm_that_is_buried_has_no_way_out() {
     let obstacles = vec![obstacle("rock", disc(Point::origin(), 5.0))];
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
-    assert_eq!(nearest_free(&Scene::new(rr([Axis::Circle; 2]), workspace), q(0.0, 0.0)), None);
+    assert_eq!(nearest_free(&placed(rr([Axis::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Polygonal regions against distances of sampled configurations.
 
-use crate::common::convex;
+use crate::common::{convex, placed};
 use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
@@ -40,7 +40,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
             heights: Heights::ALL,
         })
         .collect();
-    Scene::new(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new() })
+    placed(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new() })
 }
 
 fn polygon(corners: &[(f64, f64)]) -> Convex {
@@ -61,15 +61,15 @@ fn torus(shift: f64) -> Scene {
         polygon(&[(0.11, 1.33), (0.27, 1.12), (0.53, 1.19), (0.51, 1.51), (0.20, 1.53)]),
         polygon(&[(-1.02, 0.33), (-0.89, 0.12), (-0.63, 0.32), (-0.85, 0.51)]),
     ];
-    let mut scene = scene(
+    let scene = scene(
         [turning("shoulder"), turning("elbow")],
         Vector::new(1.0, 0.0),
         [vec![bar(1.0, 0.05)], vec![bar(0.8, 0.05)]],
         obstacles,
         0.0,
     );
-    scene.arm.base = Point::origin();
-    scene
+    let (arm, workspace) = scene.into_parts();
+    placed(Arm { base: Point::origin(), ..arm }, workspace)
 }
 
 /// Corners of a regular polygon, a disc, a thin wall or a point.
@@ -156,7 +156,7 @@ fn lattice(window: [(f64, f64); 2], n: usize) -> impl Iterator<Item = Configurat
 
 /// Free in the regions is free in truth, and what keeps three times the margin is free in them.
 fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
-    let keep = scene.workspace.clearance;
+    let keep = scene.workspace().clearance;
     let regions = regions(scene, margin, Configuration::new(0.3, -0.8), 1);
     prop_assert_eq!(regions.proves, Proves::Outer { margin });
     for q in lattice(regions.window, 60) {
@@ -259,10 +259,10 @@ fn narrow_passages_stay_open_and_walls_closed() {
 
 #[test]
 fn a_thin_wall_of_two_bands_is_closed() {
-    let mut scene = torus(0.0);
-    let moved: Vec<Point> =
-        scene.workspace.obstacles[1].pieces[0].core().iter().map(|p| p - Vector::new(0.0036, 0.0)).collect();
-    scene.workspace.obstacles[1].pieces = vec![convex(moved, 0.0)];
+    let (arm, mut workspace) = torus(0.0).into_parts();
+    let [piece] = &mut workspace.obstacles[1].pieces[..] else { panic!("a convex obstacle") };
+    *piece = convex(piece.core().iter().map(|p| p - Vector::new(0.0036, 0.0)).collect(), 0.0);
+    let scene = placed(arm, workspace);
     let goal = Configuration::new(1.75, 0.5);
     for margin in [1e-3, 1e-4, 1e-5] {
         assert!(!connected(&scene, margin, goal), "margin {margin}");
@@ -291,8 +291,9 @@ fn a_gantry_without_margin_is_exact() {
 
 #[test]
 fn windows_follow_axes() {
-    let mut scene = torus(0.0);
-    scene.arm.joints[1].axis = Axis::Interval { lower: -2.0, upper: 2.5 };
+    let (mut arm, workspace) = torus(0.0).into_parts();
+    arm.joints[1].axis = Axis::Interval { lower: -2.0, upper: 2.5 };
+    let scene = placed(arm, workspace);
     let regions = regions(&scene, 1e-2, Configuration::new(1.0, 0.0), 2);
     assert_eq!(regions.window, [(1.0 - 2.0 * TAU, 1.0 + 2.0 * TAU), (-2.0, 2.5)]);
     for point in regions.free.iter().flat_map(points).map(|(a, _)| a) {
@@ -302,9 +303,8 @@ fn windows_follow_axes() {
 
 #[test]
 fn nothing_to_hit_leaves_the_window_free() {
-    let mut scene = torus(0.0);
-    scene.workspace.obstacles.clear();
-    let scene = Scene::new(scene.arm, scene.workspace);
+    let (arm, workspace) = torus(0.0).into_parts();
+    let scene = placed(arm, Workspace { obstacles: Vec::new(), ..workspace });
     let regions = regions(&scene, 1e-3, Configuration::zeros(), 1);
     assert_eq!(regions.free.len(), 1);
     assert!((regions.free[0].area() - (4.0 * PI).powi(2)).abs() < 1e-9);

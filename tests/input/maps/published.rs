@@ -50,8 +50,8 @@ fn the_gantry_finds_its_way_in_all_three() {
         for method in Method::ALL {
             let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
             let Verdict::Found(path) = &answer.verdict else { panic!("map {map}, {method}: {:?}", answer.history) };
-            assert_eq!(path.path().start(), problem.start);
-            assert!(problem.goals.points().any(|goal| goal == path.path().goal()), "map {map}, {method}");
+            assert_eq!(path.path().start(), problem.start());
+            assert!(problem.goals().points().any(|goal| goal == path.path().goal()), "map {map}, {method}");
             assert!(path.clearance() > 0.0);
         }
     }

@@ -121,15 +121,15 @@ move = { tip = [1.0, 1.0] }
 fn objects_are_obstacles_where_they_lie_at_first() {
     let loaded = task("[[step]]\npick = \"part\"\n");
     let names = |w: &cplan::model::Workspace| w.obstacles.iter().map(|o| o.name.clone()).collect::<Vec<_>>();
-    assert_eq!(names(&loaded.scene.workspace), ["table", "part", "cup"]);
+    assert_eq!(names(loaded.scene.workspace()), ["table", "part", "cup"]);
     assert_eq!(names(&loaded.task.workspace), ["table"]);
-    assert_eq!(loaded.scene.workspace.obstacles[2].shape, {
+    assert_eq!(loaded.scene.workspace().obstacles[2].shape, {
         let (sin, cos) = 0.5f64.sin_cos();
         Shape::Circle { center: Point::new(-0.5 + 0.01 * cos, 1.0 + 0.01 * sin), radius: 0.03 }
     });
     let goal = format!("{CELL}[goal]\njoints = [0.1, -0.5]\n");
     let problem = with_world(&goal, |u, w| load(u, w, &Overrides::default())).unwrap().problem;
-    assert_eq!(names(&problem.scene.workspace), ["table", "part", "cup"]);
+    assert_eq!(names(problem.scene().workspace()), ["table", "part", "cup"]);
 }
 
 #[test]
@@ -200,7 +200,7 @@ fn options_replace_start_and_clearance() {
         Overrides { start: Some("10deg,0".parse().unwrap()), clearance: Some(0.01), ..Overrides::default() };
     let loaded = task_of(&format!("{CELL}[[step]]\npick = \"cup\"\n"), &overrides).unwrap();
     assert!((loaded.task.start[0] - 10f64.to_radians()).abs() < 1e-15);
-    assert_eq!((loaded.task.workspace.clearance, loaded.scene.workspace.clearance), (0.01, 0.01));
+    assert_eq!((loaded.task.workspace.clearance, loaded.scene.workspace().clearance), (0.01, 0.01));
 }
 
 #[test]

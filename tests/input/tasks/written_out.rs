@@ -85,7 +85,7 @@ fn assert_sound(loaded: &LoadedTask) {
             Action::Pick { object, supports, .. } => {
                 assert_eq!(carried.replace(*object), None);
                 assert!(*object < task.objects.len());
-                assert!(supports.iter().all(|s| *s < loaded.scene.workspace.obstacles.len()));
+                assert!(supports.iter().all(|s| *s < loaded.scene.workspace().obstacles.len()));
                 assert!(!supports.contains(&task.obstacle_number(*object)));
             }
             Action::Place { at, angle, .. } => {

@@ -91,7 +91,8 @@ fn quintics_through_accelerations_are_the_certified_motion_where_the_jerk_is_lim
     let options = ["--jerk", "200,300", "--accelerations"];
     let run = Run::of(&robot, &world, &options);
     assert_eq!(run.code, 0, "{}", run.errors);
-    let (certified, joints) = (Certified::of(&run.json()), load_scene(&robot, &world).unwrap().scene.arm.joints);
+    let (certified, joints) =
+        (Certified::of(&run.json()), load_scene(&robot, &world).unwrap().scene.into_parts().0.joints);
     for message in [files::yaml(&run.text("yaml")), files::csv(&run.text("csv"))] {
         assert!(message.points.iter().all(|[.., acceleration]| acceleration.len() == 2));
         let extremes = judge("shelf with a limited jerk", &message, 0, &certified, &joints);

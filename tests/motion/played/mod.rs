@@ -19,6 +19,12 @@ const OVER: f64 = 1e-6;
 /// certificate covers, for radii of at most one, and rounding.
 const OFF: f64 = 1e-6;
 
+/// What the program writes, and `verify` reads.
+#[cfg(feature = "mcap")]
+pub const FORMATS: [&str; 4] = ["json", "csv", "yaml", "mcap"];
+#[cfg(not(feature = "mcap"))]
+pub const FORMATS: [&str; 3] = ["json", "csv", "yaml"];
+
 /// A run of the program and its files.
 pub struct Run {
     pub code: i32,
@@ -31,15 +37,13 @@ pub fn root(file: &str) -> PathBuf {
 }
 
 impl Run {
-    /// Plans and writes `plan.json`, `.csv`, `.yaml` and `.mcap`.
+    /// Plans and writes `plan.json` and the like.
     pub fn of(robot: &Path, world: &Path, options: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
         command.current_dir(folder.path()).args([robot, world]).arg("--quiet").args(options);
-        for format in ["json", "csv", "yaml", "mcap"] {
-            if format != "mcap" || cfg!(feature = "mcap") {
-                command.args(["--output", &format!("plan.{format}")]);
-            }
+        for format in FORMATS {
+            command.args(["--output", &format!("plan.{format}")]);
         }
         let output = command.output().unwrap();
         let code = output.status.code().expect("no signal");

@@ -1,13 +1,14 @@
 //! Every shipped world and task, and random ones.
 
-use super::{Certified, Extremes, Run, files, judge, root};
+use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
+use crate::common::random::seeds;
 use cplan::input::load_scene;
 use cplan::model::Joint;
 use std::path::{Path, PathBuf};
 
 /// The joints of a robot in a world.
 fn joints(robot: &Path, world: &Path) -> [Joint; 2] {
-    load_scene(robot, world).unwrap().scene.arm.joints
+    load_scene(robot, world).unwrap().scene.into_parts().0.joints
 }
 
 /// All formats of a run against its JSON.
@@ -78,7 +79,7 @@ fn what_a_controller_plays_of_every_shipped_world_is_certified() {
         let extremes = judge_all(&name, &run, &joints(&robot, &world));
         // It is as fast as the limits allow, not just slow enough.
         assert!(extremes.acceleration > 0.99 || extremes.velocity > 0.99, "{name}: {extremes:?}");
-        for format in ["json", "csv", "yaml"] {
+        for format in FORMATS {
             let (code, said) = run.verified(&robot, &world, format);
             assert_eq!(code, 0, "{name}.{format}: {said}");
         }
@@ -105,13 +106,13 @@ fn what_a_controller_plays_of_every_shipped_task_is_certified() {
     assert!(found >= 8 && dwells >= 40, "only {found} tasks are done, with {dwells} dwells");
 }
 
-/// Random worlds; more of them by `CPLAN_PLAYED_WORLDS`.
 #[test]
 fn what_a_controller_plays_in_random_worlds_is_certified() {
-    let count: u64 = std::env::var("CPLAN_PLAYED_WORLDS").ok().and_then(|n| n.parse().ok()).unwrap_or(12);
+    let seeds = seeds(12);
+    let count = seeds.end - seeds.start;
     let robot = root("robots/planar_2r.urdf");
     let (mut found, mut blended) = (0, 0);
-    for seed in 0..count {
+    for seed in seeds {
         let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
         let text = world(&mut dice);
         let folder = tempfile::tempdir().unwrap();
@@ -124,7 +125,7 @@ fn what_a_controller_plays_in_random_worlds_is_certified() {
         }
         let what = format!("seed {seed}, period {period}\n{text}");
         judge_all(&what, &run, &joints(&robot, &file));
-        for format in ["csv", "yaml"] {
+        for format in FORMATS {
             let (code, said) = run.verified(&robot, &file, format);
             assert_eq!(code, 0, "{what}\n{format}: {said}");
         }

@@ -1,10 +1,10 @@
 //! Starts and goals where rows, seams and domains end, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{disc, q, rectangle, rr, scene};
+use crate::common::{asked, disc, q, rectangle, rr, scene};
 use cplan::certify::least_length;
 use cplan::geometry::{Convex, Point};
-use cplan::model::{Goal, Problem};
+use cplan::model::Problem;
 use cplan::space::{Axis, Configuration, Metric};
 use std::f64::consts::{PI, TAU};
 
@@ -13,7 +13,7 @@ const CIRCLES: [Axis; 2] = [Axis::Circle, Axis::Circle];
 /// The bound where nothing is in the way is the length of the straight motion to the nearest copy of a goal.
 fn assert_straight(axes: [Axis; 2], start: Configuration, goals: &[Configuration]) {
     let scene = scene(rr(axes), Vec::new());
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     for metric in metrics() {
         let way = |goal: &Configuration| {
             let turns = |k: usize| if topology.axes[k].is_circle() { -3..=3 } else { 0..=0 };
@@ -86,7 +86,7 @@ fn starts_and_goals_on_rows() {
 }
 
 fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
-    Problem { scene: scene(rr(axes), pieces), start, goal: Goal::Joints(goal), goals: goal.into() }
+    asked(scene(rr(axes), pieces), start, goal)
 }
 
 /// A post that the upper arm cannot pass: goals on its other side are reached the other way round, with a straight arm.

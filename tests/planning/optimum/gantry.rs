@@ -1,10 +1,10 @@
 //! A point moved by two slides: configuration space is the plane, up to a linear map, and shortest paths are known.
 
 use super::{LIMITS, ROUNDING, bound};
-use crate::common::{arm, convex, disc, joint, link, q, rectangle, scene};
+use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Goal, Motion, Problem};
-use cplan::space::{Axis, Configuration, Metric};
+use cplan::model::{Motion, Problem};
+use cplan::space::{Axis, Configuration, GoalSet, Metric};
 use std::f64::consts::TAU;
 
 /// Half the way that each slide has, metres.
@@ -17,7 +17,7 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
     let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::origin(), 0.0)])];
     let arm = arm(joints, links, Vector::zeros(), Point::origin());
-    Problem { scene: scene(arm, pieces), start, goal: Goal::Joints(goals[0]), goals: goals.iter().copied().collect() }
+    asked(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 
 /// With slides along x and y.
@@ -84,9 +84,9 @@ fn around_a_disc() {
     let round = disc(Point::origin(), 0.5);
     assert_is(&square(vec![round], q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
     // The same of a point that is to keep clear.
-    let mut problem = square(vec![disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
-    problem.scene.workspace.clearance = 0.3;
-    assert_is(&problem, 2.0 * tangent + arc);
+    let smaller = square(vec![disc(Point::origin(), 0.2)], q(-1.5, 0.0), q(1.5, 0.0));
+    let scene = smaller.scene().clone().with_clearance(0.3).unwrap();
+    assert_is(&asked(scene, q(-1.5, 0.0), q(1.5, 0.0)), 2.0 * tangent + arc);
 }
 
 /// A wall from side to side leaves no way: nothing below any limit.

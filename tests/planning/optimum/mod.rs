@@ -20,8 +20,8 @@ const LIMITS: [f64; 2] = [3.0, 10.0];
 
 /// The bound for a problem.
 fn bound(problem: &Problem, metric: Metric, limit: f64, gap: f64) -> f64 {
-    let Problem { scene, start, goals, .. } = problem;
-    least_length(scene, *start, goals, scene.workspace.clearance, metric, limit, gap)
+    let scene = problem.scene();
+    least_length(scene, problem.start(), problem.goals(), scene.workspace().clearance, metric, limit, gap)
 }
 
 /// Euclidean, weighted, and time.

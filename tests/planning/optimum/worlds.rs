@@ -1,12 +1,12 @@
 //! Random worlds of all kinds of arms: no planner finds a motion that is shorter than the bound.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{all_kinds, convex, disc, inside, rectangle, scene, wall};
+use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
 use crate::random_worlds::world;
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Goal, Problem};
+use cplan::model::Problem;
 use cplan::solve::{Effort, Method, Verdict, decide, shorten, solve};
-use cplan::space::{Metric, Path};
+use cplan::space::{GoalSet, Metric, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -69,12 +69,11 @@ proptest! {
         goals in prop::collection::vec((0.0..=1.0_f64, 0.0..=1.0_f64), 1..3),
         clearance in prop_oneof![Just(0.0), 0.0..0.05_f64], gap in gaps(),
     ) {
-        let mut scene = scene(all_kinds().swap_remove(kind), obstacles);
-        scene.workspace.clearance = clearance;
+        let scene = scene(all_kinds().swap_remove(kind), obstacles).with_clearance(clearance).unwrap();
         let start = inside(&scene, start);
         let goals: Vec<_> = goals.into_iter().map(|at| inside(&scene, at)).collect();
         prop_assume!(goals.iter().chain([&start]).all(|&at| scene.clearance(at) > clearance + 1e-6));
-        keeps_below(&Problem { scene, start, goal: Goal::Joints(goals[0]), goals: goals.into_iter().collect() }, gap);
+        keeps_below(&asked(scene, start, goals.into_iter().collect::<GoalSet>()), gap);
     }
 
     /// Touching, pointed and thin obstacles, joints of all ranges, starts on limits, on other turns, next to obstacles.
@@ -96,6 +95,6 @@ proptest! {
         let scene = scene(all_kinds().swap_remove(kind), walls);
         let (start, goal) = (inside(&scene, start), inside(&scene, goal));
         prop_assume!(scene.clearance(start) > 1e-6 && scene.clearance(goal) > 1e-6);
-        keeps_below(&Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() }, gap);
+        keeps_below(&asked(scene, start, goal), gap);
     }
 }

@@ -3,8 +3,9 @@
 
 use super::replay::World;
 use super::task::{self, Dice};
+use crate::common::asked;
 use crate::common::random::{seeds, times};
-use cplan::model::{Goal, Grip, Holding, Payload, Problem, Scene, Task};
+use cplan::model::{Grip, Holding, Payload, Scene, Task};
 use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::Configuration;
 use nalgebra::Point2;
@@ -107,7 +108,7 @@ fn payloads_are_judged_like_a_flood_fill() {
             supports,
         };
         let poses: Vec<_> = task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at)).collect();
-        let scene = Scene::handling(task.arm.clone(), task.obstacles(&poses), Some(payload), &[]);
+        let scene = Scene::handling(task.arm.clone(), task.obstacles(&poses), Some(payload), &[]).expect("a scene");
         let topology = task.arm.topology();
         let mut free = || {
             let draw = || {
@@ -124,7 +125,7 @@ fn payloads_are_judged_like_a_flood_fill() {
         let surely = bitmap.connects(start, goal, &[Cell::Free]);
         let perhaps = bitmap.connects(start, goal, &[Cell::Free, Cell::Mixed]);
         decisive += u64::from(surely || !perhaps);
-        let problem = Problem { scene, start, goal: Goal::Joints(goal), goals: goal.into() };
+        let problem = asked(scene, start, goal);
         let effort = Effort { levels: 4, boxes: 20_000, bounded: false, ..Effort::default() };
         match solve(&problem, Method::Visibility, &effort, &mut |_| {}).verdict {
             Verdict::Found(_) => {

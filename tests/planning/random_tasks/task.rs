@@ -1,8 +1,8 @@
 //! Random tasks, the same for the same seed: all kinds of arms, rigid and level payloads, objects on supports.
 
-use crate::common::{all_kinds, clutter, convex, disc, obstacle};
+use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
 use cplan::geometry::{Convex, Point, Vector, hull};
-use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Scene, Shape, Step, Task, Workspace, Wrist};
+use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Shape, Step, Task, Workspace, Wrist};
 use cplan::space::Configuration;
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
@@ -46,7 +46,7 @@ pub fn task(seed: u64) -> Task {
     let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
     // Where the tip can be: forward kinematics of random configurations, most of them free of what stays.
     let topology = arm.topology();
-    let still = Scene::new(arm.clone(), workspace.clone());
+    let still = placed(arm.clone(), workspace.clone());
     let anywhere = |dice: &mut Dice| {
         let mut draw = || {
             Configuration::from_fn(|k, _| {
@@ -85,7 +85,7 @@ pub fn task(seed: u64) -> Task {
         wrist: Some(Wrist { velocity: 3.0, acceleration: 12.0 }),
         stroke: None,
     };
-    let scene = Scene::new(task.arm.clone(), task.obstacles(&all));
+    let scene = placed(task.arm.clone(), task.obstacles(&all));
     task.start = (0..500).map(|_| anywhere(&mut dice)).find(|q| scene.obstructions(*q).is_empty()).unwrap_or_default();
     if !scene.obstructions(task.start).is_empty() {
         // Nowhere: the task is without obstacles then.

@@ -75,14 +75,14 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
         Verdict::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
         Verdict::Found(certified) => {
             let path = certified.path();
-            let topology = problem.scene.arm.topology();
+            let topology = problem.scene().arm().topology();
             if truth == Truth::Disconnected {
                 return Some("found, yet disconnected".into());
             }
-            if path.start() != problem.start {
+            if path.start() != problem.start() {
                 return Some(format!("starts at {:?}", path.start()));
             }
-            if !problem.goals.contains(&topology, path.goal(), ROUNDING) {
+            if !problem.goals().contains(&topology, path.goal(), ROUNDING) {
                 return Some(format!("ends at {:?}", path.goal()));
             }
             for q in path.waypoints() {
@@ -92,10 +92,10 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
                     }
                 }
             }
-            if certified.clearance() <= 0.0 || certified.clearance() < problem.scene.workspace.clearance {
+            if certified.clearance() <= 0.0 || certified.clearance() < problem.scene().workspace().clearance {
                 return Some(format!("proves {}", certified.clearance()));
             }
-            let proven = certified.clearance() - problem.scene.workspace.clearance;
+            let proven = certified.clearance() - problem.scene().workspace().clearance;
             let violation = oracle.violation(path, proven.min(1e9) - ROUNDING, 1e-4);
             violation.map(|(at, room)| format!("room {room} at {at:?}, proven {proven}"))
         }
@@ -104,10 +104,10 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
 
 /// Answers to one world; the lies among them.
 fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
-    let kind = problem.scene.arm.kind();
+    let kind = problem.scene().arm().kind();
     let clock = Instant::now();
-    let oracle = Oracle::new(&problem.scene);
-    let truth = connected(&oracle, problem.start, &problem.goals.points().collect::<Vec<_>>(), run.lattice);
+    let oracle = Oracle::new(problem.scene());
+    let truth = connected(&oracle, problem.start(), &problem.goals().points().collect::<Vec<_>>(), run.lattice);
     let oracle_time = clock.elapsed();
     let mut lies = Vec::new();
     let mut lengths = [None; PLANNERS];
@@ -158,11 +158,11 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     }
     // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
     // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
-    let margin = 3.0 * run.effort.margin * problem.scene.arm.reach();
+    let margin = 3.0 * run.effort.margin * problem.scene().arm().reach();
     if let Some((shortest, _, _)) = lengths[0]
-        && problem.goals.points().all(|goal| oracle.room(goal) > margin)
+        && problem.goals().points().all(|goal| oracle.room(goal) > margin)
     {
-        let margin = margin + problem.scene.workspace.clearance;
+        let margin = margin + problem.scene().workspace().clearance;
         for (length, clearance, _) in lengths[1..].iter().flatten() {
             if *clearance > margin && shortest > length * (1.0 + ROUNDING) {
                 lies.push(format!("{kind} {seed}: visibility {shortest}, another {length}"));

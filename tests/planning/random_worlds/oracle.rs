@@ -44,7 +44,7 @@ pub struct Posture {
 
 impl Oracle {
     pub fn new(scene: &Scene) -> Self {
-        let arm = &scene.arm;
+        let arm = scene.arm();
         let axes = [0, 1].map(|k| {
             let axis = arm.topology().axes[k];
             let (lower, upper) = axis.domain();
@@ -56,7 +56,7 @@ impl Oracle {
         let travel = axes[1].0.abs().max(axes[1].1.abs());
         let mut obstacles = Vec::new();
         let mut heights = Vec::new();
-        for obstacle in &scene.workspace.obstacles {
+        for obstacle in &scene.workspace().obstacles {
             for piece in &obstacle.pieces {
                 obstacles.push(Solid::new(piece));
                 heights.push(obstacle.heights);
@@ -86,7 +86,7 @@ impl Oracle {
             }
         }
         let base = [arm.base.x, arm.base.y];
-        Self { motions, base, offset, movers, obstacles, clearance: scene.workspace.clearance, axes }
+        Self { motions, base, offset, movers, obstacles, clearance: scene.workspace().clearance, axes }
     }
 
     /// All that can meet.

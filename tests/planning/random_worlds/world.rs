@@ -1,12 +1,12 @@
 //! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
 
 use super::oracle::Oracle;
-use crate::common::{convex, disc, wall};
+use crate::common::{asked, convex, disc, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Goal, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -54,12 +54,11 @@ pub fn world(kind: &str, seed: u64) -> Option<Problem> {
         obstacles.extend(obstacle(&mut dice, reach, arm.base));
     }
     let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
-    let scene = Scene::new(arm, workspace);
+    let scene = placed(arm, workspace);
     let start = free(&mut dice, &scene)?;
     let count = 1 + dice.below(3);
     let goals: Vec<Configuration> = (0..count).filter_map(|_| free(&mut dice, &scene)).collect();
-    let goal = Goal::Joints(*goals.first()?);
-    Some(Problem { scene, start, goal, goals: goals.into_iter().collect() })
+    (!goals.is_empty()).then(|| asked(scene, start, goals.into_iter().collect::<GoalSet>()))
 }
 
 fn arm(dice: &mut Dice, kind: &str) -> Arm {
@@ -197,7 +196,7 @@ fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
 /// A free configuration: anywhere, on a limit, beyond a turn, or next to an obstacle.
 fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
     let oracle = Oracle::new(scene);
-    let topology = scene.arm.topology();
+    let topology = scene.arm().topology();
     let mut blocked = None;
     let mut found = None;
     for _ in 0..200 {

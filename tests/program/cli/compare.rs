@@ -187,13 +187,14 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     };
     let six = run("--queries 6 --seed 5");
     assert_eq!((six["queries"].as_u64(), six["seed"].as_u64()), (Some(6), Some(5)));
-    let scene = load(urdf.as_ref(), world.as_ref(), &Overrides::default()).unwrap().problem.scene;
+    let problem = load(urdf.as_ref(), world.as_ref(), &Overrides::default()).unwrap().problem;
+    let scene = problem.scene();
     let problems = six["problems"].as_array().unwrap();
     for problem in problems {
         for end in ["start", "goal"] {
             let [a, b] = [0, 1].map(|k| problem[end][k].as_f64().unwrap());
             let q = cplan::space::Configuration::new(a, b);
-            assert!(scene.arm.topology().contains(q) && scene.clearance(q) > 0.02, "{problem}");
+            assert!(scene.arm().topology().contains(q) && scene.clearance(q) > 0.02, "{problem}");
         }
         let bound = problem["lower_bound"].as_f64().unwrap();
         for row in problem["planners"].as_array().unwrap() {

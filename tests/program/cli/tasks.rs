@@ -64,7 +64,7 @@ impl Place {
 
     /// The arm of the last task.
     fn arm(&self) -> Arm {
-        load_scene(Path::new(&shipped("robots/planar_2r.urdf")), &self.path("world.toml")).unwrap().scene.arm
+        load_scene(Path::new(&shipped("robots/planar_2r.urdf")), &self.path("world.toml")).unwrap().scene.into_parts().0
     }
 }
 
@@ -222,7 +222,7 @@ fn shipped_tasks_are_consistent() {
         let done = Place::new().run(&files, "--json --quiet");
         assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{world}");
         let [urdf, world] = files.each_ref().map(Path::new);
-        consistent(&load_scene(urdf, world).unwrap().scene.arm, &done.json());
+        consistent(&load_scene(urdf, world).unwrap().scene.arm(), &done.json());
     }
 }
 

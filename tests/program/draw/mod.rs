@@ -6,9 +6,10 @@ mod pages;
 mod scenes;
 mod tasks;
 
+use crate::common::placed;
 use cplan::draw::{Ending, Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
-use cplan::model::{Preference, Region, Scene};
+use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::plan::Trace;
 use cplan::space::{Axis, Configuration, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
@@ -122,7 +123,7 @@ fn planned(
     let [from, to] = [start, goal].map(|q| cells.index(q));
     let labels = cells.labels(to);
     let path = cells.descend(from, &labels);
-    let c_obstacles = cells.c_obstacles(scene.workspace.obstacles.len());
+    let c_obstacles = cells.c_obstacles(scene.workspace().obstacles.len());
     let trace = trace(&cells, &labels, to, &path);
     let picture = Picture {
         title: vec![format!("{name}: a picture of a plan"), format!("length {:.2}", path.length())],
@@ -198,7 +199,7 @@ fn a_comparison_tells_paths_apart() {
         Path::new(waypoints)
     };
     let (few, fewer) = (thinned(7), thinned(19));
-    let c_obstacles = cells.c_obstacles(scene.workspace.obstacles.len());
+    let c_obstacles = cells.c_obstacles(scene.workspace().obstacles.len());
     let picture = Picture {
         title: vec!["Comparison".to_owned(), "one line".to_owned(), "and another".to_owned()],
         status: "3 of 3 found".to_owned(),
@@ -345,8 +346,8 @@ fn preference_regions_are_dashed_and_explained() {
     };
     let preference = |region: Region, epsilon: f64| Preference { name: "p".into(), region, epsilon, direction: None };
     let with = |preferences: Vec<Preference>| {
-        let mut scene = torus();
-        scene.workspace.preferences = preferences;
+        let (arm, workspace) = torus().into_parts();
+        let scene = placed(arm, Workspace { preferences, ..workspace });
         let text = checked(
             "preferences",
             &Picture {

@@ -1,6 +1,6 @@
 //! Made-up problems with results by brute force: every cell of a grid is looked at, nothing of the planners is used.
 
-use crate::common::{self, convex, disc};
+use crate::common::{self, convex, disc, placed};
 use cplan::cspace::CObstacle;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
@@ -74,7 +74,7 @@ fn obstacle(name: &str, shape: Shape, pieces: Vec<Convex>) -> Obstacle {
 }
 
 pub fn scene(arm: Arm, obstacles: Vec<Obstacle>) -> Scene {
-    Scene::new(arm, Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new() })
+    placed(arm, Workspace { name: "test".to_owned(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// A grid of looks at the scene.
@@ -89,7 +89,7 @@ pub struct Cells {
 
 impl Cells {
     pub fn look(scene: &Scene, n: usize) -> Self {
-        let mut cells = Self { topology: scene.arm.topology(), n, hit: Vec::new(), all: Vec::new() };
+        let mut cells = Self { topology: scene.arm().topology(), n, hit: Vec::new(), all: Vec::new() };
         for index in 0..n * n {
             let q = cells.center(index);
             let mut hits: Vec<usize> =

@@ -15,26 +15,35 @@ fn root(file: &str) -> PathBuf {
 fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Report)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
     let loaded = input::load(&files[0], &files[1], &Overrides::default()).unwrap();
-    let joints = &loaded.problem.scene.arm.joints;
+    let joints = &loaded.problem.scene().arm().joints;
     let answer = solve(&loaded.problem, Method::Visibility, &Effort::default(), &mut |_| {});
     let Verdict::Found(certified) = &answer.verdict else { return None };
-    let scene = &loaded.problem.scene;
-    let curve = blend(scene, certified, f64::INFINITY, scene.workspace.clearance);
+    let scene = loaded.problem.scene();
+    let curve = blend(scene, certified, f64::INFINITY, scene.workspace().clearance);
     let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).unwrap();
     let report = Report::found("visibility", joints, &curve, trajectory);
     Some((load_scene(&files[0], &files[1]).unwrap(), report))
 }
 
-fn read(scene: &LoadedScene, name: &str, text: &str) -> Recording {
+/// What `verify` reads, each with a name.
+const FORMATS: &[(Format, &str)] = &[
+    (Format::Json, "a.json"),
+    (Format::Csv, "a.csv"),
+    (Format::Yaml, "a.yaml"),
+    #[cfg(feature = "mcap")]
+    (Format::Mcap, "a.mcap"),
+];
+
+fn read(scene: &LoadedScene, name: &str, content: impl AsRef<[u8]>) -> Recording {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join(name);
-    std::fs::write(&file, text).unwrap();
+    std::fs::write(&file, content).unwrap();
     load_recording(&file, scene).unwrap_or_else(|e| panic!("{e}")).recording
 }
 
 fn judge(scene: &LoadedScene, recording: &Recording) -> (Passage, Vec<Excess>) {
-    let clearance = scene.scene.workspace.clearance;
-    (passage(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm.joints, recording))
+    let clearance = scene.scene.workspace().clearance;
+    (passage(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm().joints, recording))
 }
 
 #[test]
@@ -49,10 +58,8 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
         let Some(robot) = text.lines().find_map(|l| l.strip_prefix("# robot: ")) else { continue };
         let name = file.file_stem().unwrap().to_str().unwrap();
         let Some((scene, report)) = planned(robot.trim(), name) else { continue };
-        // What controllers make of messages is the matter of `tests/motion/played`.
-        let formats = [(Format::Json, "a.json"), (Format::Csv, "a.csv")];
-        for (format, file) in formats {
-            let recording = read(&scene, file, &written(format, &report));
+        for &(format, file) in FORMATS {
+            let recording = read(&scene, file, written(format, &report));
             let (verdict, broken) = judge(&scene, &recording);
             let Passage::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
             assert_eq!(broken, [], "{name}, {file}");
@@ -67,8 +74,8 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
 }
 
 /// The file's content.
-fn written(format: Format, report: &Report) -> String {
-    String::from_utf8(format.bytes(report).unwrap()).unwrap()
+fn written(format: Format, report: &Report) -> Vec<u8> {
+    format.bytes(report).unwrap()
 }
 
 fn shelf() -> (LoadedScene, Report) {
@@ -84,7 +91,7 @@ fn with(report: &Report, change: impl FnOnce(&mut Trajectory)) -> Report {
 #[test]
 fn tampered_results_are_caught() {
     let (scene, report) = shelf();
-    let read = |report: &Report, format: Format, name| judge(&scene, &read(&scene, name, &written(format, report)));
+    let read = |report: &Report, format: Format, name| judge(&scene, &read(&scene, name, written(format, report)));
     let kinds = |broken: &[Excess]| broken.iter().map(|e| (e.joint, e.limit)).collect::<Vec<_>>();
 
     // Twice as fast in the same shape: speeds double, accelerations quadruple.
@@ -93,9 +100,18 @@ fn tampered_results_are_caught() {
         t.velocity.iter_mut().flatten().for_each(|v| *v *= 2.0);
         t.acceleration.iter_mut().flatten().for_each(|a| *a *= 4.0);
     });
-    for (format, name) in [(Format::Json, "a.json"), (Format::Csv, "a.csv")] {
+    let last = report.trajectory.as_ref().unwrap().time.len() - 1;
+    let times = report.trajectory.as_ref().unwrap().time.clone();
+    // One sample moved into the shelf: contact before it, and after the sample before.
+    let at = last / 2;
+    let hit = with(&report, |t| t.position[at] = [0.15, 0.08]);
+    assert!(scene.scene.clearance(Configuration::new(0.15, 0.08)) < -0.1);
+    let pushed = with(&report, |t| t.velocity[0][1] = 0.25);
+    let thrown = with(&report, |t| t.velocity[last][0] = -0.25);
+
+    for &(format, name) in FORMATS {
         let (verdict, broken) = read(&fast, format, name);
-        assert!(matches!(verdict, Passage::Free { .. }));
+        assert!(matches!(verdict, Passage::Free { .. }), "{name}");
         let ratio = |limit| {
             let worst = broken.iter().filter(|e| e.limit == limit);
             worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
@@ -103,26 +119,23 @@ fn tampered_results_are_caught() {
         let (speed, pull) = (ratio(Limit::Velocity), ratio(Limit::Acceleration));
         // Nanoseconds make the accelerations of blends, whose samples lie close together, a little more than that.
         assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.2, "{name}: {speed}, {pull}");
+
+        let (verdict, broken) = read(&pushed, format, name);
+        assert!(matches!(verdict, Passage::Free { .. }), "{name}");
+        assert!(kinds(&broken).contains(&(1, Limit::RestAtStart)), "{name}: {broken:?}");
+        let (_, broken) = read(&thrown, format, name);
+        let end = broken.iter().find(|e| e.limit == Limit::RestAtEnd).expect("does not end at rest");
+        assert_eq!((end.joint, end.value, end.moment.sample), (0, -0.25, last), "{name}");
+
+        let (verdict, _) = read(&hit, format, name);
+        let Passage::Collision { first, free_until, deepest } = verdict else { panic!("{name}: {verdict:?}") };
+        assert!(
+            times[at - 1] < free_until && free_until <= first.moment.time && first.moment.time < times[at],
+            "{name}"
+        );
+        assert!(scene.scene.describe(first.contact.pair).contains("obstacle \"shelf\""), "{name}");
+        assert!(deepest.contact.separation.distance < -0.1, "{name}");
     }
-
-    let (verdict, broken) = read(&with(&report, |t| t.velocity[0][1] = 0.25), Format::Csv, "a.csv");
-    assert!(matches!(verdict, Passage::Free { .. }));
-    assert!(kinds(&broken).contains(&(1, Limit::RestAtStart)), "{broken:?}");
-    let last = report.trajectory.as_ref().unwrap().time.len() - 1;
-    let (_, broken) = read(&with(&report, |t| t.velocity[last][0] = -0.25), Format::Yaml, "a.yaml");
-    let end = broken.iter().find(|e| e.limit == Limit::RestAtEnd).expect("does not end at rest");
-    assert_eq!((end.joint, end.value, end.moment.sample), (0, -0.25, last));
-
-    // One sample moved into the shelf: contact before it, and after the sample before.
-    let at = last / 2;
-    let hit = with(&report, |t| t.position[at] = [0.15, 0.08]);
-    assert!(scene.scene.clearance(Configuration::new(0.15, 0.08)) < -0.1);
-    let times = report.trajectory.as_ref().unwrap().time.clone();
-    let (verdict, _) = read(&hit, Format::Json, "a.json");
-    let Passage::Collision { first, free_until, deepest } = verdict else { panic!("{verdict:?}") };
-    assert!(times[at - 1] < free_until && free_until <= first.moment.time && first.moment.time < times[at]);
-    assert!(scene.scene.describe(first.contact.pair).contains("obstacle \"shelf\""));
-    assert!(deepest.contact.separation.distance < -0.1);
 }
 
 #[test]

@@ -45,7 +45,7 @@ proptest! {
         reach in 0.02..0.5_f64,
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let domain = [0, 1].map(|k| scene.arm.topology().axes[k].domain());
+        let domain = [0, 1].map(|k| scene.arm().topology().axes[k].domain());
         let corner = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let first = rows[0].0;
         // A walk about one place, so that some motions are free.

@@ -23,7 +23,7 @@ pub struct Bars {
 
 /// The arm, if it is of the simple kind that the peers' checkers are written for.
 pub fn bars(scene: &Scene) -> Result<Bars> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let simple = arm.base.coords.norm() == 0.0 && arm.offset.y == 0.0 && arm.links.iter().all(|l| l.parts.len() == 1);
     if !simple {
         return Err("the peers' checkers know an arm of two bars at the origin".into());
@@ -34,7 +34,7 @@ pub fn bars(scene: &Scene) -> Result<Bars> {
 
 /// Corners of all convex pieces of the obstacles.
 pub fn obstacles(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
-    scene.workspace.obstacles.iter().flat_map(|o| &o.pieces).map(corners).collect()
+    scene.workspace().obstacles.iter().flat_map(|o| &o.pieces).map(corners).collect()
 }
 
 fn corners(shape: &Convex) -> Vec<[f64; 2]> {

@@ -25,11 +25,11 @@ pub fn run(urdf: &str, world: &str, planner: &str, seed: u64, limit: f64) -> Res
     };
     let problem = scenes::problem(urdf, world)?;
     let joints = |q: cplan::space::Configuration| Joints([q[0], q[1]]);
-    let (bars, obstacles) = (scenes::bars(&problem.scene)?, scenes::obstacles(&problem.scene));
+    let (bars, obstacles) = (scenes::bars(problem.scene())?, scenes::obstacles(problem.scene()));
     let definition = Arc::new(ProblemDefinition {
         space: Arc::new(Torus),
-        start_states: vec![joints(problem.start)],
-        goal: Arc::new(Target(joints(problem.goals.points().next().expect("a single goal")))),
+        start_states: vec![joints(problem.start())],
+        goal: Arc::new(Target(joints(problem.goals().points().next().expect("a single goal")))),
     });
     let checker = Arc::new(Checker::new(&bars, &obstacles));
     let start = Instant::now();

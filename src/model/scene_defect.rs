@@ -1,0 +1,182 @@
+//! What arm, obstacles and what is carried must be to make a scene.
+
+use super::{Arm, Grip, Heights, Joint, Motion, Payload, Plane, Workspace};
+use crate::geometry::cross;
+use crate::space::Axis;
+
+/// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
+const UNIT_ROUNDING: f64 = 1e-9;
+
+/// Why arm and workspace make no scene.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SceneDefect {
+    /// A joint's range is empty or not finite.
+    #[error("joint \"{joint}\": no range from {lower} to {upper}")]
+    Range {
+        /// Its name.
+        joint: String,
+        /// As given.
+        lower: f64,
+        /// As given.
+        upper: f64,
+    },
+    /// A joint slides, and yet its values are said to repeat with whole turns.
+    #[error("joint \"{joint}\" slides: it needs a range, not a circle")]
+    SlidesOnCircle {
+        /// Its name.
+        joint: String,
+    },
+    /// A turning joint's sign is neither 1 nor -1, or a sliding one's direction not of length 1.
+    #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
+    Motion {
+        /// Its name.
+        joint: String,
+    },
+    /// Both joints slide along one line.
+    #[error("both joints slide along one line")]
+    ParallelSlides,
+    /// A joint's greatest speed, acceleration or jerk is not positive or not finite.
+    #[error("joint \"{joint}\": its {limit} must be positive and finite, is {value}")]
+    Limit {
+        /// Its name.
+        joint: String,
+        /// Of what.
+        limit: &'static str,
+        /// As given.
+        value: f64,
+    },
+    /// A coordinate of the arm is infinite or not a number.
+    #[error("the arm's {what} is not finite")]
+    NotFinite {
+        /// Which point.
+        what: &'static str,
+    },
+    /// The plane's vectors are not of length 1, at right angles and right-handed.
+    #[error("the plane's vectors are no right-handed basis of unit vectors")]
+    Plane,
+    /// Something ends below where it begins, or at no number.
+    #[error("\"{of}\": no heights from {lower} to {upper}")]
+    Heights {
+        /// Name of the obstacle, link or payload.
+        of: String,
+        /// As given.
+        lower: f64,
+        /// As given.
+        upper: f64,
+    },
+    /// The distance to keep is negative or not finite.
+    #[error("the clearance must be finite and not negative, is {clearance}")]
+    Clearance {
+        /// As given.
+        clearance: f64,
+    },
+    /// A preference's strength is not finite, or its direction not of length 1.
+    #[error("preference \"{name}\": its epsilon must be finite, its direction of length 1")]
+    Preference {
+        /// Its name.
+        name: String,
+    },
+    /// What is carried is held at no finite place.
+    #[error("payload \"{object}\": its grip is not finite")]
+    Grip {
+        /// Its name.
+        object: String,
+    },
+    /// There is no obstacle of this number to spare, or to rest on.
+    #[error("there is no obstacle number {number} among {count}")]
+    NoObstacle {
+        /// From 0.
+        number: usize,
+        /// How many there are.
+        count: usize,
+    },
+}
+
+/// The first defect of what is to make a scene. `O(n)` in parts, obstacles and preferences; shapes are valid by their type.
+pub(super) fn check(
+    arm: &Arm,
+    workspace: &Workspace,
+    payload: Option<&Payload>,
+    spared: &[usize],
+) -> Result<(), SceneDefect> {
+    check_arm(arm)?;
+    check_workspace(workspace)?;
+    if let Some(payload) = payload {
+        check_heights(&payload.object, payload.heights)?;
+        let is_finite = match payload.grip {
+            Grip::Rigid(pose) => pose.to_homogeneous().iter().all(|x| x.is_finite()),
+            Grip::Level { angle, point } => [angle, point.x, point.y].iter().all(|x| x.is_finite()),
+        };
+        if !is_finite {
+            return Err(SceneDefect::Grip { object: payload.object.clone() });
+        }
+    }
+    let count = workspace.obstacles.len();
+    let supports = payload.map_or(&[][..], |payload| &payload.supports);
+    match spared.iter().chain(supports).find(|&&number| number >= count) {
+        Some(&number) => Err(SceneDefect::NoObstacle { number, count }),
+        None => Ok(()),
+    }
+}
+
+fn check_arm(arm: &Arm) -> Result<(), SceneDefect> {
+    arm.joints.iter().try_for_each(check_joint)?;
+    if let [Motion::Prismatic { direction: first }, Motion::Prismatic { direction: second }] =
+        arm.joints.each_ref().map(|joint| joint.motion)
+        && cross(first, second).abs() <= UNIT_ROUNDING
+    {
+        return Err(SceneDefect::ParallelSlides);
+    }
+    for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
+        if !place.iter().all(|x| x.is_finite()) {
+            return Err(SceneDefect::NotFinite { what });
+        }
+    }
+    let Plane { u, v, normal } = arm.plane;
+    let off = [u.norm() - 1.0, v.norm() - 1.0, u.dot(&v), (u.cross(&v) - normal).norm()];
+    if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
+        return Err(SceneDefect::Plane);
+    }
+    arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| check_heights(&part.body, part.heights))
+}
+
+fn check_joint(joint: &Joint) -> Result<(), SceneDefect> {
+    let name = || joint.name.clone();
+    match joint.axis {
+        Axis::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
+            return Err(SceneDefect::Range { joint: name(), lower, upper });
+        }
+        Axis::Circle if !joint.motion.is_revolute() => return Err(SceneDefect::SlidesOnCircle { joint: name() }),
+        Axis::Interval { .. } | Axis::Circle => {}
+    }
+    let is_unit = match joint.motion {
+        Motion::Revolute { sign } => sign.abs() == 1.0,
+        Motion::Prismatic { direction } => (direction.norm() - 1.0).abs() <= UNIT_ROUNDING,
+    };
+    if !is_unit {
+        return Err(SceneDefect::Motion { joint: name() });
+    }
+    let limits = [("velocity", Some(joint.velocity)), ("acceleration", Some(joint.acceleration)), ("jerk", joint.jerk)];
+    match limits.into_iter().find_map(|(limit, value)| Some((limit, value.filter(|v| !(v.is_finite() && *v > 0.0))?))) {
+        Some((limit, value)) => Err(SceneDefect::Limit { joint: name(), limit, value }),
+        None => Ok(()),
+    }
+}
+
+fn check_workspace(workspace: &Workspace) -> Result<(), SceneDefect> {
+    check_clearance(workspace.clearance)?;
+    workspace.obstacles.iter().try_for_each(|obstacle| check_heights(&obstacle.name, obstacle.heights))?;
+    let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
+    match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
+        Some(preference) => Err(SceneDefect::Preference { name: preference.name.clone() }),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneDefect> {
+    if clearance.is_finite() && clearance >= 0.0 { Ok(()) } else { Err(SceneDefect::Clearance { clearance }) }
+}
+
+fn check_heights(of: &str, Heights { lower, upper }: Heights) -> Result<(), SceneDefect> {
+    if lower <= upper { Ok(()) } else { Err(SceneDefect::Heights { of: of.to_owned(), lower, upper }) }
+}

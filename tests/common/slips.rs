@@ -1,0 +1,98 @@
+//! Texts with slips of the pen.
+
+use super::random::seed;
+
+/// SplitMix64 (Steele, Lea, Flood 2014).
+pub struct Dice(u64);
+
+impl Dice {
+    /// The stream of this number; other ones with another `CPLAN_SEED`.
+    pub fn new(stream: u64) -> Self {
+        Self(stream ^ seed().wrapping_mul(0xD134_2543_DE82_EF95))
+    }
+
+    pub fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) % n as u64) as usize
+    }
+}
+
+/// What numbers become.
+const NUMBERS: [&str; 16] = [
+    "0",
+    "-0",
+    "1",
+    "-1",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "nan",
+    "inf",
+    "-inf",
+    "1e16",
+    "\"30deg\"",
+    "[]",
+    "{}",
+    "0x7f",
+    "",
+];
+/// What is put in anywhere.
+const BITS: [&str; 18] =
+    ["[", "]", "{", "}", "\"", "<", ">", "/", "=", ",", "#", "\n", "\0", "\u{e4}", "[[", "]]", ";", "\t"];
+
+/// The text with one to three slips: something deleted, written twice, swapped, changed or put in.
+pub fn slipped(dice: &mut Dice, text: &str) -> String {
+    let mut text: Vec<char> = text.chars().collect();
+    for _ in 0..1 + dice.below(3) {
+        let n = text.len().max(1);
+        let at = dice.below(n).min(text.len());
+        let insert = |text: &mut Vec<char>, at: usize, bit: &str| {
+            text.splice(at..at, bit.chars());
+        };
+        match dice.below(9) {
+            // A number becomes another.
+            0 | 1 => {
+                let is_number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '-');
+                let starts: Vec<usize> =
+                    (0..text.len()).filter(|&i| is_number(&text[i]) && (i == 0 || !is_number(&text[i - 1]))).collect();
+                if let Some(&start) = starts.get(dice.below(starts.len().max(1))) {
+                    let end = start + text[start..].iter().take_while(|c| is_number(c)).count();
+                    let bit = NUMBERS[dice.below(NUMBERS.len())];
+                    text.splice(start..end, bit.chars());
+                }
+            }
+            2 => insert(&mut text, at, BITS[dice.below(BITS.len())]),
+            3 => {
+                let end = (at + 1 + dice.below(8)).min(text.len());
+                text.drain(at..end);
+            }
+            // A line again, or away.
+            4 | 5 => {
+                let lines: Vec<String> = text.iter().collect::<String>().lines().map(str::to_owned).collect();
+                let k = dice.below(lines.len().max(1));
+                let twice = dice.below(2);
+                let again = lines
+                    .iter()
+                    .enumerate()
+                    .flat_map(|(i, line)| vec![line.clone(); if i == k { 2 * twice } else { 1 }]);
+                text = again.collect::<Vec<_>>().join("\n").chars().collect();
+            }
+            // Two lines, or two words, change places.
+            6 => text = swapped(dice, &text, '\n'),
+            7 => text = swapped(dice, &text, ' '),
+            _ => text.truncate(at.max(1)),
+        }
+    }
+    text.into_iter().collect()
+}
+
+/// Two of the pieces between separators in each other's place.
+fn swapped(dice: &mut Dice, text: &[char], separator: char) -> Vec<char> {
+    let mut pieces: Vec<&[char]> = text.split(|c| *c == separator).collect();
+    let (a, b) = (dice.below(pieces.len()), dice.below(pieces.len()));
+    pieces.swap(a, b);
+    pieces.join(&separator)
+}

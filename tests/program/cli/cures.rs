@@ -1,0 +1,112 @@
+//! Every defect has a cure: files with slips of the pen, by the hundred, through the program.
+
+use super::{Done, FREE, Place, shipped};
+use crate::common::random::times;
+use crate::common::slips::{Dice, slipped};
+use serde_json::Value;
+
+/// What has no line because it is not there.
+const MISSING: [&str; 6] =
+    ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
+
+/// Done (0, 3, 4), or told what is wrong: one object with file, place, message and cure. Whether it is an error.
+fn is_answered(done: &Done, text: &str) -> bool {
+    let what = || format!("{}{}\n{text}", done.stdout, done.stderr);
+    assert!(!done.stderr.contains("panicked"), "{}", what());
+    if matches!(done.code, 0 | 3 | 4) {
+        return false;
+    }
+    assert_eq!(done.code, 1, "{}", what());
+    let json = done.json();
+    assert_eq!(json["status"], "error", "{}", what());
+    let own = vec![json.clone()];
+    let defects = json["defects"].as_array().filter(|defects| !defects.is_empty()).unwrap_or(&own);
+    for defect in defects {
+        let said = |key: &str| defect[key].as_str().is_some_and(|text| !text.trim().is_empty());
+        assert!(said("file") && said("message") && said("cure"), "{defect:#}\n{text}");
+        let message = defect["message"].as_str().unwrap_or_default();
+        let is_missing = MISSING.iter().any(|words| message.contains(words));
+        assert!(defect["line"].as_u64().is_some_and(|line| line > 0) || is_missing, "no line: {defect:#}\n{text}");
+    }
+    true
+}
+
+/// So many slips in a text, each answered by `run`; both answers must have come up.
+fn every_slip_is_answered(stream: u64, usual: u64, text: &str, run: impl Fn(&str) -> Done) {
+    assert_eq!(run(text).code, 0, "{}", run(text).stdout);
+    let mut dice = Dice::new(stream);
+    let errors = (0..times(usual)).filter(|_| {
+        let text = slipped(&mut dice, text);
+        is_answered(&run(&text), &text)
+    });
+    assert!(errors.count() > 0);
+}
+
+#[test]
+fn slips_in_a_world() {
+    let place = Place::new();
+    let world = format!(
+        "name = \"cell\"\nclearance = 0.001\n[robot]\nlimits = {{ elbow = [\"-120deg\", 2.1] }}\nvelocity = {{ elbow = 1.0 }}\n\
+         {FREE}[[obstacle]]\nname = \"frame\"\npolygon = [[-1.0, 1.0], [-2.0, 1.0], [-2.0, 2.0], [-1.0, 2.0]]\n\
+         [[obstacle]]\ncircle = {{ center = [-0.6, -0.7], radius = 0.05 }}\nheight = [0.0, 0.2]\n\
+         [[preference]]\nepsilon = 0.1\npolygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]\n"
+    );
+    every_slip_is_answered(21, 80, &world, |world| place.plan(world, "--json --planner subdivision"));
+}
+
+#[test]
+fn slips_in_a_robot() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    every_slip_is_answered(22, 80, &robot, |robot| {
+        place.write("arm.urdf", robot);
+        place.run(&["arm.urdf", "world.toml"], "--json --planner subdivision")
+    });
+}
+
+#[test]
+fn slips_in_a_task() {
+    let place = Place::new();
+    let task = "[start]\njoints = [0.3, 0.4]\n[[object]]\nname = \"part\"\n\
+        polygon = [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]]\nat = [1.1, 0.9]\n\
+        [[step]]\npick = \"part\"\ndwell = 0.2\n[[step]]\nplace = { at = [1.4, -0.5] }\nspeed = 0.5\n\
+        [[step]]\nmove = { joints = [0.3, 0.4] }\n";
+    every_slip_is_answered(23, 60, task, |task| place.plan(task, "--json"));
+}
+
+/// A motion in a format, for [`FREE`].
+fn slips_in_a_motion(stream: u64, file: &str) {
+    let place = Place::new();
+    assert_eq!(place.plan(FREE, &format!("--quiet --path taut --period 0.4 --output {file}")).code, 0);
+    let motion = place.read(file);
+    let robot = shipped("robots/planar_2r.urdf");
+    every_slip_is_answered(stream, 60, &motion, |motion| {
+        place.write(file, motion);
+        place.run(&["verify", &robot, "world.toml", file], "--json")
+    });
+}
+
+#[test]
+fn slips_in_a_motion_of_each_format() {
+    for (stream, file) in [(24, "motion.json"), (25, "motion.csv"), (26, "motion.yaml")] {
+        slips_in_a_motion(stream, file);
+    }
+}
+
+#[test]
+fn a_json_list_is_no_motion() {
+    let place = Place::new();
+    place.write("world.toml", FREE);
+    let robot = shipped("robots/planar_2r.urdf");
+    for text in ["[]", " [ ]", "[null, null, null, null, null, null, null, null]", "{}", "3", "\"path\"", "", "nul"] {
+        place.write("motion.json", text);
+        let done = place.run(&["verify", &robot, "world.toml", "motion.json"], "--json");
+        assert!(is_answered(&done, text), "{text} is taken");
+        let json: Value = done.json();
+        assert!(json["cure"].as_str().unwrap().contains("JointTrajectory"), "{json}");
+    }
+    place.write("motion.json", "[]");
+    let said = place.run(&["verify", &robot, "world.toml", "motion.json"], "");
+    said.refused(1, &["motion.json: line 1, column 1: is a list: an object { ... } is expected", "cure: "]);
+}
