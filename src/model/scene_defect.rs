@@ -1,7 +1,6 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
 use super::{Arm, Grip, Heights, Joint, Motion, Payload, Plane, Workspace};
-use crate::geometry::cross;
 use crate::space::Axis;
 
 /// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
@@ -32,9 +31,6 @@ pub enum SceneDefect {
         /// Its name.
         joint: String,
     },
-    /// Both joints slide along one line.
-    #[error("both joints slide along one line")]
-    ParallelSlides,
     /// A joint's greatest speed, acceleration or jerk is not positive or not finite.
     #[error("joint \"{joint}\": its {limit} must be positive and finite, is {value}")]
     Limit {
@@ -51,8 +47,8 @@ pub enum SceneDefect {
         /// Which point.
         what: &'static str,
     },
-    /// The plane's vectors are not of length 1, at right angles and right-handed.
-    #[error("the plane's vectors are no right-handed basis of unit vectors")]
+    /// The plane's vectors are not of length 1 and at right angles.
+    #[error("the plane's vectors are not of length 1 and at right angles")]
     Plane,
     /// Something ends below where it begins, or at no number.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
@@ -121,19 +117,14 @@ pub(super) fn check(
 
 fn check_arm(arm: &Arm) -> Result<(), SceneDefect> {
     arm.joints.iter().try_for_each(check_joint)?;
-    if let [Motion::Prismatic { direction: first }, Motion::Prismatic { direction: second }] =
-        arm.joints.each_ref().map(|joint| joint.motion)
-        && cross(first, second).abs() <= UNIT_ROUNDING
-    {
-        return Err(SceneDefect::ParallelSlides);
-    }
     for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
         if !place.iter().all(|x| x.is_finite()) {
             return Err(SceneDefect::NotFinite { what });
         }
     }
     let Plane { u, v, normal } = arm.plane;
-    let off = [u.norm() - 1.0, v.norm() - 1.0, u.dot(&v), (u.cross(&v) - normal).norm()];
+    // Heights may be measured either way.
+    let off = [u.norm() - 1.0, v.norm() - 1.0, normal.norm() - 1.0, u.dot(&v), u.dot(&normal), v.dot(&normal)];
     if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
         return Err(SceneDefect::Plane);
     }

@@ -10,6 +10,19 @@ const HERE: [&str; 2] = ["tests/common/random.rs", "tests/architecture/seeds.rs"
 const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
 
+/// Variables of long campaigns, which are another run altogether (`tests/planning/random_worlds`), of published data, and of
+/// a folder for pictures. All else is asked for by the two of `common::random`.
+const VARIABLES: [&str; 8] = [
+    "CPLAN_WORLDS",
+    "CPLAN_FIRST",
+    "CPLAN_KIND",
+    "CPLAN_LEVELS",
+    "CPLAN_LATTICE",
+    "CPLAN_SHARE",
+    "CPLAN_THREADS",
+    "CPLAN_PICTURES",
+];
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -49,6 +62,23 @@ fn no_random_test_is_left_to_chance() {
         wrong.join("\n")
     );
     assert!(blocks > 50, "only {blocks} random tests were found: the test reads the wrong files");
+}
+
+#[test]
+fn numbers_of_cases_have_no_variables_of_their_own() {
+    let known =
+        |name: &str| ["CPLAN_SEED", "CPLAN_TIMES", "CPLAN_REFERENCE"].iter().chain(&VARIABLES).any(|v| *v == name);
+    let mut wrong = Vec::new();
+    for file in rust_files(&root().join("tests")) {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for (at, _) in text.match_indices("\"CPLAN_").filter(|_| !file.ends_with("tests/architecture/seeds.rs")) {
+            let name = text[at + 1..].split('"').next().unwrap_or_default();
+            if !known(name) {
+                wrong.push(format!("{}: {name}", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "use crate::common::random::times or seeds:\n{}", wrong.join("\n"));
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn world(seed: u64) -> Option<Problem> {
     let mut goals = solved.solutions(scene.arm());
     goals.retain(|goals| scene.blocked_along(goals).is_none());
     let goals: GoalSet = goals.into_iter().collect();
-    (!goals.is_empty()).then_some(asked(scene, start, goals))
+    (!goals.is_empty()).then(|| asked(scene, start, goals))
 }
 
 fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {

@@ -145,8 +145,6 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
         let (graph, origin) = graph(grid, sources, neighborhood);
         let node = NodeIndex::new(target);
         let least = petgraph::algo::dijkstra(&graph, origin, Some(node), |edge| *edge.weight()).get(&node).copied();
-        let a_star = petgraph::algo::astar(&graph, origin, |n| n == node, |edge| *edge.weight(), |_| 0.0);
-        prop_assert_eq!(least.is_some(), a_star.is_some());
         let steps = textbook(grid, sources, neighborhood)[target];
         let orders = [Order::BreadthFirst, Order::DepthFirst, Order::Dijkstra, A_STAR[0], A_STAR[1]];
         for order in orders {

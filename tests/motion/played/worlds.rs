@@ -52,6 +52,17 @@ fn shipped() -> Vec<[PathBuf; 2]> {
     problems.iter().map(|problem| [file(problem, "robot"), file(problem, "world")]).collect()
 }
 
+/// Names of a world's objects.
+fn objects(world: &Path) -> Vec<String> {
+    let world: toml::Table = std::fs::read_to_string(world).unwrap().parse().unwrap();
+    let objects = world["object"].as_array().unwrap().iter().enumerate();
+    let name = |(i, object): (usize, &toml::Value)| match object.get("name") {
+        Some(name) => name.as_str().unwrap().to_owned(),
+        None => format!("object {}", i + 1),
+    };
+    objects.map(name).collect()
+}
+
 fn tasks() -> Vec<[PathBuf; 2]> {
     let worlds = std::fs::read_dir(root("workspaces/tasks")).unwrap().map(|entry| entry.unwrap().path());
     let mut tasks: Vec<_> = worlds
@@ -90,7 +101,7 @@ fn what_a_controller_plays_of_every_shipped_world_is_certified() {
 
 #[test]
 fn what_a_controller_plays_of_every_shipped_task_is_certified() {
-    let (mut found, mut dwells) = (0, 0);
+    let (mut found, mut dwells, mut accepted) = (0, 0, 0);
     for [robot, world] in tasks() {
         let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
         let run = Run::of(&robot, &world, &[]);
@@ -101,9 +112,22 @@ fn what_a_controller_plays_of_every_shipped_task_is_certified() {
         dwells += judge_all(&name, &run, &joints(&robot, &world)).dwells;
         let (code, said) = run.verified(&robot, &world, "json");
         assert_eq!(code, 0, "{name}: {said}");
+        // Without the steps it is one motion among objects where they lie at first, which is said; nothing else is met.
+        let objects = objects(&world);
+        for format in FORMATS.into_iter().filter(|format| *format != "json") {
+            let (code, said) = run.verified(&robot, &world, format);
+            assert!(said.contains("with all objects where they lie at first"), "{name}.{format}: {said}");
+            let contact = said.lines().find(|line| line.starts_with("contact "));
+            let is_object = |line: &str| objects.iter().any(|object| line.contains(&format!("and obstacle \"{object}\"")));
+            let is_kept = code == 0 || (code == 3 && contact.is_some_and(is_object));
+            let breaks_limits = said.lines().any(|line| line.starts_with("limit "));
+            assert!(is_kept && !breaks_limits, "{name}.{format}: {said}");
+            accepted += usize::from(code == 0);
+        }
         found += 1;
     }
     assert!(found >= 8 && dwells >= 40, "only {found} tasks are done, with {dwells} dwells");
+    assert!(accepted >= 2 * found / 3, "only {accepted} files of {found} tasks are free as they stand");
 }
 
 #[test]

@@ -46,6 +46,44 @@ fn rings_that_repeat_points_are_the_rings_without() {
         .found(&[]);
 }
 
+#[test]
+fn preferred_regions_are_read_like_obstacles_and_verify_says_so() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    let wish = |shape: &str| format!("{FREE}[[preference]]\nname = \"wish\"\nepsilon = 0.3\n{shape}\n");
+    let options = "--planner wavefront --quiet --output a.csv";
+    assert_eq!(place.plan(wish("polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]"), options).code, 0);
+    for (shape, note) in [
+        (
+            "polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6], [0.2, 0.3]]",
+            "preference \"wish\": the last point of a ring repeats",
+        ),
+        (
+            "polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.3], [0.5, 0.6]]",
+            "preference \"wish\": points that repeat the one",
+        ),
+        ("configurations = [[0, 0], [1, 0], [1, 1], [0, 0]]", "preference \"wish\": the last point of a ring repeats"),
+    ] {
+        place.plan(wish(shape), "").found(&[note]);
+        // The motion of the world without repetitions, judged in this one.
+        let judged = place.run(&["verify", &robot, "world.toml", "a.csv"], "");
+        judged.found(&[note]);
+    }
+    for (shape, parts) in [
+        ("polygon = [[0.2, 0.3], [0.5, 0.6], [0.5, 0.3], [0.2, 0.6]]", "sides 1 and 3 cross"),
+        (
+            "polygon = [[1.2, 0.2], [1.4, 0.1], [1.4, 0.3], [1.2, 0.2], [1.0, 0.35], [1.0, 0.3]]",
+            "corners 1 and 4 coincide",
+        ),
+    ] {
+        let refused = place.plan(wish(shape), "");
+        refused.refused(
+            1,
+            &["preference \"wish\" is not a simple polygon", parts, "line 8", "cure: list the corners in order"],
+        );
+    }
+}
+
 /// A start in the hole of a plate.
 const PLATE: &str = "[start]\njoints = [0.0, 0.0]\n[goal]\njoints = [GOAL]\n[[obstacle]]\nname = \"plate\"\n";
 

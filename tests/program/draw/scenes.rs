@@ -46,7 +46,7 @@ pub fn arm(names: [&str; 2], motions: [Motion; 2], axes: [Axis; 2], lengths: [f6
 }
 
 pub fn capsule(length: f64, radius: f64) -> Convex {
-    convex(vec![Point::origin(), Point::new(length, 0.0)], radius)
+    common::wall(Point::origin(), Point::new(length, 0.0)).grown(radius)
 }
 
 pub fn block(x0: f64, y0: f64, x1: f64, y1: f64) -> Convex {
