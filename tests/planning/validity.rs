@@ -175,14 +175,14 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     assert_eq!(refused(free, two), ProblemDefect::GoalOutside { goal: 1, joint, value });
     let hit = refused(free, blocked.into()).to_string();
     assert!(hit.starts_with("goal 1 is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
-    // A wall through the tip only: what of a segment is not free is no goal.
+    // Of a segment some may be blocked.
     let through = GoalSet::from(Segment::new(free, q(PI / 4.0, 0.3)));
     let problem = Problem::new(scene(), free, through).expect("some of it is free");
     assert!(matches!(solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {}).verdict, Verdict::Found(_)));
     // What keeps less than the clearance is not free either.
-    let near = scene().with_clearance(0.5).expect("a clearance");
+    let near = scene().with_clearance(0.7).expect("a clearance");
     let touched = Problem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();
-    assert!(touched.contains("nearer than the clearance of 0.5 m"), "{touched}");
+    assert!(touched.contains("nearer than the clearance of 0.7 m"), "{touched}");
 }
 
 /// Corners in convex position by construction: on an ellipse, in the order of their angles. And the same on integers, judged
@@ -203,10 +203,9 @@ fn what_is_valid_is_taken() {
         assert_eq!((shape.core(), shape.radius()), (&core[..], radius));
         let backwards: Vec<Point> = core.iter().rev().copied().collect();
         assert!(matches!(Convex::new(backwards.clone(), radius), Err(ConvexDefect::NotConvex { .. })), "seed {seed}");
-        assert_eq!(
-            SimplePolygon::new(backwards).expect("either direction").area(),
-            SimplePolygon::new(core).unwrap().area()
-        );
+        let [one, other] =
+            [backwards, core].map(|corners| SimplePolygon::new(corners).expect("either direction").area());
+        assert!((one - other).abs() < 1e-12, "seed {seed}: {one} {other}");
 
         let corners: Vec<(i64, i64)> =
             (0..3 + dice.below(3)).map(|_| [0, 1].map(|_| dice.below(7) as i64 - 3).into()).collect();

@@ -118,7 +118,8 @@ fn what_a_controller_plays_of_every_shipped_task_is_certified() {
             let (code, said) = run.verified(&robot, &world, format);
             assert!(said.contains("with all objects where they lie at first"), "{name}.{format}: {said}");
             let contact = said.lines().find(|line| line.starts_with("contact "));
-            let is_object = |line: &str| objects.iter().any(|object| line.contains(&format!("and obstacle \"{object}\"")));
+            let is_object =
+                |line: &str| objects.iter().any(|object| line.contains(&format!("and obstacle \"{object}\"")));
             let is_kept = code == 0 || (code == 3 && contact.is_some_and(is_object));
             let breaks_limits = said.lines().any(|line| line.starts_with("limit "));
             assert!(is_kept && !breaks_limits, "{name}.{format}: {said}");

@@ -10,7 +10,8 @@ const MISSING: [&str; 6] =
     ["there is no ", "there are no ", "holds no ", "holds neither ", "is missing", "has no link"];
 
 /// Where something is in a document of nested members, which has lines for how it is written, not for what it says.
-const MEMBERS: [&str; 7] = ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "too large to be meant"];
+const MEMBERS: [&str; 7] =
+    ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "too large to be meant"];
 
 /// Done (0, 3, 4), or told what is wrong: one object with file, place, message and cure. Whether it is an error.
 fn is_answered(done: &Done, text: &str) -> bool {
@@ -29,9 +30,13 @@ fn is_answered(done: &Done, text: &str) -> bool {
         assert!(said("file") && said("message") && said("cure"), "{defect:#}\n{text}");
         let message = defect["message"].as_str().unwrap_or_default();
         let is_missing = MISSING.iter().any(|words| message.contains(words));
-        let is_document = defect["file"].as_str().is_some_and(|file| file.ends_with(".json") || file.ends_with(".yaml"));
+        let is_document =
+            defect["file"].as_str().is_some_and(|file| file.ends_with(".json") || file.ends_with(".yaml"));
         let is_member = is_document && MEMBERS.iter().any(|words| message.contains(words));
-        assert!(defect["line"].as_u64().is_some_and(|line| line > 0) || is_missing || is_member, "no line: {defect:#}\n{text}");
+        assert!(
+            defect["line"].as_u64().is_some_and(|line| line > 0) || is_missing || is_member,
+            "no line: {defect:#}\n{text}"
+        );
     }
     true
 }
