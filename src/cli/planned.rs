@@ -49,7 +49,7 @@ impl Planned<'_> {
         match format {
             PictureFormat::Html => Ok(page(&self.view()).into_bytes()),
             _ => {
-                let contours = output::contours(&self.problem.scene);
+                let contours = output::contours(self.problem.scene());
                 self.with_picture(&contours, |picture| output::drawn(format, picture))
             }
         }
@@ -57,7 +57,7 @@ impl Planned<'_> {
 
     /// What a page shows of it.
     pub fn view(&self) -> View {
-        self.view_among(&output::contours(&self.problem.scene))
+        self.view_among(&output::contours(self.problem.scene()))
     }
 
     /// The same, where the contours of the C-obstacles are known.

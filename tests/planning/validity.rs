@@ -17,7 +17,9 @@ use std::f64::consts::PI;
 const NAN: f64 = f64::NAN;
 const INFINITE: f64 = f64::INFINITY;
 
-fn points(list: &[(f64, f64)]) -> Vec<Point> {
+type Corners<'a> = &'a [(f64, f64)];
+
+fn points(list: Corners) -> Vec<Point> {
     list.iter().map(|&(x, y)| Point::new(x, y)).collect()
 }
 
@@ -27,7 +29,7 @@ fn no_convex_shape_is_made_of_what_is_none() {
     let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)];
     let clockwise: Vec<_> = square.iter().rev().copied().collect();
     let pentagram: Vec<_> = (0..5).map(|k| (f64::from(k) * 0.8 * PI).sin_cos()).collect();
-    let cases: &[(&[(f64, f64)], f64, ConvexDefect)] = &[
+    let cases: &[(Corners, f64, ConvexDefect)] = &[
         (&[], 0.1, NoCorner),
         (&square, -0.1, Radius { radius: -0.1 }),
         (&square, INFINITE, Radius { radius: INFINITE }),

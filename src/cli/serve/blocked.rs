@@ -46,8 +46,8 @@ fn postures(
     let found = match place {
         Goal::Joints(q) => vec![q],
         Goal::Tip(tip) => {
-            let solved = inverse(&scene.arm, tip, near);
-            let within: Vec<_> = solved.solutions(&scene.arm).iter().map(|piece: &Segment| piece.ends()[0]).collect();
+            let solved = inverse(scene.arm(), tip, near);
+            let within: Vec<_> = solved.solutions(scene.arm()).iter().map(|piece: &Segment| piece.ends()[0]).collect();
             if within.is_empty() { solved.branches } else { within }
         }
     };
@@ -87,9 +87,9 @@ fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruct
 
 fn in_words(scene: &Scene, hit: &Obstruction) -> String {
     let (part, distance) = (scene.describe_part(hit.contact.pair), hit.contact.separation.distance);
-    let obstacle = &scene.workspace.obstacles[hit.contact.pair.obstacle].name;
+    let obstacle = &scene.workspace().obstacles[hit.contact.pair.obstacle].name;
     if !hit.touches {
-        let wanted = millimetres(scene.workspace.clearance);
+        let wanted = millimetres(scene.workspace().clearance);
         return format!(
             "{part} is {} from \"{obstacle}\", nearer than the clearance of {wanted}",
             millimetres(distance)

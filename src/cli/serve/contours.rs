@@ -38,8 +38,8 @@ impl Contours {
     /// The contours for pictures of a scene without payload, obstacle by obstacle. Time is taken by the obstacles that the
     /// last scene did not have.
     pub fn of(&self, scene: &Scene) -> Vec<CObstacle> {
-        let obstacles = &scene.workspace.obstacles;
-        let of = Some((scene.arm.clone(), scene.workspace.clearance));
+        let obstacles = &scene.workspace().obstacles;
+        let of = Some((scene.arm().clone(), scene.workspace().clearance));
         let found = {
             let mut known = self.known.borrow_mut();
             if known.of != of {
@@ -76,11 +76,11 @@ impl Known {
 
 /// The contours of some obstacles, one entry for each.
 fn traced(scene: &Scene, wanted: &[usize]) -> Vec<Entry> {
-    let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace.obstacles[k].clone()).collect();
+    let obstacles: Vec<Obstacle> = wanted.iter().map(|&k| scene.workspace().obstacles[k].clone()).collect();
     let entry = |o: &Obstacle| Entry { pieces: o.pieces.clone(), heights: o.heights, contours: Vec::new() };
     let mut entries: Vec<Entry> = obstacles.iter().map(entry).collect();
-    let workspace = Workspace { obstacles, preferences: Vec::new(), ..scene.workspace.clone() };
-    for contour in output::contours(&Scene::new(scene.arm.clone(), workspace)) {
+    let workspace = Workspace { obstacles, preferences: Vec::new(), ..scene.workspace().clone() };
+    for contour in output::contours(&Scene::trusted(scene.arm().clone(), workspace)) {
         entries[contour.obstacle].contours.push(contour);
     }
     entries

@@ -203,7 +203,7 @@ impl<'a> Desk<'a> {
             let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
             AnswerReply { start: Some(start.into()), goals, ..answer }
         };
-        let (scene, ends) = (&problem.scene, (start, goals));
+        let (scene, ends) = (problem.scene(), (start, goals));
         if !ask.is_final {
             let planning = interrupt.clone().by(begun + DRAG_TIME);
             let plan = || result::quick(&problem, options.method(), &effort, &self.contours);

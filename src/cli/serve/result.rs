@@ -145,7 +145,7 @@ impl<'a> Found<'a> {
         Ok(AnswerReply {
             reason,
             figures,
-            view: drawn(&planned.view_among(&contours.of(&self.problem.scene))),
+            view: drawn(&planned.view_among(&contours.of(self.problem.scene()))),
             ..judged
         })
     }

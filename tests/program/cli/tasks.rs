@@ -222,7 +222,7 @@ fn shipped_tasks_are_consistent() {
         let done = Place::new().run(&files, "--json --quiet");
         assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{world}");
         let [urdf, world] = files.each_ref().map(Path::new);
-        consistent(&load_scene(urdf, world).unwrap().scene.arm(), &done.json());
+        consistent(load_scene(urdf, world).unwrap().scene.arm(), &done.json());
     }
 }
 
