@@ -131,11 +131,11 @@ impl<'a> Peeling<'a> {
     pub fn run(mut self) -> Self {
         if let Some(window) = self.whole() {
             self.windows += 1;
-            if let Some(solution) = self.wide(&window).solve(FLOOR) {
-                self.accept(&window, &solution, PRECISE);
-            } else {
-                self.accept(&window, &vec![[0.0; SIDES]; window.cells.len()], PRECISE);
-            }
+            let wide = self.wide(&window);
+            match wide.solve(FLOOR) {
+                Some(values) => self.accept(&window, |i| wide.at(&values, i), PRECISE),
+                None => self.accept(&window, |_| [0.0; SIDES], PRECISE),
+            };
         }
         if self.unknown > 0 {
             self.room = self.component.room().widest;
@@ -149,10 +149,14 @@ impl<'a> Peeling<'a> {
             let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);
             let small = if widest <= MEDIUM { corridor } else { SMALL };
             let direct = widest <= NARROW || window.cells.len() <= small;
-            let wide = if direct { None } else { self.wide(&window).solve(FLOOR * window.greatest) };
-            let least = if wide.is_some() { PRECISE } else { SMALLEST };
-            let solution = wide.unwrap_or_else(|| self.network(&window).solve());
-            let accepted = self.accept(&window, &solution, least);
+            let wide = if direct { None } else { Some(self.wide(&window)) };
+            let solved = wide.and_then(|wide| wide.solve(FLOOR * window.greatest).map(|values| (wide, values)));
+            let accepted = if let Some((wide, values)) = solved {
+                self.accept(&window, |i| wide.at(&values, i), PRECISE)
+            } else {
+                let solution = self.network(&window).solve();
+                self.accept(&window, |i| solution[i], SMALLEST)
+            };
             if 4 * accepted < window.cells.len() {
                 self.depth *= 1.5;
             }
@@ -304,13 +308,14 @@ impl<'a> Peeling<'a> {
     }
 
     /// Takes over the values that what is beyond the window has no part in; how many.
-    fn accept(&mut self, window: &Window, solution: &[[f64; SIDES]], least: f64) -> usize {
+    fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; SIDES], least: f64) -> usize {
         // Values beyond are at most the greatest of those next to them: of known cells, or of the window's own, which
         // are at most their value here and their share of what is beyond.
         let mut beyond = window.beside;
         let (mut value, mut share) = (0.0_f64, 0.0_f64);
         let at_risk = if window.cut { &window.cells[..] } else { &[] };
-        for (&position, &[u, e]) in at_risk.iter().zip(solution) {
+        for (i, &position) in at_risk.iter().enumerate() {
+            let [u, e] = solution(i);
             if self.around(position as usize).any(|n| !self.is_known(n) && self.number[n] == NONE) {
                 value = value.max(u);
                 share = share.max(e);
@@ -320,12 +325,11 @@ impl<'a> Peeling<'a> {
             beyond = if share < 1.0 { beyond.max(value / (1.0 - share)).min(window.greatest) } else { window.greatest };
         }
         let mut taken = 0;
-        let mut front = window.sources.clone();
-        for (&position, &[u, e]) in window.cells.iter().zip(solution) {
+        for (i, &position) in window.cells.iter().enumerate() {
+            let [u, e] = solution(i);
             self.number[position as usize] = NONE;
             if e * beyond <= NEGLIGIBLE * u && u >= least * window.greatest {
                 self.potential.set(position as usize, Scaled { mantissa: u, exponent: window.exponent }.normalized());
-                front.push(position);
                 taken += 1;
             }
         }
@@ -334,8 +338,8 @@ impl<'a> Peeling<'a> {
             self.front.clear();
             return taken;
         }
-        for position in front {
-            if self.is_front(position as usize) {
+        for &position in window.sources.iter().chain(&window.cells) {
+            if self.is_known(position as usize) && self.is_front(position as usize) {
                 let log2 = self.potential.at(position as usize).log2();
                 self.front.push(Front { log2, position });
             }

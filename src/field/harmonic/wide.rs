@@ -29,9 +29,13 @@ pub(super) struct Wide {
     loss: f64,
     /// Where in the box each unknown is.
     place: Vec<u32>,
-    /// For each place in the box the sums of known values around it: the potential, and 1 at what is cut off.
+    /// For each place in the box the sums of known values around it: the potential, and 1 at what is cut off. Nothing for a
+    /// side that is 0 everywhere.
     source: [Vec<f64>; SIDES],
 }
+
+/// Both sides for each place in the box; nothing for a side that is 0 everywhere.
+pub(super) struct Values([Vec<f64>; SIDES]);
 
 /// Error of a round, relative to the greatest correction: as much as single precision gains in a few steps.
 const DIGITS: f64 = 1e-8;
@@ -45,28 +49,36 @@ const SHARE_ERROR: f64 = 1e-7;
 impl Wide {
     /// No unknowns yet.
     pub fn new(cells: [usize; 2], ends: [Ends; 2], loss: f64) -> Self {
-        let area = cells[0] * cells[1];
-        Self { cells, ends, loss, place: Vec::new(), source: [vec![0.0; area], vec![0.0; area]] }
+        Self { cells, ends, loss, place: Vec::new(), source: [Vec::new(), Vec::new()] }
     }
 
     /// One more unknown.
     pub fn push(&mut self, place: usize, source: [f64; SIDES]) {
         self.place.push(place as u32);
         for (of, source) in self.source.iter_mut().zip(source) {
-            of[place] = source;
+            if source != 0.0 {
+                of.resize(self.cells[0] * self.cells[1], 0.0);
+                of[place] = source;
+            }
         }
     }
 
-    /// Both sides for each unknown: the first precise down to `floor`, the second from above, within [`SHARE_ERROR`] of 1.
-    /// Nothing if the refinement does not get there.
-    pub fn solve(&self, floor: f64) -> Option<Vec<[f64; SIDES]>> {
-        let mut free = vec![false; self.source[0].len()];
+    /// Both sides for each place: the first precise down to `floor`, the second within [`SHARE_ERROR`] of 1. Nothing if the
+    /// refinement does not get there.
+    pub fn solve(&self, floor: f64) -> Option<Values> {
+        let mut free = vec![false; self.cells[0] * self.cells[1]];
         self.place.iter().for_each(|&place| free[place as usize] = true);
         let inner = Multigrid::new(self.cells, self.ends, &free, 0.0);
         let mut workspace = inner.workspace();
         let u = self.side(0, &free, floor, ROUNDS, (&inner, &mut workspace))?;
         let e = self.side(1, &free, 1.0, 1, (&inner, &mut workspace))?;
-        Some(self.place.iter().map(|&at| [u[at as usize], e[at as usize] + SHARE_ERROR]).collect())
+        Some(Values([u, e]))
+    }
+
+    /// Both sides for an unknown, by its number; the second from above.
+    pub fn at(&self, Values([u, e]): &Values, number: usize) -> [f64; SIDES] {
+        let at = self.place[number] as usize;
+        [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
     /// Values of one side for all places in the box.
@@ -80,7 +92,7 @@ impl Wide {
     ) -> Option<Vec<f64>> {
         let mut right = self.source[side].clone();
         let mut x = vec![0.0; right.len()];
-        if right.iter().all(|&source| source == 0.0) {
+        if right.is_empty() {
             return Some(x);
         }
         let mut correction = vec![0.0; right.len()];
@@ -140,10 +152,10 @@ mod tests {
         let (w, n) = (50, 1500);
         let mut wide = Wide::new([w, n], [Ends::High; 2], 0.0);
         (0..w * n).for_each(|at| wide.push(at, [f64::from(u8::from(at % n == 0)), 0.0]));
-        let solution = wide.solve(1e-60).expect("precise within the rounds that there are");
+        let values = wide.solve(1e-60).expect("precise within the rounds that there are");
         let beta = std::f64::consts::PI / (w + 1) as f64;
         let theta = (2.0 - beta.cos()).acosh();
-        let at = |j: usize| solution[w / 2 * n + j][0];
+        let at = |j: usize| wide.at(&values, w / 2 * n + j)[0];
         for (near, far) in [(600, 800), (800, 1200), (1200, 1499)] {
             let fall = |j: usize| (theta * (n - j) as f64).sinh();
             let (expected, found) = (fall(far) / fall(near), at(far) / at(near));
