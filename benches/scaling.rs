@@ -24,6 +24,14 @@ fn ring(count: usize, [inner, outer]: [f64; 2]) -> Vec<Point> {
 
 const SHAPES: [(&str, [f64; 2]); 2] = [("disc", [0.15, 0.15]), ("star", [0.1, 0.2])];
 
+/// A polyline of so many points about that place: a noisy zigzag, whose pieces cross each other.
+fn zigzag(count: usize) -> Vec<Point> {
+    let noise = |k: usize| (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) - 0.5;
+    let point =
+        |k: usize| Point::new(1.0 + 0.3 * k as f64 / count as f64, 0.25 + 0.05 * (k % 2) as f64 + 0.04 * noise(k));
+    (0..count).map(point).collect()
+}
+
 /// Checking a polygon and cutting it up.
 fn reading(c: &mut Criterion) {
     let mut group = c.benchmark_group("a polygon is read");
@@ -44,12 +52,18 @@ fn reading(c: &mut Criterion) {
 fn spaces(c: &mut Criterion) {
     let mut group = c.benchmark_group("its configuration space");
     group.sample_size(10);
-    for (name, radii) in SHAPES {
-        for count in SIZES {
-            let polygon = SimplePolygon::new(ring(count, radii)).unwrap();
-            let shape = Shape::Polygon(polygon.corners().to_vec());
-            let obstacle =
-                Obstacle { name: name.into(), shape, pieces: polygon.convex_pieces(), heights: Heights::ALL };
+    let polygon = |corners: Vec<Point>| {
+        let polygon = SimplePolygon::new(corners).unwrap();
+        (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces())
+    };
+    let wall = |points: Vec<Point>| {
+        let pieces = points.windows(2).map(|w| common::wall(w[0], w[1])).collect();
+        (Shape::Polyline(points), pieces)
+    };
+    for count in SIZES {
+        let [disc, star] = SHAPES.map(|(name, radii)| (name, polygon(ring(count, radii))));
+        for (name, (shape, pieces)) in [disc, star, ("zigzag", wall(zigzag(count)))] {
+            let obstacle = Obstacle { name: name.into(), shape, pieces, heights: Heights::ALL };
             let workspace =
                 Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
             let range = Axis::Interval { lower: -2.8, upper: 2.8 };

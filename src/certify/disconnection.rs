@@ -29,6 +29,13 @@ impl Disconnection {
         &self.stuck
     }
 
+    /// The same of a scene in which the pairs are others: those that `pair` names. It is for [`super::recheck`] to say
+    /// whether that proves anything.
+    pub(crate) fn of_pairs(mut self, pair: impl Fn(Pair) -> Pair) -> Self {
+        self.stuck.iter_mut().for_each(|stuck| stuck.pair = pair(stuck.pair));
+        self
+    }
+
     /// The proof that consists of these boxes.
     pub(super) fn of(stuck: Vec<StuckBox>) -> Self {
         Self { stuck }

@@ -3,18 +3,23 @@
 use super::deviation::{Deviation, Posture};
 use crate::geometry::{BoxTree, Vector};
 use crate::model::{Pair, Scene};
+use std::borrow::Cow;
 
 /// The pairs of a scene, by the place of the obstacle's piece.
 pub(super) struct Vicinity<'a> {
-    pairs: &'a [Pair],
+    pairs: Cow<'a, [Pair]>,
     /// Stretches of pairs with the same part, and the boxes of their pieces.
     parts: Vec<(usize, BoxTree)>,
 }
 
 impl<'a> Vicinity<'a> {
-    /// `O(n log n)` in the pairs.
+    /// All of them. `O(n log n)`.
     pub fn new(scene: &'a Scene) -> Self {
-        let pairs = scene.pairs();
+        Self::of(scene, Cow::Borrowed(scene.pairs()))
+    }
+
+    /// Some of them, in their order.
+    pub fn of(scene: &Scene, pairs: Cow<'a, [Pair]>) -> Self {
         let mut from = 0;
         let stretches = pairs.chunk_by(|a, b| (a.link, a.part) == (b.link, b.part)).map(|stretch| {
             let first = from;

@@ -1,5 +1,6 @@
 //! Shapes with fewer corners around shapes with many: no configuration space shows more than its margin.
 
+use super::covering::covering;
 use crate::geometry::{Convex, Point, SimplePolygon, Vector, cross, perpendicular};
 use crate::model::{Obstacle, Scene, Shape};
 use std::borrow::Cow;
@@ -7,40 +8,79 @@ use std::borrow::Cow;
 /// Shapes with no more corners stay as they are.
 const PLAIN: usize = 16;
 
+/// An obstacle of more pieces, however its outline is simplified, is covered by polygons made of small cells, if these are fewer.
+const MANY: usize = 512;
+
 /// A polygon whose coarse outline crosses itself is tried again so many times, each with a quarter of the tolerance.
 const ATTEMPTS: usize = 3;
+
+/// Share of the tolerance for the corners of polygons made of cells.
+const ROUNDED: f64 = 0.25;
 
 /// Outlines are moved out by this share of the coordinates, more than what rounding takes off them.
 const ROUNDING: f64 = 1e-13;
 
 /// A scene whose shapes hold those of the given one and reach no farther than `within` metres beyond them, all in all; parts
-/// and pieces that have few corners are the same. `O(n log n)`.
+/// and pieces that have few corners are the same. Of obstacles with many pieces those may be left out that the arm keeps
+/// farther than `near` from in all postures. `O(n log n)`.
 ///
 /// What is free among coarse shapes is free among the true ones.
-pub(super) fn coarse(scene: &Scene, within: f64) -> Cow<'_, Scene> {
+pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     let fine = |shape: &Convex| shape.core().len() > PLAIN;
     let many = |obstacle: &Obstacle| {
         let outlined = matches!(obstacle.shape, Shape::Polygon(_) | Shape::Polyline(_));
         outlined && obstacle.pieces.len() > PLAIN || obstacle.pieces.iter().any(fine)
     };
     let parts = scene.own_parts(0).iter().chain(scene.own_parts(1));
-    if within <= 0.0 || !parts.map(|part| &part.shape).any(fine) && !scene.workspace().obstacles.iter().any(many) {
+    if within <= 0.0 || !parts.clone().any(|part| fine(&part.shape)) && !scene.workspace().obstacles.iter().any(many) {
         return Cow::Borrowed(scene);
     }
-    let each = within / 2.0;
+    // Where parts of the arm become coarser, too, they and obstacles share what is allowed.
+    let each = if parts.clone().any(|part| fine(&part.shape)) { within / 2.0 } else { within };
+    let reach = reach(scene).map(|reach| reach + near);
+    let can_meet = |piece: &Convex| reach.is_none_or(|reach| distance_of_bounds(piece, scene.arm().base) <= reach);
     let pieces = |obstacle: &Obstacle| {
         if !many(obstacle) {
             return obstacle.pieces.clone();
+        }
+        let met: Vec<Convex> = obstacle.pieces.iter().filter(|piece| can_meet(piece)).cloned().collect();
+        if met.len() <= PLAIN {
+            return met.iter().map(|piece| around(piece, each)).collect();
         }
         let simplified = match &obstacle.shape {
             Shape::Polygon(corners) => around_polygon(corners, each),
             Shape::Polyline(points) => Some(around_polyline(points, each)),
             Shape::Circle { .. } | Shape::Pieces => None,
         };
-        let fewer = simplified.filter(|pieces| pieces.len() < obstacle.pieces.len());
-        fewer.unwrap_or_else(|| obstacle.pieces.iter().map(|piece| around(piece, each)).collect())
+        let simplified = simplified.map(|mut pieces| {
+            pieces.retain(can_meet);
+            pieces
+        });
+        let fewer = simplified.filter(|pieces| pieces.len() < met.len());
+        let pieces = fewer.unwrap_or_else(|| met.iter().map(|piece| around(piece, each)).collect());
+        let covered = || covered(&met, each).filter(|covered| covered.len() < pieces.len());
+        if pieces.len() > MANY { covered().unwrap_or(pieces) } else { pieces }
     };
     Cow::Owned(scene.reshaped(|part| around(part, each), pieces))
+}
+
+/// How far from the base anything of the arm gets, where that is plain: both joints turn and nothing is carried level.
+fn reach(scene: &Scene) -> Option<f64> {
+    let turns = scene.arm().joints.iter().all(|joint| joint.motion.is_revolute());
+    (turns && scene.payload().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
+}
+
+/// Distance of a shape's bounds from a point, no more than that of the shape.
+fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
+    let [lower, upper] = shape.bounds();
+    (0..2).map(|k| (lower[k] - from[k]).max(from[k] - upper[k]).max(0.0)).fold(0.0, f64::hypot)
+}
+
+/// [`covering`] of pieces without curves, with few corners each.
+fn covered(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
+    let straight = pieces.iter().all(|piece| piece.radius() == 0.0);
+    let covering = if straight { covering(pieces, within * (1.0 - ROUNDED)) } else { None };
+    covering.map(|covering| covering.iter().map(|piece| around(piece, within * ROUNDED)).collect())
 }
 
 /// A convex shape with few corners that holds a given one and reaches no farther than `within` beyond it: some of its sides,

@@ -3,6 +3,7 @@
 mod bitmap;
 mod chord;
 mod coarse;
+mod covering;
 mod curves;
 mod events;
 mod grid;
@@ -20,7 +21,7 @@ mod zones;
 pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
-pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions};
+pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions, traced_pairs};
 pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_rows, outer_grid};

@@ -9,6 +9,7 @@ use crate::geometry::{Hits, Point, cross};
 use crate::interrupt::checkpoint;
 use crate::model::{Joint, Scene};
 use crate::space::{Axis, Configuration, Topology};
+use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
 /// Share of the margin that is left of it, as proven distance, on the contours of [`regions`] after flattening. The rest
@@ -155,7 +156,7 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
     let level = scene.workspace().clearance + margin;
-    let scene = &*coarse(scene, COARSENESS * margin);
+    let scene = &*coarsened(scene, margin, tolerance);
     let rows = Rows::new(scene);
     let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();
@@ -173,6 +174,17 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
         obstacles.extend(contours.into_iter().map(|contour| CObstacle { obstacle, link, contour }));
     }
     obstacles
+}
+
+/// The scene that contours are traced of.
+fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
+    coarse(scene, COARSENESS * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
+}
+
+/// How many pairs of shapes [`regions`] traces with that `margin`: shapes with many corners are coarser the greater it is.
+#[must_use]
+pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
+    coarsened(scene, KEPT * margin, (1.0 - KEPT) * margin).pairs().len()
 }
 
 /// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap

@@ -62,7 +62,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     };
     let fine = Rows::new(scene);
     let within = COARSENESS * margin(&fine, &motions(&fine), steps, clearance);
-    let scene = coarse(scene, within);
+    let scene = coarse(scene, within, f64::INFINITY);
     let rows = if let Cow::Owned(scene) = &scene { Rows::new(scene) } else { fine };
     let within = if matches!(scene, Cow::Owned(_)) { within } else { 0.0 };
     let motions = motions(&rows);

@@ -49,48 +49,82 @@ pub(super) fn free_space<'a>(
 }
 
 /// With more contours than this, neighbours are united before all of them are.
-const MANY: usize = 4 * GROUP;
+const MANY: usize = 128;
 
 /// Contours that are united first.
-const GROUP: usize = 32;
+const GROUP: usize = 8;
+
+/// Neighbouring groups whose outlines are united next, and so on.
+const GROUPS: usize = 4;
+
+/// Outlines of which more than this share of the corners was left by a union hardly overlap: the last union does as well.
+const WORTH: f64 = 0.75;
 
 type Overlay = FloatOverlay<[f64; 2], i64>;
+
+type Contours = Vec<Vec<[f64; 2]>>;
 
 fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
     Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), Solver::default())
 }
 
-/// Contours with the same union, in which fewer cross: those of a map's neighbouring pixels overlap almost wholly, each with
-/// each, and of a group of them little more than the outline is left. Holes of the outlines are clockwise.
-fn united_by_neighbors(contours: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+/// Contours with the same union, in which fewer cross: those of small neighbouring pieces overlap almost wholly, each with
+/// each, and of a group of them little more than the outline is left, of groups of groups again. So what crosses is as much as
+/// the outlines have corners, and not the square of the contours.
+fn united_by_neighbors(contours: Contours) -> Contours {
     let middle = |contour: &[[f64; 2]], k: usize| {
         let (low, high) =
             contour.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p[k]), h.max(p[k])));
         low + (high - low) / 2.0
     };
-    let mut placed: Vec<([f64; 2], Vec<[f64; 2]>)> =
+    let mut placed: Vec<Placed> =
         contours.into_iter().map(|contour| ([0, 1].map(|k| middle(&contour, k)), contour)).collect();
-    let mut united = Vec::new();
-    let mut parts = vec![&mut placed[..]];
-    while let Some(part) = parts.pop() {
-        checkpoint();
-        if part.len() > GROUP {
-            // Halved across its longer side.
-            let extent = |k: usize| {
-                let values = || part.iter().map(|(at, _)| at[k]);
-                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
-            };
-            let k = usize::from(extent(1) > extent(0));
-            let half = part.len() / 2;
-            part.select_nth_unstable_by(half, |(a, _), (b, _)| a[k].total_cmp(&b[k]));
-            let (less, more) = part.split_at_mut(half);
-            parts.extend([less, more]);
-        } else {
-            let group: Vec<Vec<[f64; 2]>> = part.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect();
-            united.extend(overlay(&[], &group).overlay(OverlayRule::Union, FillRule::NonZero).into_iter().flatten());
-        }
+    united_part(&mut placed).0
+}
+
+/// The middle of a contour's extent, and the contour.
+type Placed = ([f64; 2], Vec<[f64; 2]>);
+
+/// The outlines of a part, and whether it was worth it.
+fn united_part(part: &mut [Placed]) -> (Contours, bool) {
+    checkpoint();
+    if part.len() <= GROUP {
+        let group: Contours = part.iter_mut().map(|(_, contour)| std::mem::take(contour)).collect();
+        return united_if_worth(group);
     }
-    united
+    let mut parts = vec![part];
+    while parts.len() < GROUPS && parts.iter().any(|part| part.len() > GROUP) {
+        parts = parts.into_iter().flat_map(halved).collect();
+    }
+    let (mut outlines, mut worth) = (Contours::new(), false);
+    for part in parts {
+        let (more, was_worth) = united_part(part);
+        outlines.extend(more);
+        worth |= was_worth;
+    }
+    if worth { united_if_worth(outlines) } else { (outlines, false) }
+}
+
+/// The outlines of a union, and whether they have clearly fewer corners than the contours.
+fn united_if_worth(contours: Contours) -> (Contours, bool) {
+    let corners = |contours: &Contours| contours.iter().map(Vec::len).sum::<usize>() as f64;
+    let before = corners(&contours);
+    let outlines: Contours =
+        overlay(&[], &contours).overlay(OverlayRule::Union, FillRule::NonZero).into_iter().flatten().collect();
+    let worth = corners(&outlines) <= WORTH * before;
+    (outlines, worth)
+}
+
+/// Halved across the longer side of what the middles cover.
+fn halved(part: &mut [Placed]) -> [&mut [Placed]; 2] {
+    let extent = |k: usize| {
+        let values = || part.iter().map(|(at, _)| at[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let k = usize::from(extent(1) > extent(0));
+    let half = part.len() / 2;
+    part.select_nth_unstable_by(half, |(a, _), (b, _)| a[k].total_cmp(&b[k]));
+    part.split_at_mut(half).into()
 }
 
 /// The shifts by whole periods that bring an extent into touch with a range.

@@ -122,14 +122,19 @@ impl Scene {
     /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
     /// each obstacle one obstacle, and what is carried stays as it is.
     #[must_use]
-    pub(crate) fn reshaped(&self, part: impl Fn(&Convex) -> Convex, pieces: impl Fn(&Obstacle) -> Vec<Convex>) -> Self {
+    pub(crate) fn reshaped(
+        &self,
+        part: impl Fn(&Convex) -> Convex,
+        pieces: impl FnMut(&Obstacle) -> Vec<Convex>,
+    ) -> Self {
         let (mut arm, mut workspace) = (self.arm.clone(), self.workspace.clone());
         arm.links[1].parts.truncate(self.own_parts);
         for own in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
             own.shape = part(&own.shape);
         }
-        for obstacle in &mut workspace.obstacles {
-            obstacle.pieces = pieces(obstacle);
+        let pieces: Vec<Vec<Convex>> = workspace.obstacles.iter().map(pieces).collect();
+        for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
+            obstacle.pieces = pieces;
         }
         Self::handling_trusted(arm, workspace, self.payload.clone(), &self.spared)
     }

@@ -3,11 +3,10 @@
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
 use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells};
-use super::subdivision::certified;
-use super::swift::{SLABS, checked};
+use super::settle::decide;
 use super::taut::pulled_taut;
 use super::{Answer, Effort, Method, Space, Stages, Verdict, last_leg, subdivision};
-use crate::certify::{CertifiedPath, Connectivity, Disconnection, Rejection, certify, connectivity, slab_connectivity};
+use crate::certify::{CertifiedPath, Rejection, certify};
 use crate::model::{Problem, Scene};
 use crate::plan::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
 use crate::space::{Metric, Path, Segment};
@@ -16,9 +15,6 @@ use std::time::Instant;
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.
 const FIRST_BOXES: usize = 20_000;
-
-/// A proof by slabs of more boxes than this is worth a try whether boxes that are halved need fewer.
-const LARGE_PROOF: usize = 10_000;
 
 /// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
 const CLOSE: f64 = 1e-4;
@@ -85,7 +81,7 @@ where
         history.push(failure);
         if level == 0 && climb.path.is_none() {
             known = settle(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
-            if let Some(Known::NoPath(_)) = known {
+            if let Some(Verdict::Infeasible(_)) = known {
                 break;
             }
         }
@@ -100,12 +96,12 @@ where
     let unknown = || format!("{method} found no certified path at its finest resolution ({})", why());
     let (verdict, witness) = match (path, known) {
         (Some(path), _) => (Verdict::Found(path), None),
-        (None, Some(Known::NoPath(proof))) => (Verdict::Infeasible(proof), None),
-        (None, Some(Known::Path(witness))) => {
+        (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),
+        (None, Some(Verdict::Found(witness))) => {
             let reason = "there is a path (certified by subdivision), which this planner's space does not show";
             (Verdict::Unknown(format!("{reason}: {}", unknown())), Some(witness))
         }
-        (None, None) => (Verdict::Unknown(unknown()), None),
+        (None, _) => (Verdict::Unknown(unknown()), None),
     };
     let (kind, bound) = (effort.path.unwrap_or(method.path_kind()), climb.bound);
     let stages = climb.stages;
@@ -225,36 +221,12 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-/// What is known of a problem whatever a planner's space shows.
-enum Known {
-    /// There is none.
-    NoPath(Disconnection),
-    /// There is one: this.
-    Path(CertifiedPath),
-}
-
-/// Whether there is a path at all, by slabs and boxes; none if these do not tell.
-fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Known> {
+/// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
+fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
     let clock = Instant::now();
-    let clearance = problem.scene().workspace().clearance;
-    let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
-    let known = |answer| match answer {
-        Connectivity::Disconnected(proof) => checked(problem, proof).map(Known::NoPath),
-        Connectivity::Connected(channel) => certified(problem, &channel).ok().map(Known::Path),
-        Connectivity::Undecided { .. } => None,
-    };
-    let by_boxes = |boxes: usize| known(connectivity(scene, start, goals, clearance, boxes));
-    // Slabs answer most questions in a small part of the time; boxes know about shapes without thickness, too.
-    let known = match known(slab_connectivity(scene, start, goals, clearance, SLABS.min(boxes))) {
-        Some(Known::NoPath(proof)) if proof.stuck().len() > LARGE_PROOF => match by_boxes(LARGE_PROOF) {
-            Some(Known::NoPath(smaller)) => Some(Known::NoPath(smaller)),
-            _ => Some(Known::NoPath(proof)),
-        },
-        None => by_boxes(boxes),
-        known => known,
-    };
+    let verdict = decide(problem, boxes);
     stages.prove += clock.elapsed();
-    known
+    (!matches!(verdict, Verdict::Unknown(_))).then_some(verdict)
 }
 
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {

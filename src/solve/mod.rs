@@ -11,17 +11,18 @@ mod ladder;
 mod last_leg;
 mod method;
 mod rungs;
+mod settle;
 mod shorten;
 mod subdivision;
-mod swift;
 mod taut;
+mod thinned;
 
 pub use bound::{Bound, bound, percent};
 pub use effort::Effort;
 pub use ladder::solve;
 pub use method::Method;
+pub use settle::decide;
 pub use shorten::shorten;
-pub use swift::decide;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};

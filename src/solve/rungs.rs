@@ -1,7 +1,7 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
 use super::{Effort, Space};
-use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_rows, outer_grid, regions};
+use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_rows, outer_grid, regions, traced_pairs};
 use crate::model::Problem;
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
@@ -16,9 +16,29 @@ const PERIODS: usize = 1;
 /// Builds the space of one level; none when there is no finer one.
 pub(super) type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
 
-/// Polygons grown by the level's margin.
+/// Pairs of shapes that polygons are made of on the first level: a second's worth, or two. With more, the margin is greater,
+/// ...
+const FIRST_PAIRS: usize = 6144;
+
+/// ... by this factor as often as need be, up to so many times.
+const WIDER: (f64, usize) = (2.0, 6);
+
+/// Pairs of shapes on finer levels. With more there is no such level.
+const MOST_PAIRS: usize = 16_384;
+
+/// Polygons grown by the level's margin, a quarter of that of the level before.
 pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
-    Some(regions(problem.scene(), margin(problem, effort, level), problem.start(), PERIODS))
+    let scene = problem.scene();
+    let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
+    let (mut margin, (factor, times)) = (margin(problem, effort, level), WIDER);
+    for _ in 0..times {
+        let first = margin * 4_f64.powi(level as i32);
+        if few(first, FIRST_PAIRS) {
+            break;
+        }
+        margin *= factor;
+    }
+    (level == 0 || few(margin, MOST_PAIRS)).then(|| regions(scene, margin, problem.start(), PERIODS))
 }
 
 /// The level's margin, metres.

@@ -1,8 +1,8 @@
 //! A quick path that is about the shortest.
 
 use super::Verdict;
+use super::settle::{checked, decide};
 use super::subdivision::taut;
-use super::swift::{checked, decide};
 use super::taut::pulled_taut;
 use crate::certify::{Channel, Connectivity, short_slab_channel};
 use crate::model::Problem;

@@ -1,6 +1,7 @@
 //! Planning by subdivision of the configuration space.
 
 use super::ladder::explain;
+use super::settle::checked;
 use super::{Answer, Effort, Method, Space, Stages, Verdict};
 use crate::certify::CertifiedPath;
 use crate::certify::{Channel, Connectivity, Exploration, Occupancy, Rejection, certify, explore};
@@ -38,13 +39,10 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
             }
         }
         Connectivity::Disconnected(proof) => {
-            // The search is not trusted either: what it found must pass a check that shares no code with it.
-            let defect = proof.recheck(scene, problem.start(), problem.goals(), clearance).err();
+            let proof = checked(problem, proof);
             stages.prove = clock.elapsed();
-            let verdict = match defect {
-                None => Verdict::Infeasible(proof),
-                Some(defect) => Verdict::Unknown(format!("its proof does not hold: {defect}")),
-            };
+            let refused = || Verdict::Unknown("its proof does not hold".into());
+            let verdict = proof.map_or_else(refused, Verdict::Infeasible);
             (Outcome::NoPath, verdict)
         }
         Connectivity::Undecided { boxes } => {

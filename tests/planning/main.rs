@@ -5,6 +5,7 @@ mod certify;
 #[path = "../common/mod.rs"]
 mod common;
 mod contract;
+mod decide;
 mod free_orders;
 mod goal_sets;
 mod interrupt;

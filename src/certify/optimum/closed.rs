@@ -53,6 +53,7 @@ pub(super) struct Closed<'a> {
     clearance: f64,
     parts: Vec<PreparedPart>,
     pairs: Vec<Prepared>,
+    chosen: Vec<Pair>,
     scratch: Vec<[f64; 2]>,
 }
 
@@ -60,7 +61,8 @@ impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let motion = scene.arm().joints[1].motion;
         let (mut parts, mut pairs): (Vec<PreparedPart>, Vec<Prepared>) = (Vec::new(), Vec::new());
-        for of_part in chosen(scene, clearance).chunk_by(|a, b| a.part == b.part) {
+        let chosen = chosen(scene, clearance);
+        for of_part in chosen.chunk_by(|a, b| a.part == b.part) {
             let carried = Carried::new(motion, scene.part(of_part[0]));
             let part = parts.len();
             for &pair in of_part {
@@ -72,7 +74,14 @@ impl<'a> Closed<'a> {
             let sides = half_planes(carried.shape().core());
             parts.push(PreparedPart { carried, sides });
         }
-        Self { scene, clearance, parts, pairs, scratch: Vec::new() }
+        Self { scene, clearance, parts, pairs, chosen, scratch: Vec::new() }
+    }
+
+    /// The pairs that are looked at: those of link 1, unless they are too many, and the chosen ones of link 2.
+    pub fn pairs(&self) -> Vec<Pair> {
+        let first = self.scene.pairs().iter().take_while(|pair| pair.link == 0);
+        let few = first.clone().count() <= MOST_PAIRS;
+        first.filter(|_| few).chain(&self.chosen).copied().collect()
     }
 
     /// How many rows are worth looking at.

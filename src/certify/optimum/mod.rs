@@ -72,7 +72,7 @@ pub fn least_length(
         let nearest = copies.iter().map(straight).fold(limit, f64::min);
         return rounded(nearest);
     }
-    let vicinity = Vicinity::new(scene);
+    let vicinity = Vicinity::of(scene, strips.pairs().into());
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
     let nearest = copies.iter().map(straight).fold(limit, f64::min);

@@ -2,7 +2,7 @@
 
 use super::closed::{Closed, Wall};
 use crate::geometry::merge_in_place;
-use crate::model::Scene;
+use crate::model::{Pair, Scene};
 use crate::space::{Axis, Configuration, Segment, Topology};
 use std::f64::consts::TAU;
 
@@ -116,6 +116,11 @@ impl<'a> Strips<'a> {
 
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    /// The pairs that may close something.
+    pub fn pairs(&self) -> Vec<Pair> {
+        self.closed.pairs()
     }
 
     pub fn count(&self) -> usize {

@@ -1,5 +1,6 @@
 //! Configuration-space obstacles as rows, grids and regions, against clearances and distances of sampled configurations.
 
+mod crowded;
 mod grids;
 mod nearest;
 mod regions;

@@ -109,6 +109,30 @@ fn a_star_of_4000_corners_is_passed_between_its_core_and_the_circle_around_it() 
     is_found_within(&planned(&arm(), &star, ""), number(&around, "length") * 1.01);
 }
 
+/// Numbers that look random, in `[-1, 1)`.
+fn noise(k: usize) -> f64 {
+    (k as f64 * 0.618_033_988_749 + (k as f64 * 0.013).sin() * 17.0).rem_euclid(1.0) * 2.0 - 1.0
+}
+
+/// The outline of something that was scanned: each corner is off by its own noise.
+#[test]
+fn a_scanned_outline_of_6000_corners_is_passed_between_its_least_and_its_greatest_circle() {
+    let center = [1.2, 0.3];
+    let around = planned(&arm(), "[[obstacle]]\ncircle = { center = [1.2, 0.3], radius = 0.2 }\n", "");
+    let scan = polygon(ring(6000, center, |k| 0.19 + 0.01 * noise(k)));
+    is_found_within(&planned(&arm(), &scan, ""), number(&around, "length") * 1.06);
+}
+
+/// A wall that crosses itself thousands of times: exact C-obstacles of all its pieces cross each other by the million.
+#[test]
+fn a_noisy_zigzag_of_5000_points_is_passed_like_the_band_that_it_fills() {
+    let point = |k: usize| [1.0 + 0.3 * k as f64 / 5000.0, 0.25 + 0.05 * (k % 2) as f64 + 0.02 * noise(k)];
+    let zigzag = polyline((0..5000).map(point).collect());
+    let band = polygon(vec![[1.0, 0.23], [1.3, 0.23], [1.3, 0.32], [1.0, 0.32]]);
+    let around = planned(&arm(), &band, "");
+    is_found_within(&planned(&arm(), &zigzag, ""), number(&around, "length") * 1.06);
+}
+
 /// The arm with a forearm that is a mesh: a prism over a polygon of so many corners around that of the file.
 fn with_mesh(place: &Place, corners: usize) -> String {
     let mut stl = vec![0; 80];

@@ -1,0 +1,87 @@
+//! Whether there is a path at all: by slabs of joint 1, else by boxes.
+
+use super::Verdict;
+use super::ladder::explain;
+use super::subdivision::certified;
+use super::thinned::Thinned;
+use crate::certify::{Connectivity, Disconnection, connectivity, slab_connectivity};
+use crate::model::{Pair, Problem};
+
+/// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
+const SLABS: usize = 10_000;
+
+/// A proof by slabs of more boxes than this is worth a try whether boxes that are halved need fewer.
+const LARGE_PROOF: usize = 10_000;
+
+/// With more pairs of shapes what is known of fewer of them is asked for first, ...
+const MANY_PAIRS: usize = 4096;
+
+/// ... of as few as a lattice of this share of the arm's reach leaves, one after the other.
+const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
+
+/// Pairs times slabs, and times boxes, that are looked at in such a scene: a second's worth each, or some.
+const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
+
+/// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
+/// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
+/// code with the search.
+///
+/// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
+/// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
+/// pieces the questions are put to some of them first: what these close is closed, and a path among them is judged among all.
+/// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell.
+#[must_use]
+pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
+    let pairs = |problem: &Problem| problem.scene().pairs().len();
+    if pairs(problem) <= MANY_PAIRS {
+        return asked(problem, problem, &|pair| pair, [SLABS.min(boxes), boxes]);
+    }
+    let limited = |asked: &Problem| LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
+    for lattice in LATTICES {
+        let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
+        let verdict = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
+        if !matches!(verdict, Verdict::Unknown(_)) {
+            return verdict;
+        }
+    }
+    asked(problem, problem, &|pair| pair, limited(problem))
+}
+
+/// What slabs and boxes, so many of each at most, say of `some`, which is `problem` or some of it; `in_truth` names its pairs
+/// in `problem`.
+fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, [slabs, boxes]: [usize; 2]) -> Verdict {
+    let (scene, start, goals) = (some.scene(), some.start(), some.goals());
+    let clearance = scene.workspace().clearance;
+    let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
+    match judged(problem, in_truth, slab_connectivity(scene, start, goals, clearance, slabs)) {
+        Verdict::Infeasible(proof) if proof.stuck().len() > LARGE_PROOF => match by_boxes(LARGE_PROOF.min(boxes)) {
+            Verdict::Infeasible(smaller) if smaller.stuck().len() < proof.stuck().len() => Verdict::Infeasible(smaller),
+            _ => Verdict::Infeasible(proof),
+        },
+        Verdict::Unknown(_) => by_boxes(boxes),
+        known => known,
+    }
+}
+
+/// What a search's answer is worth.
+fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivity) -> Verdict {
+    match answer {
+        Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
+            |rejection| Verdict::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
+            Verdict::Found,
+        ),
+        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth))
+            .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
+        Connectivity::Undecided { boxes } => {
+            Verdict::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
+        }
+    }
+}
+
+/// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
+pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
+    let clearance = problem.scene().workspace().clearance;
+    let holds =
+        |proof: &Disconnection| proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok();
+    holds(&proof).then(|| proof.slimmed(holds))
+}

@@ -1,0 +1,165 @@
+//! Regions among obstacles of more pieces than are traced one by one: noisy walls, walks and spikes. What they show
+//! as free is held to distances that brute force finds between the arm's rectangles and every single piece.
+
+use crate::common::random::cases;
+use crate::common::{placed, q, rr, wall};
+use cplan::cspace::{Regions, regions, traced_pairs};
+use cplan::geometry::{Point, SimplePolygon, Vector, cross};
+use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
+use cplan::space::{Axis, Configuration};
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Pieces of an obstacle that are traced as they are at most; more are covered.
+const PLAIN: usize = 512;
+
+/// Numbers in `[0, 1)`, the `k`-th of a choice (SplitMix64).
+fn dice(choice: u64, k: usize) -> f64 {
+    let z = choice.wrapping_add((k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+const CENTER: Point = Point::new(1.2, 0.3);
+
+/// A polyline of so many points that goes about at random, or up and down in a noisy zigzag.
+fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
+    let mut at = CENTER;
+    let step = |k: usize| Vector::new(dice(choice, 2 * k) - 0.5, dice(choice, 2 * k + 1) - 0.5);
+    let points: Vec<Point> = (0..count)
+        .map(|k| {
+            if walks {
+                // Within a square, in which it crosses itself again and again.
+                at += step(k) * 0.03;
+                at = at.sup(&(CENTER - Vector::repeat(0.2))).inf(&(CENTER + Vector::repeat(0.2)));
+                at
+            } else {
+                let noise = step(k) * 0.02;
+                Point::new(0.9 + 0.6 * k as f64 / count as f64, 0.2 + 0.1 * (k % 2) as f64) + noise
+            }
+        })
+        .collect();
+    let pieces = points.windows(2).filter(|w| w[0] != w[1]).map(|w| wall(w[0], w[1])).collect();
+    Obstacle { name: "wall".into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL }
+}
+
+/// A polygon with corners in so many directions, each at a distance of its own.
+fn spiky(choice: u64, count: usize) -> Obstacle {
+    let corner = |k: usize| {
+        let (sin, cos) = (k as f64 / count as f64 * TAU).sin_cos();
+        CENTER + Vector::new(cos, sin) * (0.1 + 0.1 * dice(choice, k))
+    };
+    let polygon = SimplePolygon::new((0..count).map(corner).collect()).expect("corners go round the centre");
+    let pieces = polygon.convex_pieces();
+    Obstacle { name: "spikes".into(), shape: Shape::Polygon(polygon.corners().to_vec()), pieces, heights: Heights::ALL }
+}
+
+fn obstacle(kind: usize, choice: u64, count: usize) -> Obstacle {
+    match kind {
+        0 => polyline(choice, count, true),
+        1 => polyline(choice, count, false),
+        _ => spiky(choice, count),
+    }
+}
+
+fn arm() -> Arm {
+    rr([Axis::Interval { lower: -2.8, upper: 2.8 }; 2])
+}
+
+fn scene(obstacle: Obstacle) -> Scene {
+    let obstacles = vec![obstacle];
+    placed(arm(), Workspace { name: "crowded".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
+}
+
+fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let along = b - a;
+    let share = (along.dot(&(p - a)) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (p - a - along * share).norm()
+}
+
+fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + Clone + '_ {
+    (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])
+}
+
+/// The distance of two convex outlines, 0 where they meet; by their corners and sides.
+fn apart(a: &[Point], b: &[Point]) -> f64 {
+    let holds = |ring: &[Point], p: Point| ring.len() > 2 && sides(ring).all(|[u, v]| cross(v - u, p - u) >= 0.0);
+    // Sides that touch or overlap have an end at no distance from the other.
+    let beside = |[u, v]: [Point; 2], [p, q]: [Point; 2]| cross(v - u, p - u) * cross(v - u, q - u) < 0.0;
+    let crossing = sides(a).any(|s| sides(b).any(|t| beside(s, t) && beside(t, s)));
+    if crossing || holds(a, b[0]) || holds(b, a[0]) {
+        return 0.0;
+    }
+    let one_way = |a: &[Point], b: &[Point]| {
+        let to = |p: &Point| sides(b).map(|t| to_segment(*p, t)).fold(f64::INFINITY, f64::min);
+        a.iter().map(to).fold(f64::INFINITY, f64::min)
+    };
+    one_way(a, b).min(one_way(b, a))
+}
+
+/// The least distance of the two bars from all pieces.
+fn clearance(scene: &Scene, at: Configuration) -> f64 {
+    let bar = |length: f64| [(0.0, -0.05), (length, -0.05), (length, 0.05), (0.0, 0.05)];
+    let turned = |from: Point, angle: f64, length: f64| {
+        let (sin, cos) = angle.sin_cos();
+        bar(length).map(|(x, y)| from + Vector::new(x * cos - y * sin, x * sin + y * cos))
+    };
+    let elbow = Point::new(at[0].cos(), at[0].sin());
+    let links = [turned(Point::origin(), at[0], 1.0), turned(elbow, at[0] + at[1], 0.8)];
+    let pieces = scene.workspace().obstacles.iter().flat_map(|o| &o.pieces);
+    pieces.flat_map(|piece| links.iter().map(|link| apart(link, piece.core()))).fold(f64::INFINITY, f64::min)
+}
+
+fn is_free(regions: &Regions, at: Configuration) -> bool {
+    regions.free.iter().any(|polygon| polygon.contains(Point::from(at)))
+}
+
+proptest! {
+    #![proptest_config(cases(4))]
+
+    /// Free keeps the quarter of the margin; what keeps three margins is free.
+    #[test]
+    fn what_is_shown_free_is_free_and_hardly_less(
+        kind in 0..3_usize, choice in any::<u64>(), margin in prop_oneof![Just(2e-3), 2e-3..0.05f64],
+    ) {
+        let scene = scene(obstacle(kind, choice, 1100));
+        prop_assert!(scene.pairs().len() > 2 * PLAIN);
+        let shown = regions(&scene, margin, q(0.0, 0.0), 1);
+        let (mut free, mut blocked) = (0, 0);
+        for k in 0..160 {
+            // Half of the postures reach for the obstacle.
+            let range = if k % 2 == 0 { 2.8 } else { 0.9 };
+            let at = q((dice(choice, 7919 + 2 * k) * 2.0 - 1.0) * range, (dice(choice, 7920 + 2 * k) * 2.0 - 1.0) * range);
+            let distance = clearance(&scene, at);
+            if is_free(&shown, at) {
+                free += 1;
+                prop_assert!(distance >= 0.25 * margin - 1e-9, "{distance} at {at:?}");
+            } else {
+                blocked += 1;
+                prop_assert!(distance <= 3.0 * margin, "{distance} at {at:?}");
+            }
+        }
+        prop_assert!(free > 10 && blocked > 5, "{free} {blocked}");
+    }
+}
+
+/// What there is to trace is set by the margin and the room there is, not by how many corners an outline has: where these fill
+/// the room, more of them leave fewer gaps between them.
+#[test]
+fn ten_times_the_corners_in_the_same_room_are_no_more_to_trace() {
+    for kind in 0..3 {
+        let traced = |count: usize| traced_pairs(&scene(obstacle(kind, 1, count)), 8e-3);
+        let (some, many) = (traced(8_000), traced(80_000));
+        assert!(many <= some && many < 2_000, "{kind}: {some} of 8000, {many} of 80000");
+    }
+}
+
+/// Pieces that the arm cannot come near to are not traced at all.
+#[test]
+fn what_is_out_of_reach_is_nothing_to_trace() {
+    let mut far = polyline(3, 5_000, true);
+    far.pieces = far.pieces.iter().map(|piece| piece.at(&nalgebra::Isometry2::translation(9.0, 0.0))).collect();
+    far.shape = far.shape.at(&nalgebra::Isometry2::translation(9.0, 0.0));
+    assert_eq!(traced_pairs(&scene(far), 2e-3), 0);
+}

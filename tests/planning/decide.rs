@@ -1,0 +1,73 @@
+//! Whether there is a path at all, among thousands of pieces and where nothing can tell.
+
+use crate::common::{asked, placed, q, rr, wall};
+use cplan::certify::{certify, recheck};
+use cplan::geometry::{Point, shapes_meet};
+use cplan::input::{self, Overrides};
+use cplan::model::{Heights, Obstacle, Problem, Shape, Workspace};
+use cplan::solve::{Verdict, decide};
+use cplan::space::Axis;
+use std::f64::consts::TAU;
+use std::path::Path;
+
+/// So many short walls on a circle through which the outstretched arm reaches in two places, and is to go from one to the
+/// other: which it can if it can fold.
+fn ring(count: usize, folding: f64) -> Problem {
+    let at = |k: usize| {
+        let angle = TAU * k as f64 / count as f64;
+        // Some noise, so that neighbours are not in a row.
+        let radius = 1.5 + 0.01 * (k as f64 * 0.618_033_988_749).fract();
+        Point::new(radius * angle.cos(), radius * angle.sin())
+    };
+    let points: Vec<Point> = (0..=count).map(at).collect();
+    let ends = points.windows(2).filter(|w| w[0].y.abs() > 0.5);
+    let pieces = ends.map(|w| wall(w[0], w[1])).collect();
+    let obstacle = Obstacle { name: "ring".into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+    let workspace =
+        Workspace { name: "ring".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
+    let scene = placed(rr([Axis::Circle, Axis::Interval { lower: -folding, upper: folding }]), workspace);
+    asked(scene, q(0.0, 0.0), q(3.0, 0.0))
+}
+
+#[test]
+fn a_way_among_20_000_pieces_is_found_and_certified_among_all_of_them() {
+    let problem = ring(20_000, 3.0);
+    let verdict = decide(&problem, 20_000);
+    let Verdict::Found(path) = verdict else { panic!("an arm that folds gets there: {verdict:?}") };
+    assert!(certify(problem.scene(), path.path().clone(), 0.0).is_ok());
+    let certified_ends = [path.path().start(), path.path().goal()];
+    assert!(
+        certified_ends
+            .iter()
+            .zip([problem.start(), q(3.0, 0.0)])
+            .all(|(a, b)| { problem.scene().arm().topology().distance(*a, b) < 1e-9 })
+    );
+}
+
+#[test]
+fn a_way_closed_by_20_000_pieces_is_proven_closed_by_boxes_of_true_pairs() {
+    let problem = ring(20_000, 0.3);
+    let verdict = decide(&problem, 20_000);
+    let Verdict::Infeasible(proof) = verdict else { panic!("a stiff arm stays in its gap: {verdict:?}") };
+    let scene = problem.scene();
+    assert_eq!(recheck(proof.stuck(), scene, problem.start(), problem.goals(), 0.0), Ok(()));
+    assert!(!proof.stuck().is_empty());
+    for stuck in proof.stuck() {
+        let pose = scene.arm().pose(stuck.pair.link, stuck.cell.center());
+        assert!(shapes_meet(&scene.part(stuck.pair).at(&pose), scene.piece(stuck.pair)), "{stuck:?}");
+    }
+}
+
+/// A slot as wide as the arm, which takes tens of thousands of boxes to prove closed: the search ends with its budget.
+#[test]
+fn what_takes_more_boxes_than_allowed_is_left_open() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
+    let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
+    for allowed in [5_000, 20_000] {
+        let Verdict::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not tell") };
+        let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
+        // The last boxes are halved all at once.
+        assert!(boxes <= 2 * allowed + 100, "{reason}");
+    }
+}
