@@ -1,7 +1,6 @@
 //! Regions among obstacles of more pieces than are traced one by one: noisy walls, walks and spikes. What they show
 //! as free is held to distances that brute force finds between the arm's rectangles and every single piece.
 
-use crate::common::random::cases;
 use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
 use cplan::geometry::{Point, SimplePolygon, Vector, cross};
@@ -116,7 +115,7 @@ fn is_free(regions: &Regions, at: Configuration) -> bool {
 }
 
 proptest! {
-    #![proptest_config(cases(4))]
+    #![proptest_config(crate::common::random::cases(4))]
 
     /// Free keeps the quarter of the margin; what keeps three margins is free.
     #[test]
