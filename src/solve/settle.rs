@@ -29,7 +29,8 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 /// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
 /// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
 /// pieces the questions are put to some of them first: what these close is closed, and a path among them is judged among all.
-/// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell.
+/// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell, but among thousands of pieces: there no more
+/// than a second's worth of each are looked at.
 #[must_use]
 pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
     let pairs = |problem: &Problem| problem.scene().pairs().len();
