@@ -1,6 +1,6 @@
 //! Polygons with holes and touching corners: what they cover, against counting cells and casting rays in integers.
 
-use crate::common::random::times;
+use crate::common::random::{times, usual};
 use crate::hostile::dice::Dice;
 use crate::lattice::{Corner, point};
 use cplan::geometry::{Convex, Orientation, Point, Polygon, RingDefect, orientation};
@@ -172,7 +172,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
             assert_eq!(pieces.iter().any(|piece| contains(piece, p)), wanted(p), "{p:?} {written:?}");
         }
     }
-    assert!(holed > 40 && touching > 40, "{holed} {touching}");
+    assert!(!usual() || holed > 40 && touching > 40, "{holed} {touching}");
 }
 
 /// Whatever is taken covers what counting crossings says; whatever is refused has a crossing, an overlap, or a ring on the
@@ -202,7 +202,7 @@ fn random_rings_are_refused_or_covered() {
             (twice_area(&rings[0]).abs() - rings[1..].iter().map(|r| twice_area(r).abs()).sum::<i64>()) as f64 / 2.0;
         covers(&polygon.convex_pieces(), area, inside, &samples);
     }
-    assert!(taken > 50, "{taken}");
+    assert!(!usual() || taken > 50, "{taken}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
 
-use crate::common::random::{seeds, times};
+use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
 use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
@@ -168,7 +168,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             Verdict::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
-    assert!(worlds >= times(120) / 2 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+    assert!(!usual() || worlds >= 60 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
 /// No planner says that there is no way where there is one.

@@ -1,7 +1,7 @@
 //! What the library takes cannot be made invalid: each constructor refuses what would give a false answer, and names it. A
 //! clockwise square had wrong penetrations, a problem without goals or with a start out of range was "infeasible".
 
-use crate::common::random::seeds;
+use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall};
 use crate::random_worlds::world::{self, Dice};
 use cplan::geometry::{
@@ -258,7 +258,7 @@ fn random_problems_are_taken() {
         let again = asked(problem.scene().clone(), problem.start(), problem.goals().clone());
         assert_eq!(again, problem);
     }
-    assert!(made > 250, "{made}");
+    assert!(!usual() || made > 250, "{made}");
 }
 
 /// Corners that a right angle apart make a hair of a wall are judged exactly.

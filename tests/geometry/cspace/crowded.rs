@@ -139,7 +139,7 @@ proptest! {
                 prop_assert!(distance <= 3.0 * margin, "{distance} at {at:?}");
             }
         }
-        prop_assert!(free > 10 && blocked > 5, "{free} {blocked}");
+        prop_assert!(!crate::common::random::usual() || free > 10 && blocked > 5, "{free} {blocked}");
     }
 }
 

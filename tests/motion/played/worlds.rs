@@ -1,7 +1,7 @@
 //! Every shipped world and task, and random ones.
 
 use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
-use crate::common::random::seeds;
+use crate::common::random::{seeds, usual};
 use cplan::input::load_scene;
 use cplan::model::Joint;
 use std::path::{Path, PathBuf};
@@ -157,7 +157,10 @@ fn what_a_controller_plays_in_random_worlds_is_certified() {
         found += 1;
         blended += usize::from(run.json()["blends"]["count"].as_u64().unwrap() > 0);
     }
-    assert!(found * 3 > count && blended > 0, "{found} of {count} worlds have a path, {blended} with blends");
+    assert!(
+        !usual() || found * 3 > count && blended > 0,
+        "{found} of {count} worlds have a path, {blended} with blends"
+    );
 }
 
 /// Random numbers, the same in every run (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014).
