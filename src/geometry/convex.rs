@@ -69,17 +69,17 @@ impl Convex {
         if let Some(corner) = (0..n).find(|&i| n > 1 && core[i] == core[(i + 1) % n]) {
             return Err(ConvexDefect::Repeated { corner });
         }
-        // Left turns alone could go round more than once: then some triangle with the first corner is clockwise.
-        let turns_right =
-            |a: usize, b: usize, c: usize| orientation(core[a], core[b], core[c]) == Orientation::Clockwise;
-        let bad = |&i: &usize| turns_right(i, (i + 1) % n, (i + 2) % n) || turns_right(0, i, (i + 1) % n);
-        match (0..n).find(|i| n > 2 && bad(i)) {
+        let turn = |i: usize| orientation(core[i], core[(i + 1) % n], core[(i + 2) % n]);
+        let rises = |i: usize| {
+            let (from, to) = (core[i % n], core[(i + 1) % n]);
+            from.y < to.y || from.y == to.y && from.x < to.x
+        };
+        // Left turns alone could go round more than once: once round, the sides stop rising once.
+        let rounds = (0..n).filter(|&i| rises(i) && !rises(i + 1)).count();
+        let is_flat = (0..n).all(|i| turn(i) == Orientation::Collinear);
+        match (0..n).find(|&i| n > 2 && turn(i) == Orientation::Clockwise) {
             Some(corner) => Err(ConvexDefect::NotConvex { corner: (corner + 1) % n }),
-            None if n > 2
-                && (1..n - 1).all(|i| orientation(core[0], core[i], core[i + 1]) == Orientation::Collinear) =>
-            {
-                Err(ConvexDefect::NotConvex { corner: 0 })
-            }
+            None if n > 2 && (is_flat || rounds != 1) => Err(ConvexDefect::NotConvex { corner: 0 }),
             None => Ok(Self { core, radius }),
         }
     }

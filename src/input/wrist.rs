@@ -2,7 +2,7 @@
 
 use super::error::Defect;
 use super::schema::Positive;
-use super::urdf::DEFAULT_TIME_TO_TOP_SPEED;
+use super::urdf::{DEFAULT_TIME_TO_TOP_SPEED, assumed_acceleration};
 use super::world::{Number, Reader};
 use crate::model::Wrist;
 use schemars::JsonSchema;
@@ -33,7 +33,7 @@ impl WristTable {
     pub fn read(&self, reader: &Reader) -> Result<Wrist, Defect> {
         let velocity = positive(reader, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(reader, a, "acceleration")).transpose()?;
-        Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(velocity / DEFAULT_TIME_TO_TOP_SPEED) })
+        Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(assumed_acceleration(velocity)) })
     }
 
     /// What is to be said of a limit that was not given.

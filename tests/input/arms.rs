@@ -247,6 +247,15 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
 }
 
 #[test]
+fn a_speed_that_is_all_but_infinite_makes_no_infinite_acceleration() {
+    let joints = ["a", "b"].map(|name| format!("{name} = 1e308")).join(", ");
+    let arm =
+        load_arm(&urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>"), &format!("velocity = {{ {joints} }}"));
+    assert!(arm.scene.arm().joints.iter().any(|joint| joint.velocity == 1e308));
+    assert!(arm.scene.arm().joints.iter().all(|joint| joint.acceleration.is_finite()));
+}
+
+#[test]
 fn a_bar_stands_in_only_where_it_is_asked_for() {
     let bare = urdf_with("<geometry><cylinder radius=\"0\" length=\"0\"/></geometry>");
     let loaded = load_arm(&bare, "bar = 0.05");

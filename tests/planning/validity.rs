@@ -39,6 +39,8 @@ fn no_convex_shape_is_made_of_what_is_none() {
         (&clockwise, 0.0, NotConvex { corner: 1 }),
         (&[(0., 0.), (2., 0.), (1., 0.5), (2., 2.)], 0.0, NotConvex { corner: 2 }),
         (&[(0., 0.), (1., 1.), (3., 3.)], 0.0, NotConvex { corner: 0 }),
+        // Twice round by left turns, one of them back along a side.
+        (&[(-2., 0.), (3., 2.), (-3., 0.), (-1., 0.), (-1., 1.)], 0.0, NotConvex { corner: 0 }),
     ];
     for (corners, radius, defect) in cases {
         assert_eq!(Convex::new(points(corners), *radius), Err(*defect), "{corners:?}");

@@ -27,6 +27,11 @@ const DEFAULT_SLIDING_SPEED: f64 = 0.25;
 /// Seconds in which a joint of unknown acceleration limit reaches its top speed.
 pub(in crate::input) const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
+/// The acceleration that is taken where none is given: finite, however great the speed.
+pub(in crate::input) fn assumed_acceleration(velocity: f64) -> f64 {
+    (velocity / DEFAULT_TIME_TO_TOP_SPEED).min(f64::MAX)
+}
+
 /// What is known of a joint's range.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
@@ -181,7 +186,7 @@ impl Limits<'_> {
         if let Some(acceleration) = self.positive(&self.world.robot.acceleration, name, "acceleration")?.or(given) {
             return Ok(Rates { velocity, acceleration, jerk, assumed, notes });
         }
-        let acceleration = velocity / DEFAULT_TIME_TO_TOP_SPEED;
+        let acceleration = assumed_acceleration(velocity);
         assumed.acceleration = true;
         notes.push(format!(
             "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit}/s^2 (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"

@@ -1,6 +1,6 @@
 //! The joints of the tool: one that lowers it, and a wrist.
 
-use super::DEFAULT_TIME_TO_TOP_SPEED;
+use super::assumed_acceleration;
 use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
 use super::reduction::Reduction;
@@ -63,7 +63,7 @@ impl Reduction<'_> {
         let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
         let index = chooser.named(&table.joint, "stroke")?;
         let (velocity, own) = match velocity {
-            Some(velocity) => (velocity, velocity / DEFAULT_TIME_TO_TOP_SPEED),
+            Some(velocity) => (velocity, assumed_acceleration(velocity)),
             None => {
                 let rates = Limits { document: self.document, world: self.world }.rates(index)?;
                 (rates.velocity, rates.acceleration)
