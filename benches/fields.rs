@@ -63,7 +63,7 @@ fn fields(c: &mut Criterion) {
         ("spiral 451^2", drawn(451, mazes::spiral(451).0)),
     ] {
         let lattice = Lattice::new(&grid);
-        let component = Component::new(&lattice, &lattice.wave(&[ends(&grid).1]));
+        let component = Component::new(&lattice, lattice.wave(&[ends(&grid).1]));
         group.throughput(Throughput::Elements(component.len() as u64));
         group.bench_function(name, |b| b.iter(|| harmonic(black_box(&component))));
     }

@@ -58,7 +58,7 @@ pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window)
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7))]
         }
         Trace::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, frame)).into(),
-        Trace::Field { .. } | Trace::Potential { .. } => {
+        Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
             Slope::new(trace, topology).map_or_else(Vec::new, |slope| equipotentials(&slope, frame))
         }
         Trace::Wavefront { .. } => Vec::new(),
@@ -80,7 +80,9 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
         }
         Trace::Boxes { .. } => boxes::keys(),
         Trace::Wavefront { .. } => Vec::new(),
-        Trace::Field { .. } | Trace::Potential { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
+        Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
+            vec![(line(color::scale(0.5)), "equipotentials".to_owned())]
+        }
     }
 }
 
@@ -92,7 +94,7 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
             Some(steps) => ("steps to the goal", steps.to_string(), "0".to_owned()),
             None => return Vec::new(),
         },
-        Trace::Field { potential, .. } => match span(potential, TAIL) {
+        Trace::Field { .. } | Trace::Harmonic { .. } => match trace.logarithms().and_then(|(_, ln)| span(&ln, TAIL)) {
             Some((low, high)) => ("ln of the potential", short(low), short(high)),
             None => return Vec::new(),
         },
@@ -210,9 +212,11 @@ impl Slope {
     /// The slope that a field planner followed; none of other planners, and where the field has no values.
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
         let (cells, values, tail) = match trace {
-            Trace::Field { cells, potential } => (*cells, Cow::Borrowed(&potential[..]), TAIL),
             Trace::Potential { cells, heights } => (*cells, Cow::Owned(depths(heights)), SLOPES),
-            _ => return None,
+            _ => {
+                let (cells, ln) = trace.logarithms()?;
+                (cells, ln, TAIL)
+            }
         };
         if values.len() != cells[0] * cells[1] {
             return None;

@@ -6,10 +6,20 @@ use crate::interrupt::checkpoint;
 /// Label of a cell where the wave did not come.
 pub const UNREACHED: u32 = u32::MAX;
 
-/// Beyond the seam of a circle: stands for the free cell on the other side.
+/// Label of a [`Site::Twin`].
 const TWIN: u32 = u32::MAX - 1;
-/// Blocked, or beyond a limit.
+/// Label of a [`Site::Wall`].
 const WALL: u32 = u32::MAX - 2;
+
+/// What a place is. A byte each: a map is kept, and copied for every wave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Site {
+    Free,
+    /// Beyond the seam of a circle: stands for the free cell on the other side.
+    Twin,
+    /// Blocked, or beyond a limit.
+    Wall,
+}
 
 /// A grid with a frame of one cell around it, so that every cell has four neighbours at constant offsets. The frame is
 /// wall beyond the limits of an interval and stands for the cells of the other side on a circle.
@@ -20,7 +30,7 @@ const WALL: u32 = u32::MAX - 2;
 pub struct Lattice {
     cells: [usize; 2],
     stride: usize,
-    template: Vec<u32>,
+    sites: Vec<Site>,
 }
 
 /// Steps to the nearest source for every free cell connected with one.
@@ -28,9 +38,12 @@ pub struct Lattice {
 pub struct Wave {
     /// Framed cells in the order in which the wave came.
     pub(super) order: Vec<u32>,
+    /// How many of the first of them are sources.
+    pub(super) sources: usize,
     /// How many different labels there are.
     pub levels: usize,
-    labels: Vec<u32>,
+    /// Of every place.
+    pub(super) labels: Vec<u32>,
 }
 
 impl Lattice {
@@ -43,28 +56,28 @@ impl Lattice {
         let [rows, columns] = grid.cells;
         let stride = columns + 2;
         assert!((rows + 2).saturating_mul(stride) < WALL as usize, "the grid has too many cells for 32-bit labels");
-        let mut template = vec![WALL; (rows + 2) * stride];
-        for (line, blocked) in template.chunks_exact_mut(stride).skip(1).zip(grid.blocked.chunks_exact(columns)) {
+        let mut sites = vec![Site::Wall; (rows + 2) * stride];
+        for (line, blocked) in sites.chunks_exact_mut(stride).skip(1).zip(grid.blocked.chunks_exact(columns)) {
             for (cell, &blocked) in line[1..].iter_mut().zip(blocked) {
                 if !blocked {
-                    *cell = UNREACHED;
+                    *cell = Site::Free;
                 }
             }
         }
-        let twin = |cell: u32| if cell == UNREACHED { TWIN } else { WALL };
+        let twin = |cell: Site| if cell == Site::Free { Site::Twin } else { Site::Wall };
         if grid.topology.axes[0].is_circle() {
             for j in 1..=columns {
-                template[j] = twin(template[rows * stride + j]);
-                template[(rows + 1) * stride + j] = twin(template[stride + j]);
+                sites[j] = twin(sites[rows * stride + j]);
+                sites[(rows + 1) * stride + j] = twin(sites[stride + j]);
             }
         }
         if grid.topology.axes[1].is_circle() {
             for i in 1..=rows {
-                template[i * stride] = twin(template[i * stride + columns]);
-                template[i * stride + columns + 1] = twin(template[i * stride + 1]);
+                sites[i * stride] = twin(sites[i * stride + columns]);
+                sites[i * stride + columns + 1] = twin(sites[i * stride + 1]);
             }
         }
-        Self { cells: grid.cells, stride, template }
+        Self { cells: grid.cells, stride, sites }
     }
 
     /// Shape of the grid.
@@ -79,7 +92,7 @@ impl Lattice {
     }
 
     /// Index in the grid of a framed cell that is not in the frame.
-    pub(super) fn index(&self, framed: usize) -> usize {
+    fn index(&self, framed: usize) -> usize {
         (framed / self.stride - 1) * self.cells[1] + framed % self.stride - 1
     }
 
@@ -90,11 +103,20 @@ impl Lattice {
 
     /// The cell that `framed` is or stands for; nothing if that is no free cell.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
-        match self.template[framed] {
-            UNREACHED => Some(framed),
-            TWIN => Some(self.other_side(framed)),
-            _ => None,
+        match self.sites[framed] {
+            Site::Free => Some(framed),
+            Site::Twin => Some(self.other_side(framed)),
+            Site::Wall => None,
         }
+    }
+
+    /// The places in the frame that stand for free cells, each with its cell.
+    pub(super) fn twins(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let ([rows, columns], stride) = (self.cells, self.stride);
+        let lines = (1..=columns).flat_map(move |j| [j, (rows + 1) * stride + j]);
+        let ends = (1..=rows).flat_map(move |i| [i * stride, i * stride + columns + 1]);
+        let twins = lines.chain(ends).filter(|&place| self.sites[place] == Site::Twin);
+        twins.map(|place| [place, self.other_side(place)])
     }
 
     /// The cell that a place in the frame stands for.
@@ -113,7 +135,12 @@ impl Lattice {
     /// Linear in the number of cells; some nanoseconds each.
     #[must_use]
     pub fn wave(&self, sources: &[usize]) -> Wave {
-        let mut labels = self.template.clone();
+        let label = |site: &Site| match site {
+            Site::Free => UNREACHED,
+            Site::Twin => TWIN,
+            Site::Wall => WALL,
+        };
+        let mut labels: Vec<u32> = self.sites.iter().map(label).collect();
         let mut order: Vec<u32> = Vec::with_capacity(self.cells[0] * self.cells[1]);
         for &source in sources {
             let source = self.framed(source);
@@ -122,6 +149,7 @@ impl Lattice {
                 order.push(source as u32);
             }
         }
+        let sources = order.len();
         let mut levels = 0;
         let mut begin = 0;
         while begin < order.len() {
@@ -142,7 +170,7 @@ impl Lattice {
             }
             begin = end;
         }
-        Wave { order, levels, labels }
+        Wave { order, sources, levels, labels }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::attach::Joined;
 use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
-use crate::field::{Component, Lattice, Place, Potential, Uphill, harmonic, rough_harmonic};
+use crate::field::{Component, Field, Lattice, Place, Uphill, harmonic};
 use crate::interrupt::checkpoint;
 
 /// Solves Laplace's equation on the goal's component (1 at the goals, 0 on obstacles and beyond limits, periodic on
@@ -48,35 +48,26 @@ impl Planner for Harmonic {
         checkpoint();
         let wave = map.wave(&joined.sources());
         checkpoint();
-        let component = Component::new(map, &wave);
+        let component = Component::new(map, wave);
+        let size = |windows: usize| Size::Windows { cells: component.len(), windows };
         // The nearest cell of the start that the wave came to.
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
+            let size = size(0);
             return Run {
                 outcome: Outcome::NoPath,
-                trace: trace(space, &component, &rough_harmonic(&component)),
-                size: Size::Windows { cells: component.len(), windows: 0 },
+                trace: Trace::Harmonic { component, potential: None },
+                size,
                 note: None,
             };
         };
-        let field = harmonic(&component);
-        let size = Size::Windows { cells: component.len(), windows: field.windows };
-        let trace = trace(space, &component, &field.potential);
+        let Field { potential, windows } = harmonic(&component);
         let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
-        let mut guide = Uphill::new(&component, &field.potential, at);
-        let home = component.cells[start] as usize;
-        let outcome = match grid_path::along(space, query, &joined, &mut guide, home, self.path) {
+        let mut guide = Uphill::new(&component, &potential, at);
+        let outcome = match grid_path::along(space, query, &joined, &mut guide, component.cell(start), self.path) {
             Ok(path) => Outcome::Found(path),
             Err(_) => Outcome::GaveUp("the field has a local maximum".into()),
         };
-        Run { outcome, trace, size, note: None }
+        let size = size(windows);
+        Run { outcome, trace: Trace::Harmonic { component, potential: Some(potential) }, size, note: None }
     }
-}
-
-/// The logarithms as a grid.
-fn trace(space: &Grid, component: &Component, potential: &Potential) -> Trace {
-    let mut ln = vec![f64::NEG_INFINITY; space.blocked.len()];
-    for (at, &cell) in component.cells.iter().enumerate() {
-        ln[cell as usize] = potential.ln(at);
-    }
-    Trace::Field { cells: space.cells, potential: ln }
 }

@@ -26,8 +26,10 @@ pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
+use crate::field::{Component, Potential, rough_harmonic};
 use crate::geometry::planar::NONE;
 use crate::space::{Configuration, GoalSet, Path};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// What is asked of a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
@@ -141,6 +143,14 @@ pub enum Trace {
         /// One a cell.
         potential: Vec<f64>,
     },
+    /// The harmonic potential of the cells that the goal can be reached from. Its logarithms are for pictures alone, and
+    /// computed when there is one ([`Trace::logarithms`]).
+    Harmonic {
+        /// The cells.
+        component: Component,
+        /// Not known where the start is none of them.
+        potential: Option<Potential>,
+    },
     /// A potential that paths descend, for every cell; infinite where there is none.
     Potential {
         /// Shape of the grid.
@@ -148,6 +158,25 @@ pub enum Trace {
         /// One a cell.
         heights: Vec<f64>,
     },
+}
+
+impl Trace {
+    /// Of a field that paths ascend: the shape of the grid, and the natural logarithm of the potential for every cell, minus infinity
+    /// where there is none. Linear in the number of cells.
+    #[must_use]
+    pub fn logarithms(&self) -> Option<([usize; 2], Cow<'_, [f64]>)> {
+        match self {
+            Self::Field { cells, potential } => Some((*cells, Cow::Borrowed(potential))),
+            Self::Harmonic { component, potential } => {
+                let guess = || Cow::Owned(rough_harmonic(component));
+                let potential = potential.as_ref().map_or_else(guess, Cow::Borrowed);
+                let mut ln = vec![f64::NEG_INFINITY; component.shape[0] * component.shape[1]];
+                (0..component.len()).for_each(|at| ln[component.cell(at)] = potential.ln(at));
+                Some((component.shape, Cow::Owned(ln)))
+            }
+            _ => None,
+        }
+    }
 }
 
 /// What a run that ended well has to add.

@@ -20,7 +20,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 
 fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {
     let lattice = Lattice::new(grid);
-    let component = Component::new(&lattice, &lattice.wave(goals));
+    let component = Component::new(&lattice, lattice.wave(goals));
     let field = harmonic(&component);
     (component, field)
 }
@@ -43,8 +43,8 @@ fn exact(component: &Component) -> Vec<BigRational> {
             continue;
         }
         row[i] += number(4);
-        for &neighbor in component.neighbors[i].iter().filter(|&&k| (k as usize) < n) {
-            row[neighbor as usize] -= number(1);
+        for neighbor in component.neighbors(i).into_iter().filter(|&k| k < n) {
+            row[neighbor] -= number(1);
         }
     }
     // From the far end: a chain of corridors then keeps few entries a row.
@@ -236,7 +236,7 @@ fn paths_are_streamlines_of_a_known_function() {
     let grid = grid([rows, columns], [false; 2], vec![false; rows * columns]);
     let lattice = Lattice::new(&grid);
     let goals: Vec<usize> = ((rows - 1) * columns..rows * columns).collect();
-    let component = Component::new(&lattice, &lattice.wave(&goals));
+    let component = Component::new(&lattice, lattice.wave(&goals));
     let log2 = (0..component.len()).map(|position| {
         let [i, j] = component.place(position);
         u((j + 1) as f64, (i + 1) as f64).log2()

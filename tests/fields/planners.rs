@@ -117,7 +117,7 @@ fn found(run: &Run) -> Path {
 /// The goal's component and its potential.
 fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     let lattice = Lattice::new(grid);
-    let component = Component::new(&lattice, &lattice.wave(&[goal]));
+    let component = Component::new(&lattice, lattice.wave(&[goal]));
     let field = harmonic(&component);
     (component, field)
 }
@@ -193,8 +193,8 @@ proptest! {
         prop_assume!(!grid.blocked[goal]);
         let (component, field) = field(&grid, goal);
         let expected = direct(&grid, goal);
-        for (i, &cell) in component.cells.iter().enumerate() {
-            let (ln, expected) = (field.potential.ln(i), expected[cell as usize]);
+        for (i, cell) in (0..component.len()).map(|i| (i, component.cell(i))) {
+            let (ln, expected) = (field.potential.ln(i), expected[cell]);
             prop_assert!((ln.exp() - expected).abs() <= 1e-9 * expected, "{} is not {expected}", ln.exp());
             // The maximum principle: no value above the goal's.
             prop_assert!(ln <= 0.0);
@@ -247,7 +247,7 @@ fn a_long_spiral_is_no_flat_field() {
     assert!(free > 10_000, "only {free} cells");
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
     assert!(found(&run).length() > 0.7 * free as f64);
-    let Trace::Field { potential, .. } = run.trace else { panic!("not a field") };
+    let (_, potential) = run.trace.logarithms().expect("a field's");
     // A corridor one cell wide: each cell has 2 - sqrt 3 of the one before, but for the few at its closed end.
     let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
     assert!((potential[outer] - expected).abs() < 0.1, "{} instead of {expected}", potential[outer]);
@@ -290,7 +290,10 @@ fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
         assert_eq!(run.outcome, Outcome::NoPath);
         assert!(matches!(run.size, Size::Grid { cells: 6, .. } | Size::Windows { cells: 6, .. }));
         let reached = match run.trace {
-            Trace::Field { potential, .. } => potential.iter().filter(|p| p.is_finite()).count(),
+            trace @ Trace::Harmonic { .. } => {
+                let (_, potential) = trace.logarithms().expect("a field's");
+                potential.iter().filter(|p| p.is_finite()).count()
+            }
             Trace::Wavefront { labels, .. } => labels.iter().filter(|&&label| label != UNREACHED).count(),
             _ => 0,
         };

@@ -187,10 +187,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
                     && expanded <= labelled
             }
             (
-                Trace::Field { cells, potential },
+                trace @ (Trace::Field { .. } | Trace::Harmonic { .. }),
                 Size::Windows { cells: reached, .. } | Size::Grid { cells: reached, .. },
             ) => {
-                potential.len() == cells[0] * cells[1] && potential.iter().filter(|p| p.is_finite()).count() == reached
+                let (cells, ln) = trace.logarithms().expect("a field's");
+                ln.len() == cells[0] * cells[1] && ln.iter().filter(|p| p.is_finite()).count() == reached
             }
             _ => false,
         };

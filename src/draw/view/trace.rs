@@ -63,7 +63,7 @@ impl TraceView {
                 let levels = parts.into_iter().map(|part| part.map_or(NONE, letter)).collect();
                 Self::Wavefront { blocks, extent: extent.map(|x| grain.number(x)), levels, farthest }
             }
-            Trace::Field { .. } | Trace::Potential { .. } => {
+            Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
                 let slope = Slope::new(trace, topology)?;
                 let flat = |line: &Vec<[f64; 2]>| {
                     line.iter().flat_map(|&q| grain.configuration(Configuration::from(q))).collect()
@@ -72,7 +72,7 @@ impl TraceView {
                     part: grain.number(part),
                     lines: lines.iter().map(flat).collect(),
                 });
-                let logarithmic = matches!(trace, Trace::Field { .. });
+                let logarithmic = !matches!(trace, Trace::Potential { .. });
                 let sign = if logarithmic { 1.0 } else { -1.0 };
                 Self::Field {
                     levels: levels.collect(),

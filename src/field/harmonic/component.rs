@@ -9,21 +9,20 @@ use crate::interrupt::checkpoint;
 /// Relaxing in this order carries information away from the goal through a whole corridor in one sweep; and because
 /// neighbours lie on consecutive levels (never on one, but for circles of odd size) it is a consistent ordering, for
 /// which Young's theory of over-relaxation holds.
-#[derive(Debug, Clone)]
+///
+/// Two numbers of 32 bits a cell: neighbours are looked up where they lie.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
-    /// Index in the grid of each position.
-    pub cells: Vec<u32>,
-    /// Positions of the four neighbours of each position, in the order `-q1, +q1, -q2, +q2`; [`Component::wall`] where
-    /// there is no free cell.
-    pub neighbors: Vec<[u32; 4]>,
     /// How many of the first positions are goals.
     pub goals: usize,
     /// Levels of the wave.
     pub levels: usize,
     /// Shape of the grid.
     pub shape: [usize; 2],
-    /// Position of each cell of the grid, or [`Component::wall`].
-    position: Vec<u32>,
+    /// Where each position lies in the grid with a frame of one cell around it.
+    places: Vec<u32>,
+    /// Position at each place, or [`Component::wall`]; in the frame that of the cell on the other side of a circle.
+    positions: Vec<u32>,
 }
 
 /// So many cells take less than a millisecond.
@@ -32,70 +31,78 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl Component {
     /// From the wave, in linear time.
     #[must_use]
-    pub fn new(lattice: &Lattice, wave: &Wave) -> Self {
-        let wall = wave.order.len() as u32;
-        let [rows, columns] = lattice.cells();
-        let mut position = vec![wall; (rows + 2) * (columns + 2)];
-        for (at, &framed) in wave.order.iter().enumerate() {
-            position[framed as usize] = at as u32;
+    pub fn new(lattice: &Lattice, wave: Wave) -> Self {
+        let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;
+        positions.fill(places.len() as u32);
+        for (chunk, first) in places.chunks(CELLS_BETWEEN_CHECKPOINTS).zip((0..).step_by(CELLS_BETWEEN_CHECKPOINTS)) {
+            checkpoint();
+            chunk.iter().zip(first..).for_each(|(&place, position)| positions[place as usize] = position);
         }
-        let neighbors = wave.order.iter().enumerate().map(|(at, &framed)| {
-            if at.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
-                checkpoint();
-            }
-            lattice.around(framed as usize).map(|place| match lattice.resolve(place) {
-                Some(cell) => position[cell],
-                None => wall,
-            })
-        });
-        let cells: Vec<u32> = wave.order.iter().map(|&framed| lattice.index(framed as usize) as u32).collect();
-        let goals = cells.iter().take_while(|&&cell| wave.label(lattice, cell as usize) == 0).count();
-        let neighbors = neighbors.collect();
-        position.truncate((rows + 1) * (columns + 2));
-        let position =
-            position.chunks_exact(columns + 2).skip(1).flat_map(|line| &line[1..=columns]).copied().collect();
-        Self { neighbors, cells, goals, levels: wave.levels, shape: [rows, columns], position }
+        lattice.twins().for_each(|[place, twin]| positions[place] = positions[twin]);
+        Self { goals, levels, shape: lattice.cells(), places, positions }
     }
 
     /// Number of cells.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.cells.len()
+        self.places.len()
     }
 
     /// Whether there is no cell at all.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.cells.is_empty()
+        self.places.is_empty()
     }
 
     /// The position that stands for all that is not free.
     #[must_use]
     pub fn wall(&self) -> usize {
-        self.cells.len()
+        self.places.len()
+    }
+
+    /// Positions of the four neighbours of a position, in the order `-q1, +q1, -q2, +q2`; [`Component::wall`] where there is no
+    /// free cell.
+    #[must_use]
+    pub fn neighbors(&self, position: usize) -> [usize; 4] {
+        let (place, stride) = (self.places[position] as usize, self.shape[1] + 2);
+        [place - stride, place + stride, place - 1, place + 1].map(|place| self.positions[place] as usize)
     }
 
     /// Position of cell `index` of the grid, if the wave came there.
     #[must_use]
     pub fn position_of(&self, index: usize) -> Option<usize> {
-        Some(self.position[index] as usize).filter(|&position| position != self.wall())
+        let [i, j] = [index / self.shape[1], index % self.shape[1]];
+        Some(self.row(i)[j] as usize).filter(|&position| position != self.wall())
+    }
+
+    /// Positions of the cells in row `i` of the grid, by column; [`Component::wall`] where the wave did not come.
+    pub(super) fn row(&self, i: usize) -> &[u32] {
+        let columns = self.shape[1];
+        let first = (i + 1) * (columns + 2) + 1;
+        &self.positions[first..first + columns]
     }
 
     /// Row and column of a position.
     #[must_use]
     pub fn place(&self, position: usize) -> [usize; 2] {
         // Divisions of 32 bits take a fraction of the time.
-        let (cell, columns) = (self.cells[position], self.shape[1] as u32);
-        [(cell / columns) as usize, (cell % columns) as usize]
+        let (place, stride) = (self.places[position], self.shape[1] as u32 + 2);
+        [(place / stride - 1) as usize, (place % stride - 1) as usize]
+    }
+
+    /// Index in the grid of a position.
+    #[must_use]
+    pub fn cell(&self, position: usize) -> usize {
+        let [i, j] = self.place(position);
+        i * self.shape[1] + j
     }
 
     /// How much room there is at each position, in two ways. Linear.
     #[must_use]
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
-        let beside_wall = |around: &[u32; 4]| around.iter().any(|&n| n as usize == self.wall());
-        let mut queue: Vec<u32> =
-            (0..self.len() as u32).filter(|&i| beside_wall(&self.neighbors[i as usize])).collect();
+        let beside_wall = |&i: &u32| self.neighbors(i as usize).contains(&self.wall());
+        let mut queue: Vec<u32> = (0..self.len() as u32).filter(beside_wall).collect();
         if queue.is_empty() {
             queue.extend(0..self.goals as u32);
         }
@@ -109,8 +116,7 @@ impl Component {
             }
             let from = queue[at] as usize;
             at += 1;
-            for next in self.neighbors[from] {
-                let next = next as usize;
+            for next in self.neighbors(from) {
                 if next != self.wall() && clearance[next] == u32::MAX {
                     clearance[next] = clearance[from] + 1;
                     queue.push(next as u32);
@@ -120,7 +126,7 @@ impl Component {
         let mut widest = clearance.clone();
         checkpoint();
         for &i in queue.iter().rev() {
-            for n in self.neighbors[i as usize].map(|n| n as usize) {
+            for n in self.neighbors(i as usize) {
                 if n != self.wall() && clearance[n] > clearance[i as usize] {
                     widest[i as usize] = widest[i as usize].max(widest[n]);
                 }

@@ -41,7 +41,7 @@ pub fn rough_harmonic(component: &Component) -> Potential {
     let mut log2 = vec![0.0; component.len()];
     for i in component.goals..component.len() {
         // The neighbours that the wave came to earlier; there is one at least.
-        let before = component.neighbors[i].iter().map(|&n| n as usize).filter(|&n| n < i);
+        let before = component.neighbors(i).into_iter().filter(|&n| n < i);
         log2[i] = before.map(|n| log2[n]).fold(f64::NEG_INFINITY, f64::max) - decay(clearance[i]) / LN_2;
     }
     Potential::from_log2(&log2)
@@ -60,7 +60,7 @@ pub fn residual(component: &Component, potential: &Potential) -> f64 {
     for i in component.goals..component.len() {
         let at = potential.at(i);
         let mut sum = -LOSS * at.mantissa;
-        for n in component.neighbors[i].map(|n| n as usize) {
+        for n in component.neighbors(i) {
             let value = if n == component.wall() { 0.0 } else { potential.at(n).mantissa_at(at.exponent) };
             sum += value - at.mantissa;
         }

@@ -6,6 +6,7 @@
 //! ```
 
 mod component;
+mod extent;
 mod laplace;
 mod network;
 mod peeling;

@@ -10,12 +10,12 @@
 //! Every cell is in some two windows on average; the cost is linear in the cells, whatever the values. Where the way to the goal
 //! is nowhere a long one, the first window is all there is, and mostly the last.
 
+use super::extent::Bounds;
 use super::laplace::decay;
 use super::network::{Network, SIDES};
 use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
-use crate::field::multigrid::Ends;
 use crate::interrupt::checkpoint;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -81,7 +81,7 @@ pub(super) struct Peeling<'a> {
     /// How many positions are not known.
     unknown: usize,
     front: BinaryHeap<Front>,
-    /// Number in the window of each position, or [`NONE`].
+    /// Number in the window of each position, or [`NONE`]; nothing until windows are gathered.
     number: Vec<u32>,
     depth: f64,
     pub windows: usize,
@@ -122,22 +122,21 @@ impl<'a> Peeling<'a> {
             potential,
             unknown: component.len() - component.goals,
             front,
-            number: vec![NONE; component.len()],
+            number: Vec::new(),
             depth: DEPTH,
             windows: 0,
         }
     }
 
     pub fn run(mut self) -> Self {
-        if let Some(window) = self.whole() {
+        // A maze or a spiral is better taken apart.
+        let [rows, columns] = self.component.shape;
+        if self.unknown > SMALL && self.component.levels <= rows + columns {
             self.windows += 1;
-            let wide = self.wide(&window);
-            match wide.solve(FLOOR) {
-                Some(values) => self.accept(&window, |i| wide.at(&values, i), PRECISE),
-                None => self.accept(&window, |_| [0.0; SIDES], PRECISE),
-            };
+            self.solve_whole();
         }
         if self.unknown > 0 {
+            self.number = vec![NONE; self.component.len()];
             self.room = self.component.room().widest;
             let widest = self.room.iter().copied().max().unwrap_or(0);
             self.decay = (0..=widest).map(decay).collect();
@@ -149,10 +148,12 @@ impl<'a> Peeling<'a> {
             let corridor = SMALL + CORRIDOR * (widest.min(MEDIUM) as usize).pow(2);
             let small = if widest <= MEDIUM { corridor } else { SMALL };
             let direct = widest <= NARROW || window.cells.len() <= small;
-            let wide = if direct { None } else { Some(self.wide(&window)) };
+            let wide = if direct { None } else { self.wide(&window) };
             let solved = wide.and_then(|wide| wide.solve(FLOOR * window.greatest).map(|values| (wide, values)));
             let accepted = if let Some((wide, values)) = solved {
-                self.accept(&window, |i| wide.at(&values, i), PRECISE)
+                let component = self.component;
+                let at = |i: usize| wide.extent.at(component.place(window.cells[i] as usize));
+                self.accept(&window, |i| wide.at(&values, at(i)), PRECISE)
             } else {
                 let solution = self.network(&window).solve();
                 self.accept(&window, |i| solution[i], SMALLEST)
@@ -164,17 +165,50 @@ impl<'a> Peeling<'a> {
         self
     }
 
-    /// All unknown cells, if they are many and the wave found no long way among them; a maze or a spiral is better taken apart.
-    fn whole(&mut self) -> Option<Window> {
+    /// All unknown cells as one window, that nothing is cut off from. Row by row, as they lie in the grid: no window's list of
+    /// cells and no numbers.
+    fn solve_whole(&mut self) {
         let component = self.component;
-        if self.unknown <= SMALL || component.levels > component.shape[0] + component.shape[1] {
-            return None;
+        let cells = component.goals as u32..component.len() as u32;
+        let is_unknown = |position: &u32| cells.contains(position);
+        let mut bounds = Bounds::new();
+        for (i, row) in (0..component.shape[0]).map(|i| (i, component.row(i))) {
+            let ends = [row.iter().position(is_unknown), row.iter().rposition(is_unknown)];
+            ends.into_iter().flatten().for_each(|j| bounds.include([i, j]));
+            let seam = |k: usize, position: &u32| {
+                is_unknown(position) && is_unknown(&(component.neighbors(*position as usize)[2 * k] as u32))
+            };
+            bounds.join(0, i == 0 && row.iter().any(|position| seam(0, position)));
+            bounds.join(1, seam(1, &row[0]));
+        }
+        let Some(extent) = bounds.extent(component.shape) else { return };
+        let rows = extent.first[0]..extent.first[0] + extent.cells[0];
+        let row = |i: usize| &component.row(i)[extent.first[1]..extent.first[1] + extent.cells[1]];
+        let mut wide = Wide::new(extent, self.loss);
+        for i in rows.clone() {
+            let flags = wide.row_mut(i).iter_mut().zip(row(i));
+            flags.for_each(|(free, position)| *free = is_unknown(position));
+        }
+        for goal in 0..component.goals {
+            for n in self.around(goal).filter(|&n| n >= component.goals) {
+                wide.add(extent.at(component.place(n)), [1.0, 0.0]);
+            }
+        }
+        let Some(values) = wide.solve(FLOOR) else { return };
+        for i in rows {
+            let first = extent.at([i, extent.first[1]]);
+            for (&position, at) in row(i).iter().zip(first..).filter(|(position, _)| is_unknown(position)) {
+                let [u, _] = wide.at(&values, at);
+                if u >= PRECISE {
+                    self.potential.set(position as usize, Scaled { mantissa: u, exponent: 0 }.normalized());
+                    self.unknown -= 1;
+                }
+            }
         }
         self.front.clear();
-        let cells: Vec<u32> = (component.goals as u32..component.len() as u32).collect();
-        self.number[component.goals..].iter_mut().zip(0..).for_each(|(number, at)| *number = at);
-        let sources = (0..component.goals as u32).collect();
-        Some(Window { cells, sources, exponent: 0, cut: false, beside: 0.0, greatest: 1.0 })
+        if self.unknown > 0 {
+            (0..component.len() as u32).for_each(|position| self.push_front(position));
+        }
     }
 
     fn is_known(&self, position: usize) -> bool {
@@ -184,7 +218,7 @@ impl<'a> Peeling<'a> {
     /// The neighbours of a cell that are cells.
     fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<'a> {
         let wall = self.component.wall();
-        self.component.neighbors[position].into_iter().map(|n| n as usize).filter(move |&n| n != wall)
+        self.component.neighbors(position).into_iter().filter(move |&n| n != wall)
     }
 
     fn is_front(&self, position: usize) -> bool {
@@ -255,7 +289,7 @@ impl<'a> Peeling<'a> {
         let mut network = Network::new(window.cells.len());
         for (i, &position) in window.cells.iter().enumerate() {
             network.ground(i, self.loss, [0.0; 2]);
-            for n in self.component.neighbors[position as usize].map(|n| n as usize) {
+            for n in self.component.neighbors(position as usize) {
                 if n == self.component.wall() {
                     network.ground(i, 1.0, [0.0; 2]);
                 } else if self.is_known(n) {
@@ -271,27 +305,18 @@ impl<'a> Peeling<'a> {
     }
 
     /// The same equations on the smallest box of cells around them.
-    fn wide(&self, window: &Window) -> Wide {
-        let (mut low, mut high, mut ends) = ([usize::MAX; 2], [0; 2], [Ends::High; 2]);
+    fn wide(&self, window: &Window) -> Option<Wide> {
+        let mut bounds = Bounds::new();
         for &position in &window.cells {
             let place = self.component.place(position as usize);
-            for k in [0, 1] {
-                low[k] = low[k].min(place[k]);
-                high[k] = high[k].max(place[k] + 1);
-                // Across the seam of a circle.
-                let before = self.component.neighbors[position as usize][2 * k] as usize;
-                if place[k] == 0 && before != self.component.wall() && self.number[before] != NONE {
-                    ends[k] = Ends::Joined;
-                }
+            bounds.include(place);
+            for k in [0, 1].into_iter().filter(|&k| place[k] == 0) {
+                let before = self.component.neighbors(position as usize)[2 * k];
+                bounds.join(k, before != self.component.wall() && self.number[before] != NONE);
             }
         }
-        for k in [0, 1] {
-            if ends[k] == Ends::Joined {
-                (low[k], high[k]) = (0, self.component.shape[k]);
-            }
-        }
-        let cells = [high[0] - low[0], high[1] - low[1]];
-        let mut wide = Wide::new(cells, ends, self.loss);
+        let extent = bounds.extent(self.component.shape)?;
+        let mut wide = Wide::new(extent, self.loss);
         for &position in &window.cells {
             let mut source = [0.0; SIDES];
             for n in self.around(position as usize) {
@@ -301,10 +326,11 @@ impl<'a> Peeling<'a> {
                     source[1] += 1.0;
                 }
             }
-            let [i, j] = self.component.place(position as usize);
-            wide.push((i - low[0]) * cells[1] + j - low[1], source);
+            let at = extent.at(self.component.place(position as usize));
+            wide.free(at);
+            wide.add(at, source);
         }
-        wide
+        Some(wide)
     }
 
     /// Takes over the values that what is beyond the window has no part in; how many.
@@ -338,12 +364,15 @@ impl<'a> Peeling<'a> {
             self.front.clear();
             return taken;
         }
-        for &position in window.sources.iter().chain(&window.cells) {
-            if self.is_known(position as usize) && self.is_front(position as usize) {
-                let log2 = self.potential.at(position as usize).log2();
-                self.front.push(Front { log2, position });
-            }
-        }
+        window.sources.iter().chain(&window.cells).for_each(|&position| self.push_front(position));
         taken
+    }
+
+    /// Goes on from a position later, if it is known and a neighbour is not.
+    fn push_front(&mut self, position: u32) {
+        if self.is_known(position as usize) && self.is_front(position as usize) {
+            let log2 = self.potential.at(position as usize).log2();
+            self.front.push(Front { log2, position });
+        }
     }
 }

@@ -63,49 +63,49 @@ impl Scaled {
 
 /// A positive value for every position of a [`Component`], zero for the wall. Each has an exponent of its own, so that
 /// relative precision is that of doubles however far the goal is.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Potential {
     /// One a position, and the wall's 0 last.
     pub(super) mantissa: Vec<f64>,
-    /// One a position; the wall's is never looked at.
-    pub(super) exponent: Vec<i32>,
+    /// One a position; none while all are 0. The wall's is never looked at.
+    exponent: Vec<i32>,
 }
 
 impl Potential {
     /// `2^log2` for every position.
     #[must_use]
     pub fn from_log2(log2: &[f64]) -> Self {
-        let (mut mantissa, mut exponent): (Vec<f64>, Vec<i32>) = log2
-            .iter()
-            .map(|&log2| {
-                let value = Scaled::exp2(log2);
-                (value.mantissa, value.exponent)
-            })
-            .unzip();
-        mantissa.push(0.0);
-        exponent.push(0);
-        Self { mantissa, exponent }
+        let mut potential = Self::zero(log2.len());
+        log2.iter().enumerate().for_each(|(position, &log2)| potential.set(position, Scaled::exp2(log2)));
+        potential
     }
 
     /// Zero everywhere.
     pub(super) fn zero(len: usize) -> Self {
-        Self { mantissa: vec![0.0; len + 1], exponent: vec![0; len + 1] }
+        Self { mantissa: vec![0.0; len + 1], exponent: Vec::new() }
     }
 
     /// Replaces the number at a position.
     pub(super) fn set(&mut self, position: usize, value: Scaled) {
-        (self.mantissa[position], self.exponent[position]) = (value.mantissa, value.exponent);
+        self.mantissa[position] = value.mantissa;
+        if value.exponent != 0 && self.exponent.is_empty() {
+            self.exponent.resize(self.mantissa.len(), 0);
+        }
+        if let Some(exponent) = self.exponent.get_mut(position) {
+            *exponent = value.exponent;
+        }
     }
 
     /// The number at a position.
     pub(super) fn at(&self, position: usize) -> Scaled {
-        Scaled { mantissa: self.mantissa[position], exponent: self.exponent[position] }
+        Scaled { mantissa: self.mantissa[position], exponent: self.exponent.get(position).copied().unwrap_or(0) }
     }
 
     /// Natural logarithm of the value at `position`; minus infinity for the wall.
     #[must_use]
     pub fn ln(&self, position: usize) -> f64 {
-        self.mantissa[position].ln() + f64::from(self.exponent[position]) * f64::from(STEP) * std::f64::consts::LN_2
+        let Scaled { mantissa, exponent } = self.at(position);
+        mantissa.ln() + f64::from(exponent) * f64::from(STEP) * std::f64::consts::LN_2
     }
 
     /// Whether the value at `a` is strictly greater than that at `b`. Exact.
@@ -123,9 +123,9 @@ impl Potential {
     /// `position` itself.
     #[must_use]
     pub fn ascent(&self, component: &Component, position: usize) -> Option<usize> {
-        component.neighbors[position]
-            .iter()
-            .map(|&n| n as usize)
+        component
+            .neighbors(position)
+            .into_iter()
             .fold(None, |best, n| if self.is_greater(n, best.unwrap_or(position)) { Some(n) } else { best })
     }
 
@@ -133,8 +133,7 @@ impl Potential {
     /// ascent leads to a goal from everywhere. Linear.
     #[must_use]
     pub fn navigates(&self, component: &Component) -> bool {
-        (component.goals..component.len())
-            .all(|i| component.neighbors[i].iter().any(|&n| self.is_greater(n as usize, i)))
+        (component.goals..component.len()).all(|i| component.neighbors(i).into_iter().any(|n| self.is_greater(n, i)))
     }
 
     /// Positions from `from` to a goal by steepest ascent. Nothing if it ends in a local maximum, which cannot be where

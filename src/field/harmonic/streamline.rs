@@ -40,8 +40,8 @@ impl<F: Fn(Place) -> Option<usize>> Guide for Uphill<'_, F> {
         let position = (self.at)(place).filter(|&position| position >= self.component.goals)?;
         let here = self.potential.at(position);
         // As doubles of a common scale, so that quotients are those of numbers beyond all doubles.
-        let [down, up, left, right] = self.component.neighbors[position]
-            .map(|n| self.potential.at(n as usize))
+        let around = self.component.neighbors(position).map(|n| self.potential.at(n));
+        let [down, up, left, right] = around
             .map(|value| if value.mantissa == 0.0 { 0.0 } else { value.mantissa_at(here.exponent) / here.mantissa });
         Some([(up - down) / 2.0, (right - left) / 2.0])
     }

@@ -5,6 +5,7 @@
 //! correction again, with the residuals of the cells that are settled already taken as 0: the greatest of the rest, and
 //! with it the error, falls by some digits each time, down to the floor, below which nothing is wanted.
 
+use super::extent::Extent;
 use super::network::SIDES;
 use crate::field::multigrid::{Ends, Multigrid, Workspace};
 
@@ -21,17 +22,13 @@ const SETTLED: f64 = PRECISE / 4.0;
 /// as 0.
 #[derive(Debug, Clone)]
 pub(super) struct Wide {
-    /// Rows and columns of the box.
-    cells: [usize; 2],
-    /// What is beyond the box: nothing, or its other end on a circle.
-    ends: [Ends; 2],
+    pub extent: Extent,
     /// What is added to the four neighbours.
     loss: f64,
-    /// Where in the box each unknown is.
-    place: Vec<u32>,
-    /// For each place in the box the sums of known values around it: the potential, and 1 at what is cut off. Nothing for a
-    /// side that is 0 everywhere.
-    source: [Vec<f64>; SIDES],
+    /// For each place in the box whether it is an unknown.
+    free: Vec<bool>,
+    /// Sums of known values around the unknowns that have any: the potential, and 1 at what is cut off.
+    sources: [Vec<(u32, f64)>; SIDES],
 }
 
 /// Both sides for each place in the box; nothing for a side that is 0 everywhere.
@@ -48,17 +45,28 @@ const SHARE_ERROR: f64 = 1e-7;
 
 impl Wide {
     /// No unknowns yet.
-    pub fn new(cells: [usize; 2], ends: [Ends; 2], loss: f64) -> Self {
-        Self { cells, ends, loss, place: Vec::new(), source: [Vec::new(), Vec::new()] }
+    pub fn new(extent: Extent, loss: f64) -> Self {
+        let free = vec![false; extent.cells[0] * extent.cells[1]];
+        Self { extent, loss, free, sources: Default::default() }
     }
 
-    /// One more unknown.
-    pub fn push(&mut self, place: usize, source: [f64; SIDES]) {
-        self.place.push(place as u32);
-        for (of, source) in self.source.iter_mut().zip(source) {
+    /// For each column of row `i` of the grid whether it is an unknown.
+    pub fn row_mut(&mut self, i: usize) -> &mut [bool] {
+        let columns = self.extent.cells[1];
+        let first = (i - self.extent.first[0]) * columns;
+        &mut self.free[first..first + columns]
+    }
+
+    /// Makes a place in the box an unknown.
+    pub fn free(&mut self, at: usize) {
+        self.free[at] = true;
+    }
+
+    /// Adds known values around an unknown.
+    pub fn add(&mut self, at: usize, source: [f64; SIDES]) {
+        for (of, source) in self.sources.iter_mut().zip(source) {
             if source != 0.0 {
-                of.resize(self.cells[0] * self.cells[1], 0.0);
-                of[place] = source;
+                of.push((at as u32, source));
             }
         }
     }
@@ -66,18 +74,15 @@ impl Wide {
     /// Both sides for each place: the first precise down to `floor`, the second within [`SHARE_ERROR`] of 1. Nothing if the
     /// refinement does not get there.
     pub fn solve(&self, floor: f64) -> Option<Values> {
-        let mut free = vec![false; self.cells[0] * self.cells[1]];
-        self.place.iter().for_each(|&place| free[place as usize] = true);
-        let inner = Multigrid::new(self.cells, self.ends, &free, 0.0);
+        let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
-        let u = self.side(0, &free, floor, ROUNDS, (&inner, &mut workspace))?;
-        let e = self.side(1, &free, 1.0, 1, (&inner, &mut workspace))?;
+        let u = self.side(0, floor, ROUNDS, (&inner, &mut workspace))?;
+        let e = self.side(1, 1.0, 1, (&inner, &mut workspace))?;
         Some(Values([u, e]))
     }
 
-    /// Both sides for an unknown, by its number; the second from above.
-    pub fn at(&self, Values([u, e]): &Values, number: usize) -> [f64; SIDES] {
-        let at = self.place[number] as usize;
+    /// Both sides for a place in the box; the second from above.
+    pub fn at(&self, Values([u, e]): &Values, at: usize) -> [f64; SIDES] {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
@@ -85,22 +90,30 @@ impl Wide {
     fn side(
         &self,
         side: usize,
-        free: &[bool],
         floor: f64,
         rounds: usize,
         (inner, workspace): (&Multigrid, &mut Workspace),
     ) -> Option<Vec<f64>> {
-        let mut right = self.source[side].clone();
-        let mut x = vec![0.0; right.len()];
-        if right.is_empty() {
-            return Some(x);
+        let sources = &self.sources[side];
+        if sources.is_empty() {
+            return Some(Vec::new());
         }
-        let mut correction = vec![0.0; right.len()];
+        let mut right = written(self.free.len());
+        let mut x = written(self.free.len());
+        let mut correction = Vec::new();
+        spread(sources, &mut right);
         for round in 1..=rounds {
-            correction.fill(0.0);
-            inner.solve(&right, &mut correction, DIGITS, workspace);
-            x.iter_mut().zip(&correction).for_each(|(x, correction)| *x += correction);
-            let precise = self.residual(side, &x, free, floor, &mut right);
+            if round == 1 {
+                inner.solve(&right, &mut x, DIGITS, workspace);
+            } else {
+                correction.clear();
+                correction.resize(x.len(), 0.0);
+                inner.solve(&right, &mut correction, DIGITS, workspace);
+                x.iter_mut().zip(&correction).for_each(|(x, correction)| *x += correction);
+            }
+            right.fill(0.0);
+            spread(sources, &mut right);
+            let precise = self.residual(&x, floor, &mut right);
             if precise || (side == 1 && round == rounds) {
                 return Some(x);
             }
@@ -108,10 +121,10 @@ impl Wide {
         None
     }
 
-    /// The residual at `x`, 0 where a value is settled; whether all are precise.
-    fn residual(&self, side: usize, x: &[f64], free: &[bool], floor: f64, residual: &mut [f64]) -> bool {
-        let [rows, columns] = self.cells;
-        let joined = self.ends.map(|ends| ends == Ends::Joined);
+    /// Puts the residual at `x` in place of the sources, 0 where a value is settled; whether all are precise.
+    fn residual(&self, x: &[f64], floor: f64, residual: &mut [f64]) -> bool {
+        let Extent { cells: [rows, columns], ends, .. } = self.extent;
+        let joined = ends.map(|ends| ends == Ends::Joined);
         let nothing = vec![0.0; columns];
         let row = |i: Option<usize>| i.map_or(&nothing[..], |i| &x[i * columns..(i + 1) * columns]);
         // The row with the cell before and the one after it.
@@ -125,13 +138,12 @@ impl Wide {
                 (here[0], here[columns + 1]) = (here[columns], here[1]);
             }
             let range = i * columns..(i + 1) * columns;
-            let (free, source) = (&free[range.clone()], &self.source[side][range.clone()]);
             let beside = here.windows(3).zip(above).zip(below);
-            let known = free.iter().zip(source);
-            for ((((three, above), below), (&free, source)), to) in beside.zip(known).zip(&mut residual[range]) {
+            let known = self.free[range.clone()].iter().zip(&mut residual[range]);
+            for (((three, above), below), (&free, to)) in beside.zip(known) {
                 let at = three[1];
                 let around = (above - at) + (below - at) + (three[0] - at) + (three[2] - at);
-                let left = if free { around + (source - self.loss * at) } else { 0.0 };
+                let left = if free { around + (*to - self.loss * at) } else { 0.0 };
                 let scale = 4.0 * (at + floor);
                 precise &= left.abs() <= PRECISE * scale;
                 *to = if left.abs() <= SETTLED * scale { 0.0 } else { left };
@@ -139,6 +151,18 @@ impl Wide {
         }
         precise
     }
+}
+
+/// Zeros that are in memory: what comes as zero pages of the system and is read before it is written is mapped twice.
+fn written(len: usize) -> Vec<f64> {
+    let mut zeros = Vec::with_capacity(len);
+    zeros.resize(len, 0.0);
+    zeros
+}
+
+/// Adds sources to where they are.
+fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
+    sources.iter().for_each(|&(at, source)| to[at as usize] += source);
 }
 
 #[cfg(test)]
@@ -150,8 +174,9 @@ mod tests {
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);
-        let mut wide = Wide::new([w, n], [Ends::High; 2], 0.0);
-        (0..w * n).for_each(|at| wide.push(at, [f64::from(u8::from(at % n == 0)), 0.0]));
+        let mut wide = Wide::new(Extent { first: [0; 2], cells: [w, n], ends: [Ends::High; 2] }, 0.0);
+        (0..w * n).for_each(|at| wide.free(at));
+        (0..w).for_each(|row| wide.add(row * n, [1.0, 0.0]));
         let values = wide.solve(1e-60).expect("precise within the rounds that there are");
         let beta = std::f64::consts::PI / (w + 1) as f64;
         let theta = (2.0 - beta.cos()).acosh();

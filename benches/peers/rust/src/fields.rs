@@ -68,7 +68,7 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
         }
         let field = times.time("harmonic", || {
             let lattice = Lattice::new(&grid);
-            let component = Component::new(&lattice, &lattice.wave(&[goal]));
+            let component = Component::new(&lattice, lattice.wave(&[goal]));
             let field = harmonic(&component);
             (component, field)
         });
