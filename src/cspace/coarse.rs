@@ -1,7 +1,7 @@
 //! Shapes with fewer corners around shapes with many: no configuration space shows more than its margin.
 
 use super::covering::covering;
-use crate::geometry::{Convex, Point, SimplePolygon, Vector, cross, perpendicular};
+use crate::geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, perpendicular};
 use crate::model::{Obstacle, Scene, Shape};
 use std::borrow::Cow;
 
@@ -187,19 +187,9 @@ fn straight_runs(points: &[Point], within: f64) -> Vec<&[Point]> {
     let mut runs = Vec::new();
     let mut from = 0;
     while from < last {
-        // The run as far as `good` is straight, as far as `bad` it is not, or there are no such points.
-        let (mut good, mut step) = (from + 1, 1);
-        while good + step <= last && straight(from, good + step) {
-            good += step;
-            step *= 2;
-        }
-        let mut bad = (good + step).min(last + 1);
-        while bad - good > 1 {
-            let middle = good.midpoint(bad);
-            *(if straight(from, middle) { &mut good } else { &mut bad }) = middle;
-        }
-        runs.push(&points[from..=good]);
-        from = good;
+        let to = farthest(from + 1, last, |to| straight(from, to));
+        runs.push(&points[from..=to]);
+        from = to;
     }
     runs
 }

@@ -1,6 +1,6 @@
 //! Many small pieces covered by few: cells of a lattice that they meet, joined to convex polygons.
 
-use crate::geometry::{Convex, Point, hull};
+use crate::geometry::{Convex, Point, farthest, hull};
 use crate::interrupt::checkpoint;
 
 /// Pieces are taken to be larger than they are by this share of the coordinates: more than rounding takes off cells.
@@ -105,23 +105,14 @@ impl Lattice {
         let count = stack.runs.len();
         let mut from = 0;
         while from < count {
-            let (mut good, mut step) = (from + 1, 1);
-            while good + step <= count && fits(from, good + step) {
-                good += step;
-                step *= 2;
-            }
-            let mut bad = (good + step).min(count + 1);
-            while bad - good > 1 {
-                let middle = good.midpoint(bad);
-                *(if fits(from, middle) { &mut good } else { &mut bad }) = middle;
-            }
+            let to = farthest(from + 1, count, |to| fits(from, to));
             let corners = |row: usize| {
                 let [left, right] = stack.runs[row];
                 [row, row + 1].map(|at| [left, right + 1].map(|column| self.corner(column, stack.bottom + at)))
             };
-            let corners: Vec<Point> = (from..good).flat_map(corners).flatten().collect();
+            let corners: Vec<Point> = (from..to).flat_map(corners).flatten().collect();
             out.push(Convex::trusted(hull(&corners), 0.0));
-            from = good;
+            from = to;
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The wave run by run: many cells at a time.
 
 use super::{FreeCells, UNREACHED};
+use crate::geometry::farthest;
 use std::ops::Range;
 
 /// Stretches wait in buckets of this many levels. Within one they are taken last in, first out, so that a stretch is
@@ -197,22 +198,7 @@ fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     if length == 0 || condition(length - 1) {
         return length;
     }
-    // It holds below `low`, and fails at `high`.
-    let (mut low, mut high) = (0, length - 1);
-    let mut step = 1;
-    while low + step <= high {
-        if !condition(low + step - 1) {
-            high = low + step - 1;
-            break;
-        }
-        low += step;
-        step *= 2;
-    }
-    while low < high {
-        let middle = usize::midpoint(low, high);
-        if condition(middle) { low = middle + 1 } else { high = middle }
-    }
-    low
+    farthest(0, length - 1, |count| condition(count - 1))
 }
 
 /// Stretches by their least label, in a ring of buckets.
