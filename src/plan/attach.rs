@@ -23,29 +23,39 @@ pub(super) struct Attachment {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Joined {
     pub start: Attachment,
-    /// One a goal, in their order; none where a goal cannot be joined.
-    pub goals: Vec<Option<Attachment>>,
+    /// The goals that can be joined, within the domain; at least one.
+    pub goals: Vec<(Segment, Attachment)>,
 }
 
 impl Joined {
     /// Joins start and goals; the reason if the start or every goal cannot be.
     pub fn new(grid: &Grid, query: &Query) -> Result<Self, String> {
         let start = attach(grid, query.start, "start")?;
-        let goals: Vec<_> = query.goals.pieces().iter().map(|goal| attach_goals(grid, goal)).collect();
-        if goals.iter().all(Result::is_err) {
-            let reasons: Vec<_> = goals.into_iter().filter_map(Result::err).collect();
+        let (mut goals, mut reasons) = (Vec::new(), Vec::new());
+        for goal in query.goals.pieces().iter().flat_map(|piece| in_domain(grid, piece)) {
+            match attach_goals(grid, &goal) {
+                Ok(attachment) => goals.push((goal, attachment)),
+                Err(reason) => reasons.push(reason),
+            }
+        }
+        if goals.is_empty() {
             return Err(if reasons.is_empty() { "there is no goal".into() } else { reasons.join("; ") });
         }
-        Ok(Self { start, goals: goals.into_iter().map(Result::ok).collect() })
+        Ok(Self { start, goals })
     }
 
     /// The cells joined to any goal.
     pub fn sources(&self) -> Vec<usize> {
-        self.goals.iter().flatten().flat_map(|attachment| attachment.cells.iter().copied()).collect()
+        self.goals.iter().flat_map(|(_, attachment)| attachment.cells.iter().copied()).collect()
     }
 }
 
-/// Joins goals to the grid; the reason if they cannot be.
+/// A piece as the grid has it: segments within the domain, a single configuration as it is.
+fn in_domain(grid: &Grid, piece: &Segment) -> Vec<Segment> {
+    if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
+}
+
+/// Joins goals within the domain to the grid; the reason if they cannot be.
 fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
     let [from, to] = goals.ends();
     if goals.is_point() {

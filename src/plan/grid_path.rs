@@ -68,19 +68,18 @@ pub(super) fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line 
 /// nearest to `near` (the unwrapped centre of the cell), as its nearest copy.
 fn goal_at<'a>(
     grid: &Grid,
-    query: &Query,
     joined: &'a Joined,
     cell: usize,
     near: Configuration,
 ) -> Option<(Configuration, &'a Attachment)> {
     let (center, step) = (grid.center(cell), grid.step());
     let [lower, upper] = [-0.5, 0.5].map(|half| [0, 1].map(|k| center[k] + half * step[k]));
-    let here = query.goals.pieces().iter().zip(&joined.goals).filter_map(|(piece, attachment)| {
-        let attachment = attachment.as_ref().filter(|attachment| attachment.cells.contains(&cell))?;
-        let within = if piece.is_point() { None } else { piece.within(lower, upper) };
-        let goal = within.unwrap_or(*piece).nearest(Measure::from(Metric::Euclidean), center);
-        Some((grid.topology.lift(goal, near), attachment))
-    });
+    let here =
+        joined.goals.iter().filter(|(_, attachment)| attachment.cells.contains(&cell)).map(|(piece, attachment)| {
+            let within = if piece.is_point() { None } else { piece.within(lower, upper) };
+            let goal = within.unwrap_or(*piece).nearest(Measure::from(Metric::Euclidean), center);
+            (grid.topology.lift(goal, near), attachment)
+        });
     here.min_by(|a, b| (a.0 - near).norm().total_cmp(&(b.0 - near).norm()))
 }
 
@@ -89,7 +88,7 @@ fn goal_at<'a>(
 /// it are not proven by the grid. Nothing if the cells are not such a chain.
 pub(super) fn path(grid: &Grid, query: &Query, joined: &Joined, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
-    let goal = goal_at(grid, query, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
+    let goal = goal_at(grid, joined, *cells.last()?, from_lattice(grid, *line.last()?))?;
     let line = completed(grid, query, joined, line, goal);
     let line = if kind == PathKind::Taut { shortcut::shortcut(grid, &line) } else { line };
     Some(between(grid, query.start, &line, goal.0))
@@ -125,7 +124,7 @@ pub(super) fn along<G: Guide>(
     let end = streamline.place.map(|x| x as f64 + 0.5);
     let is_goal = |place: Place| cell(grid, place).filter(|_| guide.is_goal(place));
     let at = is_goal(streamline.place).unwrap_or_else(|| unreachable!("a streamline ends in a goal's cell"));
-    let goal = goal_at(grid, query, joined, at, from_lattice(grid, end))
+    let goal = goal_at(grid, joined, at, from_lattice(grid, end))
         .unwrap_or_else(|| unreachable!("each goal's cell is joined to a goal"));
     let is_far = line.len() > 1;
     if (is_far || !goal.1.contained) && line[line.len() - 1] != end {

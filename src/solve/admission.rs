@@ -94,16 +94,22 @@ impl Ends {
         let topology = scene.arm().topology();
         let mut goals: Vec<Segment> = Vec::new();
         let mut stand_ins = Vec::new();
+        let mut wanted: Vec<Configuration> = Vec::new();
         for piece in problem.goals().pieces() {
-            if !piece.is_point() {
-                goals.push(*piece);
+            if piece.is_point() {
+                wanted.push(piece.ends()[0]);
+                continue;
             }
-            for goal in singles(scene, space, piece) {
-                let goal = topology.lift(goal, start);
-                let there = stand_in(scene, space, goal);
-                goals.push(Segment::point(there));
-                stand_ins.push([there, goal]);
+            for part in piece.within_domain(&topology) {
+                goals.push(part);
+                wanted.extend(middles_unknown(scene, space, &part));
             }
+        }
+        for goal in wanted {
+            let goal = topology.lift(goal, start);
+            let there = stand_in(scene, space, goal);
+            goals.push(Segment::point(there));
+            stand_ins.push([there, goal]);
         }
         let query = Query { start: stand_in(scene, space, start), goals: goals.into_iter().collect() };
         Self { topology, start, stand_ins, query }
@@ -141,11 +147,9 @@ impl Ends {
     }
 }
 
-/// The goals of a piece that are to be asked for one by one: the middles of free stretches of which the space knows nothing.
-fn singles(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
-    if piece.is_point() {
-        return vec![piece.ends()[0]];
-    }
+/// The goals of a segment in the domain that are to be asked for one by one: the middles of free stretches of which the space
+/// knows nothing.
+fn middles_unknown(scene: &Scene, space: &impl Admit, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| (0..LOOKS).any(|k| space.admits(stretch.at(k as f64 / (LOOKS - 1) as f64)));
     let mut unknown = free_stretches(scene, piece, scene.workspace().clearance);
     unknown.retain(|stretch| !knows(stretch));

@@ -17,14 +17,16 @@ pub(super) fn shortened(problem: &Problem, path: &CertifiedPath, metric: Metric,
     let waypoints = path.path().waypoints();
     let (&end, before) = waypoints.split_last()?;
     let &last = before.last()?;
-    let here = topology.wrap(end);
-    let by = end - here;
     let measure = Measure::from(metric);
     let grow = scene.workspace().clearance + kept * scene.arm().reach();
-    let holds = |stretch: &Segment| stretch.distance(Measure::from(Metric::Euclidean), here) <= ON;
-    let pieces = problem.goals().wrapped(&topology).filter(|piece| !piece.is_point() && holds(piece));
-    let stretches = pieces.flat_map(|piece| free_stretches(scene, &piece, grow));
-    let best = stretches.filter(holds).map(|stretch| stretch.shifted(by).nearest(measure, last));
+    let here = |stretch: &Segment| -> Vec<Segment> {
+        let holds = |copy: &Segment| copy.distance(Measure::from(Metric::Euclidean), end) <= ON;
+        stretch.copies_near(&topology, end).filter(holds).collect()
+    };
+    let segments = problem.goals().pieces().iter().filter(|piece| !piece.is_point());
+    let parts = segments.flat_map(|piece| piece.within_domain(&topology)).filter(|part| !here(part).is_empty());
+    let stretches = parts.flat_map(|part| free_stretches(scene, &part, grow));
+    let best = stretches.flat_map(|stretch| here(&stretch)).map(|stretch| stretch.nearest(measure, last));
     let shorter = |goal: &Configuration| metric.norm(goal - last) < metric.norm(end - last);
     let goal = best.filter(shorter).min_by(|a, b| metric.norm(a - last).total_cmp(&metric.norm(b - last)))?;
     let moved = Path::new(before.iter().copied().chain([goal]).collect());

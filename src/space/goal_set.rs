@@ -1,7 +1,6 @@
 //! Where a motion may end.
 
-use super::{Axis, Configuration, Measure, Metric, Segment, Topology};
-use std::f64::consts::TAU;
+use super::{Configuration, Measure, Metric, Segment, Topology};
 
 /// A set of configurations to reach any of: single ones, and straight segments of them.
 ///
@@ -33,19 +32,14 @@ impl GoalSet {
 
     /// Its pieces as copies that lie in the fundamental domain; of a piece across a seam as many as cover it there.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Segment> {
-        self.pieces.iter().flat_map(|piece| {
-            let [from, to] = piece.ends();
-            let [first, second] = [0, 1].map(|k| into_domain(topology.axes[k], [from[k], to[k]]));
-            let pairs = first.iter().flat_map(|a| second.iter().map(move |b| [0, 1].map(|end| [a[end], b[end]])));
-            pairs.map(|ends| ends.map(Configuration::from)).map(|[from, to]| Segment::new(from, to)).collect::<Vec<_>>()
-        })
+        self.pieces.iter().flat_map(|piece| piece.wrapped(topology))
     }
 
     /// The configuration of the set that is nearest to `q`, as the copy nearest to it; the first of several.
     #[must_use]
     pub fn nearest(&self, topology: &Topology, metric: Metric, q: Configuration) -> Option<Configuration> {
         let measure = Measure::from(metric);
-        let copies = self.pieces.iter().flat_map(|piece| copies_near(topology, piece, q));
+        let copies = self.pieces.iter().flat_map(|piece| piece.copies_near(topology, q));
         let places = copies.map(|copy| copy.nearest(measure, q));
         places.reduce(|best, next| if metric.norm(next - q) < metric.norm(best - q) { next } else { best })
     }
@@ -61,34 +55,6 @@ impl GoalSet {
     pub fn contains(&self, topology: &Topology, q: Configuration, tolerance: f64) -> bool {
         self.distance(topology, Metric::Euclidean, q) <= tolerance
     }
-}
-
-/// The copies of a stretch of values that are in the domain of an axis, or any of their length.
-fn into_domain(axis: Axis, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
-    let (lower, upper) = axis.domain();
-    match axis {
-        Axis::Interval { .. } => vec![[from, to]],
-        Axis::Circle if from == to => vec![[axis.wrap(from); 2]],
-        Axis::Circle => {
-            // From where its greatest value comes past the lower end to where its least one is short of the upper end.
-            let first = ((lower - from.max(to)) / TAU).floor() as i64 + 1;
-            let last = ((upper - from.min(to)) / TAU).ceil() as i64 - 1;
-            (first..=last).map(|turns| [from, to].map(|value| axis.turned(value, turns as f64))).collect()
-        }
-    }
-}
-
-/// The copies of a piece that may be nearest to `q`: on a circle those at most a turn from its middle.
-fn copies_near(topology: &Topology, piece: &Segment, q: Configuration) -> impl Iterator<Item = Segment> + use<> {
-    let middle = piece.at(0.5);
-    let turns = [0, 1].map(|k| {
-        let turns = if topology.axes[k].is_circle() { ((q[k] - middle[k]) / TAU).round() } else { 0.0 };
-        let around = if topology.axes[k].is_circle() { -1..=1 } else { 0..=0 };
-        around.map(move |more| turns + f64::from(more))
-    });
-    let [first, second] = turns;
-    let piece = *piece;
-    first.flat_map(move |first| second.clone().map(move |second| piece.turned([first, second])))
 }
 
 impl From<Configuration> for GoalSet {
@@ -113,7 +79,7 @@ impl<P: Into<Segment>> FromIterator<P> for GoalSet {
 mod tests {
     use super::*;
     use crate::space::Axis;
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
 
     fn at(q1: f64, q2: f64) -> Configuration {
         Configuration::new(q1, q2)

@@ -2,6 +2,7 @@
 
 mod bernstein;
 mod blend;
+mod copies;
 mod curve;
 mod goal_set;
 mod interpolation;

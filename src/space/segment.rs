@@ -1,6 +1,6 @@
 //! Straight segments of configurations.
 
-use super::{Axis, Configuration, Measure};
+use super::{Configuration, Measure};
 use crate::geometry::{Orientation, Point, cross, orientation};
 
 /// All configurations on a straight line from one to another; a single one where both ends are the same.
@@ -61,13 +61,6 @@ impl Segment {
     #[must_use]
     pub fn shifted(&self, by: Configuration) -> Self {
         Self { from: self.from + by, to: self.to + by }
-    }
-
-    /// The same so many whole turns of each joint on.
-    #[must_use]
-    pub fn turned(&self, turns: [f64; 2]) -> Self {
-        let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| Axis::Circle.turned(q[k], turns[k])));
-        Self { from, to }
     }
 
     /// The part on which an affine function is not negative, given its values at both ends.

@@ -7,6 +7,7 @@ mod common;
 mod contract;
 mod decide;
 mod free_orders;
+mod goal_seams;
 mod goal_sets;
 mod interrupt;
 mod optimum;

@@ -1,0 +1,101 @@
+//! Copies of segments by whole turns.
+
+use super::{Axis, Configuration, Segment, Topology};
+use std::f64::consts::TAU;
+
+impl Segment {
+    /// The same so many whole turns of each joint on.
+    #[must_use]
+    pub fn turned(&self, turns: [f64; 2]) -> Self {
+        let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| Axis::Circle.turned(q[k], turns[k])));
+        Self::new(from, to)
+    }
+
+    /// Its copies that lie in the fundamental domain; of one across a seam as many as cover it there, each as a whole.
+    pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
+        let [from, to] = self.ends();
+        let [first, second] = [0, 1].map(|k| into_domain(topology.axes[k], [from[k], to[k]]));
+        first.into_iter().flat_map(move |a| {
+            let ends = move |b: [f64; 2]| [0, 1].map(|end| Configuration::new(a[end], b[end]));
+            second.clone().into_iter().map(ends).map(|[from, to]| Self::new(from, to))
+        })
+    }
+
+    /// All of it as copies within the fundamental domain: across a seam it is cut in two. Exact but for the ends at a cut; one
+    /// that lies within the domain is itself.
+    pub fn within_domain(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
+        // On an interval there are no copies, and no goal is lost that lies beyond a limit.
+        let bounds =
+            topology.axes.map(|axis| if axis.is_circle() { axis.domain() } else { (f64::NEG_INFINITY, f64::INFINITY) });
+        let [lower, upper] = [bounds.map(|b| b.0), bounds.map(|b| b.1)];
+        self.wrapped(topology).filter_map(move |copy| copy.within(lower, upper))
+    }
+
+    /// Its copies that may be nearest to `q`: on a circle those at most a turn from its middle.
+    pub fn copies_near(&self, topology: &Topology, q: Configuration) -> impl Iterator<Item = Self> + use<> {
+        let middle = self.at(0.5);
+        let turns = [0, 1].map(|k| {
+            let turns = if topology.axes[k].is_circle() { ((q[k] - middle[k]) / TAU).round() } else { 0.0 };
+            let around = if topology.axes[k].is_circle() { -1..=1 } else { 0..=0 };
+            around.map(move |more| turns + f64::from(more))
+        });
+        let [first, second] = turns;
+        let piece = *self;
+        first.flat_map(move |first| second.clone().map(move |second| piece.turned([first, second])))
+    }
+}
+
+/// The copies of a stretch of values that are in the domain of an axis, or any of their length.
+fn into_domain(axis: Axis, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let (lower, upper) = axis.domain();
+    match axis {
+        Axis::Interval { .. } => vec![[from, to]],
+        Axis::Circle if from == to => vec![[axis.wrap(from); 2]],
+        Axis::Circle => {
+            // From where its greatest value comes past the lower end to where its least one is short of the upper end.
+            let first = ((lower - from.max(to)) / TAU).floor() as i64 + 1;
+            let last = ((upper - from.min(to)) / TAU).ceil() as i64 - 1;
+            (first..=last).map(|turns| [from, to].map(|value| axis.turned(value, turns as f64))).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    const TORUS: Topology = Topology { axes: [Axis::Circle; 2] };
+
+    fn at(q1: f64, q2: f64) -> Configuration {
+        Configuration::new(q1, q2)
+    }
+
+    #[test]
+    fn within_the_domain_a_segment_across_a_seam_is_cut() {
+        let cut = |from, to| Segment::new(from, to).within_domain(&TORUS).collect::<Vec<_>>();
+        for inside in [Segment::new(at(1.0, -PI), at(1.0, PI)), Segment::new(at(-PI, 0.2), at(PI, -0.3))] {
+            let [from, to] = inside.ends();
+            assert_eq!(cut(from, to), [inside]);
+        }
+        let parts = cut(at(4.0, 0.5), at(3.0, 0.5));
+        let expected = [Segment::new(at(4.0 - TAU, 0.5), at(-PI, 0.5)), Segment::new(at(PI, 0.5), at(3.0, 0.5))];
+        assert_eq!(parts.len(), 2, "{parts:?}");
+        for (part, expected) in parts.iter().zip(expected) {
+            let apart = [0, 1].map(|k| (part.ends()[k] - expected.ends()[k]).amax());
+            assert!(apart.iter().all(|apart| *apart < 1e-15), "{part:?} {expected:?}");
+        }
+        // Across both seams, one after the other: three parts.
+        let parts = cut(at(3.0, 3.1), at(3.5, 3.6));
+        let length: f64 = parts.iter().map(Segment::length).sum();
+        assert_eq!(parts.len(), 3, "{parts:?}");
+        assert!((length - 0.5_f64.hypot(0.5)).abs() < 1e-12, "{length}");
+        // A whole circle and more stays as long as it is.
+        let parts = cut(at(-4.0, 1.0), at(4.0, 1.0));
+        assert!((parts.iter().map(Segment::length).sum::<f64>() - 8.0).abs() < 1e-12, "{parts:?}");
+        // On an interval nothing is cut off.
+        let strip = Topology { axes: [Axis::Interval { lower: -1.0, upper: 1.0 }, Axis::Circle] };
+        let far = Segment::new(at(-9.0, 1.0), at(9.0, 1.0));
+        assert_eq!(far.within_domain(&strip).collect::<Vec<_>>(), [far]);
+    }
+}

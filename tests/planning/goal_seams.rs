@@ -1,0 +1,143 @@
+//! Sets of goals that end at the seam of a circle, lie on it or go across: the seam is nowhere, so written another way round
+//! they are the same set, for every planner.
+
+use crate::common::random::{seeds, usual};
+use crate::common::{asked, disc, rr, scene, wall};
+use crate::random_worlds::world::Dice;
+use cplan::geometry::{Point, Vector};
+use cplan::model::{Problem, Scene};
+use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::space::{Axis, Configuration, GoalSet, Path, Segment};
+use std::f64::consts::PI;
+
+/// Goals of a set that are asked for one by one.
+const TRIED: u32 = 12;
+
+/// Of goals with less room, metres, a representation may not know.
+const ROOMY: f64 = 0.01;
+
+/// A value at a seam, beside it, or anywhere.
+fn at_seam(dice: &mut Dice) -> f64 {
+    let seam = if dice.below(2) == 0 { PI } else { -PI };
+    match dice.below(4) {
+        0 | 1 => seam,
+        2 => seam + dice.range(-0.3, 0.3),
+        _ => dice.range(-PI, PI),
+    }
+}
+
+/// A segment along one joint, or slanted, that has to do with the seam of a circle.
+fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
+    let axes = scene.arm().topology().axes;
+    let mut from = Configuration::from_fn(|k, _| match axes[k].domain() {
+        _ if axes[k].is_circle() => at_seam(dice),
+        (lower, upper) => dice.range(lower, upper),
+    });
+    let sign = if dice.below(2) == 0 { 1.0 } else { -1.0 };
+    let length = dice.range(0.2, 3.0);
+    let along = [[1.0, 0.0], [0.0, 1.0], [1.0, sign]][dice.below(3) as usize];
+    let mut to = from + Configuration::from(along) * length;
+    for k in 0..2 {
+        let (lower, upper) = axes[k].domain();
+        if !axes[k].is_circle() {
+            (from[k], to[k]) = (from[k].clamp(lower, upper), to[k].clamp(lower, upper));
+        }
+    }
+    if dice.below(2) == 0 { Segment::new(from, to) } else { Segment::new(to, from) }
+}
+
+/// The same set in other words: the other way along, some turns on, and in pieces that end at each seam.
+fn in_other_words(problem: &Problem, goals: Segment) -> Vec<GoalSet> {
+    let axes = problem.scene().arm().topology().axes;
+    let [from, to] = goals.ends();
+    let turns = [0, 1].map(|k| if axes[k].is_circle() { 1.0 - 3.0 * k as f64 } else { 0.0 });
+    // Shares of the segment at which it goes across a seam, an odd number of half turns.
+    let mut cuts = vec![0.0, 1.0];
+    for k in (0..2).filter(|&k| axes[k].is_circle() && from[k] != to[k]) {
+        let seams = [-3.0, -1.0, 1.0, 3.0, 5.0].map(|half| (half * PI - from[k]) / (to[k] - from[k]));
+        cuts.extend(seams.into_iter().filter(|share| 0.0 < *share && *share < 1.0));
+    }
+    cuts.sort_by(f64::total_cmp);
+    let pieces = cuts.windows(2).map(|pair| Segment::new(goals.at(pair[0]), goals.at(pair[1])));
+    vec![goals.into(), Segment::new(to, from).into(), goals.turned(turns).into(), pieces.collect()]
+}
+
+fn world(seed: u64) -> Option<(Problem, Segment)> {
+    let mut dice = Dice::new(seed.wrapping_mul(0x9E6C_63D0_876A_68DE));
+    let limited = Axis::Interval { lower: -dice.range(1.0, 4.0), upper: dice.range(1.0, 4.0) };
+    let axes = match dice.below(4) {
+        0 => [Axis::Circle, limited],
+        1 => [limited, Axis::Circle],
+        _ => [Axis::Circle; 2],
+    };
+    let count = dice.below(6);
+    let piece = |dice: &mut Dice| {
+        let (r, angle) = (dice.range(0.4, 1.8), dice.range(-PI, PI));
+        let at = Point::new(r * angle.cos(), r * angle.sin());
+        let along = dice.range(-PI, PI);
+        let end = at + Vector::new(along.cos(), along.sin()) * dice.range(0.1, 0.9);
+        if dice.below(3) == 0 { disc(at, dice.range(0.02, 0.15)) } else { wall(at, end) }
+    };
+    let pieces = (0..count).map(|_| piece(&mut dice)).collect();
+    let scene = scene(rr(axes), pieces);
+    let anywhere = |dice: &mut Dice| {
+        Configuration::from_fn(|k, _| {
+            let (lower, upper) = axes[k].domain();
+            if axes[k].is_circle() && dice.below(3) == 0 { at_seam(dice) } else { dice.range(lower, upper) }
+        })
+    };
+    let start = (0..50).map(|_| anywhere(&mut dice)).find(|&q| scene.clearance(q) > 1e-3)?;
+    let goals = segment(&mut dice, &scene);
+    scene.blocked_along(&goals).is_none().then(|| (asked(scene, start, goals), goals))
+}
+
+fn found(problem: &Problem, method: Method, effort: &Effort) -> Option<Path> {
+    match solve(problem, method, effort, &mut |_| {}).verdict {
+        Verdict::Found(path) => Some(path.path().clone()),
+        Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
+    }
+}
+
+#[test]
+fn a_seam_makes_no_difference_to_any_planner() {
+    let effort = Effort { cells: 96, ..Effort::default() };
+    let (mut worlds, mut across) = (0, 0);
+    for seed in seeds(60) {
+        let Some((problem, goals)) = world(seed) else { continue };
+        let (scene, start) = (problem.scene(), problem.start());
+        let topology = scene.arm().topology();
+        let sets = in_other_words(&problem, goals);
+        across += u64::from(sets[3].pieces().len() > 1);
+        worlds += 1;
+        for method in Method::ALL {
+            let lengths: Vec<Option<f64>> = sets
+                .iter()
+                .map(|set| {
+                    let path = found(&asked(scene.clone(), start, set.clone()), method, &effort)?;
+                    for set in &sets {
+                        assert!(set.contains(&topology, path.goal(), 1e-9), "seed {seed}, {method}: {}", path.goal());
+                    }
+                    Some(path.length())
+                })
+                .collect();
+            let least = lengths.iter().flatten().copied().fold(f64::INFINITY, f64::min);
+            // Rounding decides which of the cells hold an end that lies on their sides, and of goals that are as many cells away
+            // which is gone to: there is half as much between the nearest and the farthest of these.
+            let same = if matches!(method, Method::Wavefront | Method::Harmonic) { 0.5 } else { 1e-6 };
+            let alike = |length: &Option<f64>| length.map_or(least.is_infinite(), |l| l <= least * (1.0 + same) + same);
+            assert!(lengths.iter().all(alike), "seed {seed}, {method}: {lengths:?} of {sets:?} from {start}");
+            if method == Method::Visibility && least.is_finite() {
+                for k in 0..=TRIED {
+                    let goal = goals.at(f64::from(k) / f64::from(TRIED));
+                    if scene.clearance(goal) > ROOMY
+                        && let Some(path) = found(&asked(scene.clone(), start, goal), method, &effort)
+                    {
+                        let other = path.length();
+                        assert!(least <= other * (1.0 + 1e-9), "seed {seed}: {least}, but {other} to {goal} of them");
+                    }
+                }
+            }
+        }
+    }
+    assert!(!usual() || worlds >= 40 && across > worlds / 4, "{worlds} worlds, {across} across a seam");
+}
