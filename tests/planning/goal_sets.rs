@@ -13,6 +13,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Values of the free joint that are tried one by one.
 const TRIED: usize = 13;
 
+/// So many levels are tried once more where the path may be more than 5 % longer than the shortest.
+const LOOKED_AT: usize = 2;
+
 /// An arm whose tip goal leaves a joint free, and where the tip is to go.
 fn drawn(dice: &mut Dice) -> (Arm, Point) {
     let turn = |dice: &mut Dice| Motion::Revolute { sign: if dice.below(3) == 0 { -1.0 } else { 1.0 } };
@@ -148,12 +151,9 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                 let bound = answer.bound.expect("visibility bounds what it finds");
                 for &goal in &connected {
                     let single = asked(problem.scene().clone(), problem.start(), goal);
-                    let Verdict::Found(other) =
-                        solve(&single, Method::Visibility, &Effort::default(), &mut |_| {}).verdict
-                    else {
-                        continue;
-                    };
-                    let length = other.path().length();
+                    let other = solve(&single, Method::Visibility, &Effort::default(), &mut |_| {});
+                    let Verdict::Found(path) = &other.verdict else { continue };
+                    let length = path.path().length();
                     assert!(
                         bound.lower <= length * (1.0 + 1e-9),
                         "seed {seed}: {} above {length} to {goal}",
@@ -161,7 +161,9 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                     );
                     let least = least_length(scene, start, problem.goals(), 0.0, Metric::Euclidean, length, 1e-3);
                     assert!(least <= length, "seed {seed}");
-                    assert!(bound.upper <= 1.02 * length, "seed {seed}: {} beside {length} to {goal}", bound.upper);
+                    // A shorter way that only the finest levels show is looked for where there is no other, or with a gap.
+                    let most = if other.history.len() <= LOOKED_AT { 1.05 * length } else { f64::INFINITY };
+                    assert!(bound.upper <= most, "seed {seed}: {} beside {length} to {goal}", bound.upper);
                 }
             }
             Verdict::Infeasible(_) => assert!(connected.is_empty(), "seed {seed}: a false proof"),
@@ -169,6 +171,21 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
         }
     }
     assert!(!usual() || worlds >= 60 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+}
+
+/// The tip is to return to the base, an arm folded back: the first level's polygons leave no way to the left, where an obstacle is
+/// passed at a millimetre, but one of 5.89 all around. The bound (0.89) knows better, so a finer level is looked at.
+#[test]
+fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
+    let problem = world(9_083_322_546_425_692_186).expect("a world");
+    let answer = solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {});
+    let bound = answer.bound.expect("visibility bounds what it finds");
+    assert!(bound.gap() < 0.05, "{bound:?}");
+    assert!(0.85 < bound.lower && bound.upper < 0.95, "{bound:?}");
+    // The first level by itself knows the long way only, and says so.
+    let hasty = solve(&problem, Method::Visibility, &Effort { levels: 1, ..Effort::default() }, &mut |_| {});
+    let bound = hasty.bound.expect("visibility bounds what it finds");
+    assert!(bound.lower < 0.95 && bound.upper > 5.0, "{bound:?}");
 }
 
 /// No planner says that there is no way where there is one.
