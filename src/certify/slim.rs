@@ -16,9 +16,17 @@ impl Disconnection {
     /// More boxes separate no less, so doubling and halving find how many it takes. `O(log n)` questions.
     #[must_use]
     pub fn slimmed(self, holds: impl Fn(&Self) -> bool) -> Self {
+        self.slimmed_to(usize::MAX, holds).unwrap_or_else(|whole| whole)
+    }
+
+    /// The same with no more boxes than `most`, none of it taken on trust if it has more itself.
+    ///
+    /// # Errors
+    /// The proof itself if so many of the largest do not hold.
+    pub(crate) fn slimmed_to(self, most: usize, holds: impl Fn(&Self) -> bool) -> Result<Self, Self> {
         let count = self.stuck().len();
-        if count <= SMALL {
-            return self;
+        if count <= SMALL.min(most) {
+            return Ok(self);
         }
         let height = |b: &StuckBox| b.cell.upper[1] - b.cell.lower[1];
         let mut largest: Vec<usize> = (0..count).collect();
@@ -28,15 +36,18 @@ impl Disconnection {
             chosen.sort_unstable();
             Self::of(chosen.into_iter().map(|k| self.stuck()[k].clone()).collect())
         };
-        let (mut too_few, mut enough) = (0, SMALL);
+        let (mut too_few, mut enough) = (0, SMALL.min(most));
         while enough < count && !holds(&some(enough)) {
-            (too_few, enough) = (enough, 2 * enough);
+            if enough == most {
+                return Err(self);
+            }
+            (too_few, enough) = (enough, (2 * enough).min(most));
         }
         enough = enough.min(count);
         while enough - too_few > enough / CLOSE + 1 {
             let middle = too_few.midpoint(enough);
             *(if holds(&some(middle)) { &mut enough } else { &mut too_few }) = middle;
         }
-        some(enough)
+        Ok(some(enough))
     }
 }

@@ -10,8 +10,12 @@ use crate::model::{Pair, Problem};
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 const SLABS: usize = 10_000;
 
-/// A proof by slabs of more boxes than this is worth a try whether boxes that are halved need fewer.
+/// A proof by slabs of more boxes than this is large: boxes that are halved need fewer, as where obstacles overlap little all
+/// along a slanted line, which slabs tile with boxes as narrow as themselves.
 const LARGE_PROOF: usize = 10_000;
+
+/// Boxes that are looked at for a smaller proof, at least: the most that any of some ten thousand random proofs took, twice.
+const BOXES_FOR_SMALLER: usize = 100_000;
 
 /// With more pairs of shapes what is known of fewer of them is asked for first, ...
 const MANY_PAIRS: usize = 4096;
@@ -23,7 +27,7 @@ const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 
 /// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
-/// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
+/// (and no more slabs; but some more boxes may be looked at to make a large proof small): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
 /// code with the search.
 ///
 /// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
@@ -35,9 +39,13 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
     let pairs = |problem: &Problem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {
-        return asked(problem, problem, &|pair| pair, [SLABS.min(boxes), boxes]);
+        let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller: BOXES_FOR_SMALLER.max(boxes) };
+        return asked(problem, problem, &|pair| pair, limits);
     }
-    let limited = |asked: &Problem| LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
+    let limited = |asked: &Problem| {
+        let [slabs, boxes] = LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
+        Limits { slabs, boxes, for_smaller: BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1)) }
+    };
     for lattice in LATTICES {
         let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
         let verdict = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
@@ -48,19 +56,47 @@ pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
     asked(problem, problem, &|pair| pair, limited(problem))
 }
 
-/// What slabs and boxes, so many of each at most, say of `some`, which is `problem` or some of it; `in_truth` names its pairs
-/// in `problem`.
-fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, [slabs, boxes]: [usize; 2]) -> Verdict {
+/// How much is looked at.
+#[derive(Clone, Copy)]
+struct Limits {
+    slabs: usize,
+    boxes: usize,
+    /// Boxes, where slabs have proven it with many.
+    for_smaller: usize,
+}
+
+/// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
+fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, limits: Limits) -> Verdict {
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
-    match judged(problem, in_truth, slab_connectivity(scene, start, goals, clearance, slabs)) {
-        Verdict::Infeasible(proof) if proof.stuck().len() > LARGE_PROOF => match by_boxes(LARGE_PROOF.min(boxes)) {
-            Verdict::Infeasible(smaller) if smaller.stuck().len() < proof.stuck().len() => Verdict::Infeasible(smaller),
-            _ => Verdict::Infeasible(proof),
+    match slab_connectivity(scene, start, goals, clearance, limits.slabs) {
+        Connectivity::Disconnected(proof) if proof.stuck().len() > LARGE_PROOF => {
+            small(problem, proof.of_pairs(in_truth), || by_boxes(limits.for_smaller))
+        }
+        answer => match judged(problem, in_truth, answer) {
+            Verdict::Unknown(_) => by_boxes(limits.boxes),
+            known => known,
         },
-        Verdict::Unknown(_) => by_boxes(boxes),
-        known => known,
+    }
+}
+
+/// A large proof by slabs with fewer boxes: the largest of its own, or what `by_boxes` takes.
+fn small(problem: &Problem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
+    let proof = match proof.slimmed_to(LARGE_PROOF, |proof| holds(problem, proof)) {
+        Ok(smaller) => return Verdict::Infeasible(smaller),
+        Err(proof) => proof,
+    };
+    let other = by_boxes();
+    if matches!(&other, Verdict::Infeasible(other) if other.stuck().len() <= LARGE_PROOF) {
+        return other;
+    }
+    match (checked(problem, proof), other) {
+        (Some(proof), Verdict::Infeasible(other)) if other.stuck().len() < proof.stuck().len() => {
+            Verdict::Infeasible(other)
+        }
+        (Some(proof), _) => Verdict::Infeasible(proof),
+        (None, other) => other,
     }
 }
 
@@ -81,8 +117,11 @@ fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivi
 
 /// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
 pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
+    holds(problem, &proof).then(|| proof.slimmed(|some| holds(problem, some)))
+}
+
+/// Whether it passes the independent check.
+fn holds(problem: &Problem, proof: &Disconnection) -> bool {
     let clearance = problem.scene().workspace().clearance;
-    let holds =
-        |proof: &Disconnection| proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok();
-    holds(&proof).then(|| proof.slimmed(holds))
+    proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok()
 }
