@@ -22,8 +22,14 @@ use crate::space::{Blend, Configuration, HAIR};
 /// Spans of a blend to begin with.
 const SPANS: usize = 8;
 
-/// Spans of a blend at the most.
+/// Spans of a blend at the most, as long as what is known of them asks for more.
 const MOST_SPANS: usize = 256;
+
+/// Where more spans are tried, each is cut into so many, ...
+const PARTS: usize = 4;
+
+/// ... up to so many.
+const MOST_TRIED: usize = 1024;
 
 /// A joint's acceleration changes by no more than this share of its limit over a span, if more spans can help it: half of
 /// it goes unused where the limit is reached at one end of the span.
@@ -82,9 +88,19 @@ impl Corner {
                 || step > 2.0 * SPEED_STEP * z[0].max(z[1])
                 || limits.tip.is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_STEP * tip.speed)
         });
+        if coarse { self.cut(2, MOST_SPANS, squared_speeds) } else { None }
+    }
+
+    /// The same with several times the spans, whatever they are worth.
+    pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
+        self.cut(PARTS, MOST_TRIED, squared_speeds)
+    }
+
+    /// Each span cut into so many; none if there were too many, or too short ones.
+    fn cut(&self, parts: usize, most: usize, squared_speeds: &[f64]) -> Option<Self> {
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
-        let finer = Self { spans: 2 * self.spans, ..self.clone() };
-        (coarse && finer.spans <= MOST_SPANS && lasts >= shortest(finer.spans)).then_some(finer)
+        let finer = Self { spans: parts * self.spans, ..self.clone() };
+        (finer.spans <= most && lasts >= shortest(finer.spans)).then_some(finer)
     }
 
     /// Range of the parameter.

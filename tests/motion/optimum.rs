@@ -1,6 +1,6 @@
 //! Durations against an optimum that is computed on a fine grid, by code that shares nothing with the library's.
 
-use crate::common::{q, random::usual};
+use crate::common::q;
 use crate::{certified, curve, empty, limits, waypoints};
 use cplan::certify::CertifiedCurve;
 use cplan::model::Scene;
@@ -117,6 +117,9 @@ fn duration(scene: &Scene, curve: impl Into<CertifiedCurve>) -> f64 {
     time(curve, &Limits::from(&scene.arm().joints), 0.01).unwrap().trajectory.duration()
 }
 
+/// Random motions take so many times the least time at the most: 1.019 in the worst of 20 480.
+const MOST: f64 = 1.03;
+
 /// Waypoints, limits of velocity and of acceleration, radius.
 type Case = (&'static [[f64; 2]], [f64; 2], [f64; 2], f64);
 
@@ -207,16 +210,14 @@ proptest! {
         prop_assert!(blended <= stopping * (1.0 + 1e-12), "{blended} {stopping}");
     }
 
-    /// Limits that differ a thousandfold make for corners after which the speed multiplies within a small part of a blend:
-    /// there spans are coarse.
     #[test]
     fn near_the_optimum_on_random_paths(waypoints in waypoints(), [velocity, acceleration] in limits()) {
         let scene = empty(velocity, acceleration);
         let timed = time(curve(&scene, &waypoints, 10.0), &Limits::from(&scene.arm().joints), 0.01).unwrap();
-        let least = optimum(&timed.curve, &Limits::from(&scene.arm().joints), 300.0);
+        let least = |per_unit| optimum(&timed.curve, &Limits::from(&scene.arm().joints), per_unit);
         let took = timed.trajectory.duration();
-        // Of others than the usual cases one in some thousands is slower: steps of a millimetre, with limits far apart.
-        let most = if usual() { 1.05 } else { 1.3 };
-        prop_assert!(took <= least * most && took >= least * 0.99, "{took} {least} {:?}", timed.curve.curve().radii());
+        let close = |least: f64| took <= least * MOST && took >= least * 0.995;
+        // The oracle is exact to a hundredth with coarse steps, where limits are far apart.
+        prop_assert!(close(least(300.0)) || close(least(3000.0)), "{took} {} {:?}", least(3000.0), timed.curve.curve().radii());
     }
 }
