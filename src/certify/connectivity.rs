@@ -18,6 +18,8 @@ pub enum Connectivity {
     Undecided {
         /// Number of boxes looked at.
         boxes: usize,
+        /// Whether nothing that may be open connects them, but boxes do not bear that out, or too many would.
+        closed: bool,
     },
 }
 
@@ -107,7 +109,7 @@ fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_bo
             if boxes.nodes.len() < ONE_BY_ONE { chain } else { all_of_fewest_mixed(boxes, from, &ends, finest) };
         let mixed: Vec<u32> = chain.into_iter().filter(|&b| matches!(state(b), State::Mixed(_))).collect();
         if mixed.is_empty() || boxes.nodes.len() > max_boxes {
-            return Connectivity::Undecided { boxes: boxes.nodes.len() };
+            return Connectivity::Undecided { boxes: boxes.nodes.len(), closed: false };
         }
         for index in mixed {
             boxes.split(index);

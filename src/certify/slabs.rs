@@ -114,14 +114,16 @@ fn search(
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
     if slabs.topology.axes.iter().any(|axis| axis.extent() <= 0.0) {
-        return Connectivity::Undecided { boxes: 0 };
+        return Connectivity::Undecided { boxes: 0, closed: false };
     }
     loop {
         let ends = ends(&slabs, goals);
-        let undecided = Connectivity::Undecided { boxes: slabs.slabs.len() };
-        let Some(from) = slabs.locate(start) else { return undecided };
+        let count = slabs.slabs.len();
+        let undecided = |closed: bool| Connectivity::Undecided { boxes: count, closed };
+        let Some(from) = slabs.locate(start) else { return undecided(false) };
         let Some(chain) = next(&slabs, from, &ends) else {
-            return slabs.disconnection(start, goals).map_or(undecided, Connectivity::Disconnected);
+            let proof = slabs.disconnection(start, goals);
+            return proof.map_or_else(|| undecided(true), Connectivity::Disconnected);
         };
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
             return Connectivity::Connected(Channel::new(&slabs, &chain, start, &ends));
@@ -140,7 +142,7 @@ fn search(
         mixed.sort_unstable();
         mixed.dedup();
         if mixed.is_empty() || slabs.slabs.len() + mixed.len() > max_slabs {
-            return undecided;
+            return undecided(false);
         }
         slabs.halve(&mixed);
     }

@@ -14,7 +14,8 @@ const SLABS: usize = 10_000;
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
 const LARGE_PROOF: usize = 10_000;
 
-/// Boxes that are looked at for a smaller proof, at least: the most that any of some ten thousand random proofs took, twice.
+/// Boxes that are looked at for a smaller proof than slabs have, at least: the most that any of some thousand random proofs
+/// took, twice.
 const BOXES_FOR_SMALLER: usize = 100_000;
 
 /// With more pairs of shapes what is known of fewer of them is asked for first, ...
@@ -27,8 +28,9 @@ const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
 const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 
 /// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
-/// (and no more slabs; but some more boxes may be looked at to make a large proof small): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
-/// code with the search.
+/// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
+/// code with the search. Where slabs show that there is no path, but state it in no small number of boxes, up to 100 000 are
+/// looked at even if `boxes` is less.
 ///
 /// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
 /// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
@@ -61,7 +63,7 @@ pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
 struct Limits {
     slabs: usize,
     boxes: usize,
-    /// Boxes, where slabs have proven it with many.
+    /// Boxes, where slabs show that there is no path, but with a large proof.
     for_smaller: usize,
 }
 
@@ -74,6 +76,8 @@ fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, lim
         Connectivity::Disconnected(proof) if proof.stuck().len() > LARGE_PROOF => {
             small(problem, proof.of_pairs(in_truth), || by_boxes(limits.for_smaller))
         }
+        // There is none, but slabs take no end of boxes to state it.
+        Connectivity::Undecided { closed: true, .. } => by_boxes(limits.for_smaller),
         answer => match judged(problem, in_truth, answer) {
             Verdict::Unknown(_) => by_boxes(limits.boxes),
             known => known,
@@ -109,7 +113,7 @@ fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivi
         ),
         Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth))
             .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
-        Connectivity::Undecided { boxes } => {
+        Connectivity::Undecided { boxes, .. } => {
             Verdict::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
         }
     }

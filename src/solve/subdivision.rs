@@ -45,7 +45,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
             let verdict = proof.map_or_else(refused, Verdict::Infeasible);
             (Outcome::NoPath, verdict)
         }
-        Connectivity::Undecided { boxes } => {
+        Connectivity::Undecided { boxes, .. } => {
             let reason = format!("{boxes} boxes do not tell whether there is a path");
             (Outcome::GaveUp(reason.clone()), Verdict::Unknown(reason))
         }
