@@ -95,11 +95,10 @@ impl Turning {
             if !payload.heights.meet(obstacle.heights) {
                 continue;
             }
-            let pieces = obstacle.pieces.iter().map(Features::new);
-            pairs.extend(pieces.flat_map(|piece| {
-                let meeting = parts.iter().filter(|(_, kind)| payload.meets(*kind, number));
-                meeting.map(|(part, _)| (part.clone(), piece.clone(), number)).collect::<Vec<_>>()
-            }));
+            for (part, kind) in parts.iter().filter(|(_, kind)| payload.meets(*kind, number)) {
+                let pieces = obstacle.pieces.iter().filter_map(|piece| kind.piece(piece, workspace.clearance));
+                pairs.extend(pieces.map(|piece| (part.clone(), Features::new(&piece), number)));
+            }
         }
         Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }
     }

@@ -40,7 +40,8 @@ pub struct Payload {
 const GIVE: f64 = 1e-4;
 
 impl Payload {
-    /// Depth to which a payload may press into its supports, metres.
+    /// Greatest *penetration depth* of a payload in its supports, metres. With sides it is less, by the sine of half the angle
+    /// beside them and up to 0.7 of that: no shape that turns with the payload allows as much with sides as with corners.
     #[must_use]
     pub fn give(arm: &Arm) -> f64 {
         GIVE * arm.reach()

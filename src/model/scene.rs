@@ -5,6 +5,7 @@ use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneDefect, Workspace};
 use crate::geometry::{Convex, Separation, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
@@ -16,7 +17,7 @@ pub struct Pair {
     pub part: usize,
     /// Into the workspace's obstacles.
     pub obstacle: usize,
-    /// Into the obstacle's pieces; beyond these, what a level payload makes of them.
+    /// Into the obstacle's pieces; beyond these, what is made of them for a payload.
     pub piece: usize,
 }
 
@@ -44,7 +45,7 @@ pub struct Scene {
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
     pairs: Vec<Pair>,
-    /// Of each obstacle, what a level payload makes of its pieces.
+    /// Of each obstacle, what a level payload, and the clearance where a payload rests, make of its pieces.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -53,8 +54,20 @@ pub struct Scene {
 pub(crate) enum Meets {
     /// Everything but the payload's supports.
     Others,
-    /// The supports: the part is smaller by what it may press into them.
+    /// The supports: the part is smaller by what it may press into them, and by the clearance, which is kept from nothing less.
     Supports,
+    /// Supports made smaller by the clearance: the part is smaller by what it may press into them alone.
+    SmallerSupports,
+}
+
+impl Meets {
+    /// What the part meets of an obstacle's piece; none where nothing is left of it.
+    pub(crate) fn piece<'a>(self, piece: &'a Convex, clearance: f64) -> Option<Cow<'a, Convex>> {
+        match self {
+            Meets::Others | Meets::Supports => Some(Cow::Borrowed(piece)),
+            Meets::SmallerSupports => piece.eroded(clearance).map(Cow::Owned),
+        }
+    }
 }
 
 impl Scene {
@@ -67,8 +80,10 @@ impl Scene {
     }
 
     /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
-    /// just let go of or is about to take. Where a payload may press into its supports, parts of it that are thinner than
-    /// that (and the clearance) do not count there.
+    /// just let go of or is about to take. A payload presses into its supports by no more than [`Payload::give`], its corners
+    /// included. No clearance is kept there; but with one, corners of the payload against corners of a support, and against
+    /// supports thinner than twice the clearance, count as rounded off with that radius, and parts of the payload that are as
+    /// thin do not count against these.
     ///
     /// # Errors
     /// As [`Scene::new`]; when what is carried is held at no finite place, or an obstacle's number is none.
@@ -199,7 +214,7 @@ impl Scene {
         &self.arm.links[pair.link].parts[pair.part].shape
     }
 
-    /// The obstacle piece of a pair, or what a level payload makes of it, in plane coordinates.
+    /// The obstacle piece of a pair, or what is made of it for a payload, in plane coordinates.
     #[must_use]
     pub fn piece(&self, pair: Pair) -> &Convex {
         let own = &self.workspace.obstacles[pair.obstacle].pieces;
@@ -258,7 +273,7 @@ impl Scene {
 type Meetable = Vec<Range<usize>>;
 
 impl Payload {
-    /// It as parts of link 2, each with what it can meet; what a level one makes of the obstacles' pieces is added to
+    /// It as parts of link 2, each with what it can meet; what is made of the obstacles' pieces for it is added to
     /// `differences`.
     fn on_link(&self, arm: &Arm, workspace: &Workspace, differences: &mut [Vec<Convex>]) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
@@ -273,16 +288,18 @@ impl Payload {
             let mut meetable = Vec::new();
             for (number, obstacle) in workspace.obstacles.iter().enumerate() {
                 let own = obstacle.pieces.len();
-                meetable.push(match &level {
-                    _ if !self.meets(kind, number) => 0..0,
-                    None => 0..own,
-                    Some(level) => {
-                        let first = own + differences[number].len();
-                        differences[number]
-                            .extend(obstacle.pieces.iter().map(|piece| piece.minkowski_difference(level)));
-                        first..first + own
-                    }
-                });
+                if !self.meets(kind, number) || (level.is_none() && kind != Meets::SmallerSupports) {
+                    meetable.push(0..if self.meets(kind, number) { own } else { 0 });
+                    continue;
+                }
+                let made = &mut differences[number];
+                let first = own + made.len();
+                let pieces = obstacle.pieces.iter().filter_map(|piece| kind.piece(piece, workspace.clearance));
+                made.extend(pieces.map(|piece| match &level {
+                    Some(level) => piece.minkowski_difference(level),
+                    None => piece.into_owned(),
+                }));
+                meetable.push(first..own + made.len());
             }
             parts.push((Part { shape: on_link, heights: self.heights, body: self.object.clone() }, meetable));
         }
@@ -290,15 +307,25 @@ impl Payload {
     }
 
     /// Its pieces, and smaller ones for its supports, in its own frame.
+    ///
+    /// Whatever meets keeps the clearance, and supports are to be touched. So of part and support one is smaller by it, each in
+    /// turn: growing again by the clearance, which is what keeping it means, rounds the corners of that one alone.
     pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
-        let whole = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others));
-        let by = Self::give(arm) + clearance;
-        let smaller = self.pieces.iter().filter(|_| !self.supports.is_empty()).filter_map(|piece| piece.eroded(by));
-        whole.chain(smaller.map(|piece| (piece, Meets::Supports))).collect()
+        let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
+        for piece in self.pieces.iter().filter(|_| !self.supports.is_empty()) {
+            let pressed = piece.inner_approximation(Self::give(arm));
+            if clearance > 0.0 {
+                parts.extend(pressed.eroded(clearance).map(|smaller| (smaller, Meets::Supports)));
+                parts.push((pressed, Meets::SmallerSupports));
+            } else {
+                parts.push((pressed, Meets::Supports));
+            }
+        }
+        parts
     }
 
     /// Whether its parts of that kind can meet an obstacle.
     pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
-        (kind == Meets::Supports) == self.supports.contains(&obstacle)
+        (kind != Meets::Others) == self.supports.contains(&obstacle)
     }
 }

@@ -38,8 +38,8 @@ impl Bitmap {
             let at = [index % CELLS, index / CELLS];
             let q = [0, 1].map(|k| axes[k].0 + sizes[k] * (at[k] as f64 + 0.5));
             match world.room(q) {
-                room if room > bound => Cell::Free,
-                room if room < -bound => Cell::Blocked,
+                [surely, _] if surely > bound => Cell::Free,
+                [_, perhaps] if perhaps < -bound => Cell::Blocked,
                 _ => Cell::Mixed,
             }
         };
@@ -117,7 +117,7 @@ fn payloads_are_judged_like_a_flood_fill() {
                     dice.range(lower, upper)
                 })
             };
-            std::iter::repeat_with(draw).take(100).find(|q| world.room([q[0], q[1]]) > 1e-6)
+            std::iter::repeat_with(draw).take(100).find(|q| world.room([q[0], q[1]])[0] > 1e-6)
         };
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
         assert!(scene.obstructions(start).is_empty(), "seed {seed}: {:?} is free", start);

@@ -5,6 +5,7 @@
 
 mod flood;
 mod judged;
+mod pressed;
 pub mod replay;
 pub mod task;
 

@@ -246,8 +246,21 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// Calls `f` with what moves, what it can meet, their distance at `q`, and whether the one rests on the other.
-    fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, bool)) {
+    /// By how much a body that rests on something presses into it less than it may; negative: more. Without a clearance that is
+    /// the depth of penetration. With one, corners of either count as rounded off with it: so discs of its radius that fit
+    /// into the one, as deep as may be pressed, do not meet the other.
+    fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
+        let (give, clearance) = (GIVE * self.task.arm.reach(), self.task.workspace.clearance);
+        if clearance == 0.0 {
+            return body.distance(support) + give;
+        }
+        let discs = |of: &Solid, other: &Solid| of.shrunk(give + clearance).map(|centers| centers.distance(other));
+        let least = [discs(body, support), discs(support, body)].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        least - clearance
+    }
+
+    /// Calls `f` with what moves, what it can meet, their distance at `q`, and of what rests on the other [`World::pressed`].
+    fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.obstacles.len();
         let (frames, _) = self.frames(q);
         let spared = |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
@@ -258,7 +271,7 @@ impl<'a> World<'a> {
                 for (number, solid, heights) in &obstacles {
                     let meets = part.heights.lower <= heights[1] && heights[0] <= part.heights.upper;
                     if meets && (link == 0 || !spared(*number)) {
-                        f(["link 1", "link 2"][link], *number, body.distance(solid), false);
+                        f(["link 1", "link 2"][link], *number, body.distance(solid), None);
                     }
                 }
             }
@@ -271,7 +284,8 @@ impl<'a> World<'a> {
             for (number, solid, heights) in &obstacles {
                 if object.heights.lower + object.lift <= heights[1] && heights[0] <= object.heights.upper + object.lift
                 {
-                    f("the object", *number, body.distance(solid), held.supports.contains(number));
+                    let rests = held.supports.contains(number);
+                    f("the object", *number, body.distance(solid), rests.then(|| self.pressed(&body, solid)));
                 }
             }
         }
@@ -280,25 +294,27 @@ impl<'a> World<'a> {
     /// Whether nothing is nearer than `keep` at `q`, and supports are not pressed into.
     fn check(&self, q: V, target: Option<usize>, keep: f64) -> Result<(), String> {
         const ROUNDING: f64 = 1e-8;
-        let give = GIVE * self.task.arm.reach();
         let mut wrong = Ok(());
-        self.distances(q, target, |what, number, distance, rests| {
-            let least = if rests { -give } else { keep };
-            if distance < least - ROUNDING {
-                wrong = Err(format!("{what} is {distance} from {number}, {least} is promised"));
+        self.distances(q, target, |what, number, distance, pressed| {
+            if let Some(less) = pressed.filter(|less| *less < -ROUNDING) {
+                wrong = Err(format!("{what} is {distance} from {number}, into which it presses {} too deep", -less));
+            } else if pressed.is_none() && distance < keep - ROUNDING {
+                wrong = Err(format!("{what} is {distance} from {number}, {keep} is promised"));
             }
         });
         wrong
     }
 
-    /// By how much everything is farther from obstacles than it has to be at `q`.
-    pub fn room(&self, q: V) -> f64 {
-        let give = GIVE * self.task.arm.reach();
-        let mut least = f64::INFINITY;
-        self.distances(q, None, |_, _, distance, rests| {
-            least = least.min(if rests { distance + give } else { distance - self.task.workspace.clearance });
+    /// By how much everything is farther from obstacles than it has to be at `q`, and than it can be: a body that does not
+    /// press into its support at all is free, but it depends on its corners how far short of [`World::pressed`] it has to stay.
+    pub fn room(&self, q: V) -> [f64; 2] {
+        let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
+        self.distances(q, None, |_, _, distance, pressed| {
+            let room = distance - self.task.workspace.clearance;
+            surely = surely.min(if pressed.is_some() { distance } else { room });
+            perhaps = perhaps.min(pressed.unwrap_or(room));
         });
-        least
+        [surely, perhaps]
     }
 
     /// How fast any point can move for each unit of each joint's rate.

@@ -16,6 +16,7 @@ mod mazes;
 mod narrow;
 mod outputs;
 mod path_kind;
+mod pressed;
 mod proof_sizes;
 mod results;
 mod tasks;
