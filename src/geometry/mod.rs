@@ -21,6 +21,7 @@ pub(crate) mod planar;
 mod polygon;
 mod predicates;
 mod rings;
+mod seams;
 mod separation;
 mod sliding;
 mod turning;
@@ -42,6 +43,7 @@ pub use penetration::{
 pub use polygon::{PolygonDefect, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingDefect, RingSide};
+pub(crate) use seams::seams;
 pub use separation::{Separation, separation};
 pub use sliding::sliding;
 pub(crate) use sliding::{along_and_across, sliding_tracks};

@@ -2,7 +2,7 @@
 
 use super::scene_defect::{check, check_clearance};
 use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneDefect, Workspace};
-use crate::geometry::{Convex, Separation, separation};
+use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
 use std::borrow::Cow;
@@ -309,11 +309,16 @@ impl Payload {
     /// Its pieces, and smaller ones for its supports, in its own frame.
     ///
     /// Whatever meets keeps the clearance, and supports are to be touched. So of part and support one is smaller by it, each in
-    /// turn: growing again by the clearance, which is what keeping it means, rounds the corners of that one alone.
+    /// turn: growing again by the clearance, which is what keeping it means, rounds the corners of that one alone. Pieces go on sharing their sides but for what may be
+    /// pressed into the ends, so that nothing gets in between them.
     pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
         let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
-        for piece in self.pieces.iter().filter(|_| !self.supports.is_empty()) {
-            let pressed = piece.inner_approximation(Self::give(arm));
+        if self.supports.is_empty() {
+            return parts;
+        }
+        let give = Self::give(arm);
+        for (piece, seam) in self.pieces.iter().zip(seams(&self.pieces, give)) {
+            let pressed = piece.inner_approximation(give, &seam);
             if clearance > 0.0 {
                 parts.extend(pressed.eroded(clearance).map(|smaller| (smaller, Meets::Supports)));
                 parts.push((pressed, Meets::SmallerSupports));

@@ -30,6 +30,9 @@ const TABLE: &str = "polygon = [[0.3, 1.2], [1.3, 1.2], [1.3, 1.4], [0.3, 1.4]]"
 const EDGE: &str = "polyline = [[0.3, 1.2], [1.3, 1.2]]";
 const NEEDLE: &str = "[[-0.02, -0.02], [0.02, -0.02], [0.0, 0.18]]";
 const GABLE: &str = "[[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0.0, 0.15], [-0.05, 0.1]]";
+const CROSS: &str = "[[-0.02, 0.04], [0.02, 0.04], [0.02, 0.1], [0.06, 0.1], [0.06, 0.14], [0.02, 0.14], [0.02, 0.22], \
+                     [-0.02, 0.22], [-0.02, 0.14], [-0.06, 0.14], [-0.06, 0.1], [-0.02, 0.1]]";
+const CLEFT: &str = "[[-0.05, -0.02], [0.0, 0.05], [0.05, -0.02], [0.05, 0.1], [0.0, 0.12], [-0.05, 0.1]]";
 const BOX: &str = "[[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]";
 
 /// The arm reaches 1.8 m, so 0.18 mm are allowed.
@@ -62,6 +65,24 @@ fn what_rests_on_a_support_may_touch_it() {
     ] {
         let done = Place::new().plan(cell(polygon, table, numbers), "--json --quiet");
         assert_eq!(done.code, 0, "{what}: {}{}", done.stdout, done.stderr);
+    }
+}
+
+/// Objects of pieces, and a wall on the line of a side that they share: one that ends in the tip, and one that goes on from
+/// a side of a cross, to which the wall comes after 8 cm beside it.
+#[test]
+fn no_wall_gets_between_the_pieces_of_an_object() {
+    for (x, polygon, tip, free, deep) in [
+        (0.8, CLEFT, 0.12, 0.0, 0.04),
+        (0.80005, CLEFT, 0.12, 0.0, 0.04),
+        (0.82, CROSS, 0.22, 0.08, 0.1),
+        (0.78, CROSS, 0.22, 0.08, 0.1),
+    ] {
+        let wall = format!("polyline = [[{x}, 1.2], [{x}, 1.3]]");
+        for (by, code) in [(free, 0), (deep, 3)] {
+            let done = Place::new().plan(cell(polygon, &wall, [tip, by, 0.0]), "--json --quiet");
+            assert_eq!(done.code, code, "{x}, {by} deep: {}{}", done.stdout, done.stderr);
+        }
     }
 }
 
