@@ -1,6 +1,6 @@
 //! Chains of adjacent boxes.
 
-use super::boxes::{Cell, Door};
+use super::boxes::Cell;
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
 use crate::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
@@ -115,43 +115,10 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the doors is the
-/// shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
+/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the middles of the doors is
+/// the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
-    let middles = |_: Configuration, door: &Door| door.middle();
-    short(boxes, start, from, ends, middles, |openness| (openness == Openness::Free).then_some(1.0)).unwrap_or_default()
-}
-
-/// The chain through which a way seems shortest that passes every door at the nearest place; undecided boxes count as
-/// free, but as `1 + MIXED_DETOUR` times as long. None if there is no chain.
-pub(super) fn promising(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Option<Vec<u32>> {
-    let nearest = |at: Configuration, door: &Door| {
-        let (a, b) = (door.left, door.right);
-        Configuration::from_fn(|k, _| at[k].clamp(a[k].min(b[k]), a[k].max(b[k])))
-    };
-    short(boxes, start, from, ends, nearest, |openness| match openness {
-        Openness::Free => Some(1.0),
-        Openness::Mixed => Some(1.0 + MIXED_DETOUR),
-        Openness::Finest => None,
-    })
-}
-
-/// Share by which a way through free boxes may be longer than one through undecided ones and still be preferred: what
-/// room the fringes of obstacles leave is not worth finding out for less.
-const MIXED_DETOUR: f64 = 0.1;
-
-/// Dijkstra's search with one way into each box: `pass` says where a door is passed, `factor` what a length in a box
-/// counts.
-fn short(
-    boxes: &impl Mosaic,
-    start: Configuration,
-    from: u32,
-    ends: &[End],
-    pass: impl Fn(Configuration, &Door) -> Configuration,
-    factor: impl Fn(Openness) -> Option<f64>,
-) -> Option<Vec<u32>> {
     let topology = boxes.topology();
-    let factor = |index: u32| boxes.openness(index).and_then(&factor);
     let mut length = vec![f64::INFINITY; boxes.count()];
     // Where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
@@ -176,10 +143,12 @@ fn short(
         }
         let cell = boxes.cell(index);
         boxes.for_each_neighbor(index, |next| {
-            let Some(factor) = factor(next) else { return };
+            if boxes.openness(next) != Some(Openness::Free) {
+                return;
+            }
             let Some(door) = cell.door(&boxes.cell(next), topology) else { return };
-            let place = pass(at, &door);
-            let longer = so_far + (place - at).norm() * factor;
+            let place = door.middle();
+            let longer = so_far + (place - at).norm();
             if longer < length[next as usize] {
                 length[next as usize] = longer;
                 entry[next as usize] = place - door.shift;
@@ -188,7 +157,7 @@ fn short(
             }
         });
     }
-    best.0.is_finite().then(|| back(&parent, best.1))
+    back(&parent, best.1)
 }
 
 /// The chain that leads to `last`.

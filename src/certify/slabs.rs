@@ -9,7 +9,7 @@ mod proof;
 
 use super::bands::{Kind, bands};
 use super::boxes::Cell;
-use super::chain::{End, Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed, promising};
+use super::chain::{Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed};
 use super::channel::Channel;
 use super::connectivity::Connectivity;
 use super::disconnection::StuckBox;
@@ -82,35 +82,6 @@ pub fn slab_connectivity(
     clearance: f64,
     max_slabs: usize,
 ) -> Connectivity {
-    search(scene, start, goals, clearance, max_slabs, |slabs, from, ends| {
-        fewest_mixed(slabs, from, ends, false).or_else(|| fewest_mixed(slabs, from, ends, true))
-    })
-}
-
-/// As [`slab_connectivity`], but with a channel that holds about the shortest path, at the cost of more slabs: the
-/// connection that is made certain is the one that looks shortest. A promise it is not.
-#[must_use]
-pub fn short_slab_channel(
-    scene: &Scene,
-    start: Configuration,
-    goals: &GoalSet,
-    clearance: f64,
-    max_slabs: usize,
-) -> Connectivity {
-    search(scene, start, goals, clearance, max_slabs, |slabs, from, ends| {
-        promising(slabs, start, from, ends).or_else(|| fewest_mixed(slabs, from, ends, true))
-    })
-}
-
-/// The search with a rule that says which connection to make certain next: none if there is none.
-fn search(
-    scene: &Scene,
-    start: Configuration,
-    goals: &GoalSet,
-    clearance: f64,
-    max_slabs: usize,
-    next: impl Fn(&Slabs, u32, &[End]) -> Option<Vec<u32>>,
-) -> Connectivity {
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
     if slabs.topology.axes.iter().any(|axis| axis.extent() <= 0.0) {
@@ -121,7 +92,8 @@ fn search(
         let count = slabs.slabs.len();
         let undecided = |closed: bool| Connectivity::Undecided { boxes: count, closed };
         let Some(from) = slabs.locate(start) else { return undecided(false) };
-        let Some(chain) = next(&slabs, from, &ends) else {
+        let connection = |finest| fewest_mixed(&slabs, from, &ends, finest);
+        let Some(chain) = connection(false).or_else(|| connection(true)) else {
             let proof = slabs.disconnection(start, goals);
             return proof.map_or_else(|| undecided(true), Connectivity::Disconnected);
         };

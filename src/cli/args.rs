@@ -161,14 +161,14 @@ pub enum MetricName {
 /// What to optimise, and how well.
 #[derive(Debug, Args)]
 pub struct OptimumArgs {
-    /// What makes a path short (planner visibility).
+    /// What makes a path short (planners shortest and visibility).
     #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
     pub metric: MetricName,
     /// Weights of the joints, such as 1,0.5, for --metric weighted.
     #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
     pub weights: Option<Weights>,
     /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001
-    /// (planner visibility).
+    /// (planners shortest and visibility).
     #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
     pub gap: Option<f64>,
 }
@@ -194,8 +194,9 @@ impl OptimumArgs {
         }
         let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
         let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
-        (optimises && planner != Method::Visibility)
-            .then(|| format!("{asked} needs --planner visibility: {planner} does not look for the shortest path"))
+        (optimises && !planner.optimises()).then(|| {
+            format!("{asked} needs --planner shortest or visibility: {planner} does not look for the shortest path")
+        })
     }
 }
 
@@ -235,7 +236,7 @@ fn clearance(text: &str) -> Result<f64, String> {
 #[derive(Debug, Args)]
 pub struct PlanArgs {
     /// Planner.
-    #[arg(long, value_name = "NAME", default_value_t = Method::Visibility)]
+    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub query: QueryArgs,

@@ -12,6 +12,12 @@ impl ValueEnum for Method {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
+            Method::Shortest => {
+                "The shortest path, from exact rows, with a proven bound on the optimum; or a proof that there is none"
+            }
+            Method::First => {
+                "The first certified path that is found, or a proof that there is none: the quickest answer"
+            }
             Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
             Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and a taut string through it",
             Method::Wavefront => "Manhattan wavefront on a grid",

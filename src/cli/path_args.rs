@@ -18,7 +18,7 @@ impl PathArgs {
     /// What of it the planner cannot do, if there is something.
     pub fn conflict(&self, planner: Method) -> Option<String> {
         (self.path == Some(PathKind::Own) && !planner.has_own_path())
-            .then(|| format!("--path own is not for {planner}: the shortest path in its graph is taut as it is"))
+            .then(|| format!("--path own is not for {planner}: its path is taut as it is"))
     }
 
     /// The path that the planner is to give.

@@ -11,7 +11,7 @@ use super::{DONE, INFEASIBLE, UNKNOWN, task};
 use crate::certify::{CertifiedCurve, ProofBox};
 use crate::input::{self, InputError, LoadedScene};
 use crate::model::{Problem, Scene};
-use crate::plan::{FieldPlanner, Size, Wavefront};
+use crate::plan::{FieldPlanner, Wavefront};
 use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::space::Metric;
 use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
@@ -143,12 +143,7 @@ pub(super) fn report(
     report.free_joints = free_joints(problem);
     report.path_kind = matches!(answer.verdict, Verdict::Found(_)).then(|| answer.path.name());
     report.name = Some(problem.scene().workspace().name.clone()).filter(|name| !name.is_empty());
-    report.size = match answer.run.size {
-        Size::Graph { nodes, edges } => [("nodes", nodes), ("edges", edges)].into(),
-        Size::Windows { cells, windows } => [("cells", cells), ("windows", windows)].into(),
-        Size::Grid { cells, sweeps } => [("cells", cells), ("sweeps", sweeps)].into(),
-        Size::Search { expanded, labelled } => [("cells", labelled), ("expanded", expanded)].into(),
-    };
+    report.size = answer.run.size.figures().into_iter().collect();
     Ok((report, followed))
 }
 

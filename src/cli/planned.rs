@@ -79,7 +79,7 @@ impl Planned<'_> {
         let detail = match report.length {
             Some(length) => {
                 let clearance =
-                    report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
+                    report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
                 format!("{}: length {length:.4}, {clearance}", answer.method)
             }
             None => answer.method.to_string(),

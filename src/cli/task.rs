@@ -78,7 +78,7 @@ pub(super) fn picture<'a>(loaded: &'a LoadedTask, answer: &'a TaskAnswer, report
     let steps = counted(answer.legs.len(), "step");
     let (status, detail) = match (&answer.verdict, report.clearance()) {
         (TaskVerdict::Done, clearance) => {
-            let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.4} m"));
+            let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
             ("done, certified", format!("{}: {steps} in {:.3} s, {kept}", report.planner(), answer.duration()))
         }
         (TaskVerdict::Infeasible(_), _) => ("proven", format!("{}: {steps} before it", report.planner())),

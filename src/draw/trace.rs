@@ -48,7 +48,7 @@ pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
 #[must_use]
 pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window) -> Vec<Item> {
     match trace {
-        Trace::Roadmap { edges, .. } => {
+        Trace::Roadmap { edges, .. } | Trace::Rows { free: edges } => {
             let pieces = edges.iter().flat_map(|edge| window.pieces(edge));
             let steps = pieces.flat_map(|p| chain(p.iter().map(|q| frame.at(q[0], q[1])), false)).collect();
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))]
@@ -74,6 +74,7 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
             let extent = if *whole { "" } else { ", as far as searched" };
             vec![(line(EDGE), format!("visibility graph{extent}"))]
         }
+        Trace::Rows { .. } => vec![(line(EDGE), "rows that the path passes".to_owned())],
         Trace::Channel { channel, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
             [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()
@@ -102,7 +103,7 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
             Some((low, high)) => ("potential", format!("{:.2}", -low), format!("{:.2}", -high)),
             None => return Vec::new(),
         },
-        Trace::Roadmap { .. } | Trace::Channel { .. } | Trace::Boxes { .. } => return Vec::new(),
+        Trace::Roadmap { .. } | Trace::Rows { .. } | Trace::Channel { .. } | Trace::Boxes { .. } => return Vec::new(),
     };
     let (x, height) = (frame.rect.right() + 16.0, frame.rect.height.min(200.0));
     let rect = Rect { x, y: frame.rect.bottom() - height, width: 12.0, height };

@@ -77,6 +77,11 @@ pub enum Size {
         /// Passes over them (levels of a wavefront).
         sweeps: usize,
     },
+    /// Values of joint 1 at which free values of joint 2 are known exactly.
+    Rows {
+        /// Their number.
+        rows: usize,
+    },
     /// Cells of a grid as far as a search came.
     Search {
         /// Those whose neighbours were looked at.
@@ -84,6 +89,23 @@ pub enum Size {
         /// Those that were reached.
         labelled: usize,
     },
+    /// Nothing was built.
+    Nothing,
+}
+
+impl Size {
+    /// Its numbers, by name.
+    #[must_use]
+    pub fn figures(self) -> Vec<(&'static str, usize)> {
+        match self {
+            Size::Graph { nodes, edges } => vec![("nodes", nodes), ("edges", edges)],
+            Size::Windows { cells, windows } => vec![("cells", cells), ("windows", windows)],
+            Size::Grid { cells, sweeps } => vec![("cells", cells), ("sweeps", sweeps)],
+            Size::Rows { rows } => vec![("rows", rows)],
+            Size::Search { expanded, labelled } => vec![("cells", labelled), ("expanded", expanded)],
+            Size::Nothing => Vec::new(),
+        }
+    }
 }
 
 impl std::fmt::Display for Size {
@@ -95,9 +117,11 @@ impl std::fmt::Display for Size {
                 write!(f, "{}, {}", counted(cells, "cell"), counted(windows, "window"))
             }
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
+            Size::Rows { rows } => write!(f, "{}", counted(rows, "row")),
             Size::Search { expanded, labelled } => {
                 write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
             }
+            Size::Nothing => f.write_str("no space built"),
         }
     }
 }
@@ -111,6 +135,11 @@ pub enum Trace {
         edges: Vec<[Configuration; 2]>,
         /// Whether all arcs between corners are among them; otherwise they are those that the search looked at.
         whole: bool,
+    },
+    /// Free stretches of rows that the path passes one after the other: both ends of each.
+    Rows {
+        /// Of each the least and the greatest value of joint 2.
+        free: Vec<[Configuration; 2]>,
     },
     /// Cells of the decomposition (corners, counter-clockwise) and the indices of those in the channel, in order.
     Channel {

@@ -5,6 +5,7 @@ use super::table::{Align, Column, Table, fixed, quoted};
 use crate::plan::{PathKind, Size};
 use crate::space::Configuration;
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// The rows, and what they are about.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,13 +121,7 @@ impl Comparison {
     }
 
     fn json_row(&self, row: &Row) -> Value {
-        let size = match row.size {
-            None => Value::Null,
-            Some(Size::Graph { nodes, edges }) => json!({ "nodes": nodes, "edges": edges }),
-            Some(Size::Windows { cells, windows }) => json!({ "cells": cells, "windows": windows }),
-            Some(Size::Grid { cells, sweeps }) => json!({ "cells": cells, "sweeps": sweeps }),
-            Some(Size::Search { expanded, labelled }) => json!({ "cells": labelled, "expanded": expanded }),
-        };
+        let figures = |size: Size| size.figures().into_iter().collect::<BTreeMap<_, _>>();
         json!({
             "planner": row.planner,
             "path_kind": row.path_kind.name(),
@@ -138,7 +133,7 @@ impl Comparison {
             "pieces": row.pieces,
             "clearance": row.clearance,
             "duration": row.duration,
-            "size": size,
+            "size": row.size.map(figures),
             "time": {
                 "build": row.build,
                 "query": row.query,

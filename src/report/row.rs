@@ -43,13 +43,13 @@ pub enum Family {
     Roadmap,
     /// Values on a grid's cells: wavefront, harmonic and its relatives.
     Field,
-    /// Boxes that are free, stuck or mixed.
-    Subdivision,
+    /// What judges the scene itself: exact rows, slabs, boxes: shortest, first, subdivision.
+    Exact,
 }
 
 impl Family {
-    /// All, in the order of [`Method::ALL`].
-    pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Subdivision];
+    /// All.
+    pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
     /// Its planners, in the plural.
     #[must_use]
@@ -57,7 +57,7 @@ impl Family {
         match self {
             Family::Roadmap => "roadmaps",
             Family::Field => "fields",
-            Family::Subdivision => "subdivision",
+            Family::Exact => "exact planners",
         }
     }
 }
@@ -67,7 +67,7 @@ impl From<Method> for Family {
         match method {
             Method::Visibility | Method::Trapezoid => Family::Roadmap,
             Method::Wavefront | Method::Harmonic => Family::Field,
-            Method::Subdivision => Family::Subdivision,
+            Method::Shortest | Method::First | Method::Subdivision => Family::Exact,
         }
     }
 }
@@ -162,13 +162,9 @@ impl Row {
     /// Nodes, edges, cells, sweeps, expanded cells: each where it has a meaning.
     #[must_use]
     pub fn counts(&self) -> [Option<usize>; 5] {
-        match self.size {
-            None => [None; 5],
-            Some(Size::Graph { nodes, edges }) => [Some(nodes), Some(edges), None, None, None],
-            Some(Size::Windows { cells, .. }) => [None, None, Some(cells), None, None],
-            Some(Size::Grid { cells, sweeps }) => [None, None, Some(cells), Some(sweeps), None],
-            Some(Size::Search { expanded, labelled }) => [None, None, Some(labelled), None, Some(expanded)],
-        }
+        let figures = self.size.map_or_else(Vec::new, Size::figures);
+        let of = |name: &str| figures.iter().find(|figure| figure.0 == name).map(|figure| figure.1);
+        [of("nodes"), of("edges"), of("cells"), of("sweeps"), of("expanded")]
     }
 
     /// What there is to say below a table, a line each.

@@ -1,6 +1,6 @@
 //! How far a path is from the optimum, at the most.
 
-use crate::certify::least_length;
+use crate::certify::{Motions, least_length};
 use crate::model::Problem;
 use crate::space::{Metric, Path};
 
@@ -34,9 +34,13 @@ pub fn percent(share: f64) -> String {
 /// thousandth), or cannot be. Milliseconds, as a rule.
 #[must_use]
 pub fn bound(problem: &Problem, path: &Path, metric: Metric, gap: f64) -> Bound {
-    let scene = problem.scene();
     let upper = metric.length(path);
+    Bound { metric, lower: least_length(&motions(problem, metric), upper, gap, &[]), upper }
+}
+
+/// All motions that answer a problem.
+pub(super) fn motions(problem: &Problem, metric: Metric) -> Motions<'_> {
+    let scene = problem.scene();
     let clearance = scene.workspace().clearance;
-    let lower = least_length(scene, problem.start(), problem.goals(), clearance, metric, upper, gap);
-    Bound { metric, lower, upper }
+    Motions { scene, start: problem.start(), goals: problem.goals(), clearance, metric }
 }

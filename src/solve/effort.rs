@@ -20,10 +20,10 @@ pub struct Effort {
     pub boxes: usize,
     /// What makes a path short, for the visibility planner and for bounds.
     pub metric: Metric,
-    /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (visibility
-    /// planner only).
+    /// Go on refining until the path is proven to be no longer than the optimum by more than this share of it (planners
+    /// that optimise only). A larger one leaves more room, in which motions are faster.
     pub gap: Option<f64>,
-    /// Whether to bound the optimum from below though no gap is asked for (visibility planner only).
+    /// Whether to bound the optimum from below (planners that optimise only); if not, the gap is aimed at without proof.
     pub bounded: bool,
     /// Which path of a planner that has two; none for what the planner is used to (see [`Method::path_kind`]).
     ///

@@ -4,8 +4,7 @@ use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
 use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells};
 use super::settle::decide;
-use super::taut::pulled_taut;
-use super::{Answer, Effort, Method, Space, Stages, Verdict, last_leg, subdivision};
+use super::{Answer, Effort, Method, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::certify::{CertifiedPath, Rejection, certify};
 use crate::model::{Problem, Scene};
 use crate::plan::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
@@ -14,10 +13,10 @@ use std::time::Instant;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.
-const FIRST_BOXES: usize = 20_000;
+pub(super) const FIRST_BOXES: usize = 20_000;
 
 /// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
-const CLOSE: f64 = 1e-4;
+pub(super) const CLOSE: f64 = 1e-4;
 
 /// A path that may be longer than the optimum by more than this share of it is looked at again on finer levels, though no gap is
 /// asked for: a shorter way may lead through a passage that the first level closes. Such paths are rare, one in a hundred.
@@ -26,23 +25,14 @@ const WIDE: f64 = 0.05;
 /// The last level for that, four times finer each: it shows passages down to a five-thousandth of the arm's reach.
 const LAST_LOOK: usize = 2;
 
-/// Distances from obstacles that taut strings keep beyond the clearance, as shares of the arm's reach and of the gap asked
-/// for, one after the other: the more room, the fewer pieces.
-const KEPT: [f64; 4] = [1.0, 0.25, 0.06, 0.015];
-
-/// A taut string may have so many times the pieces of the path; more, as along a boundary that joint 1 cannot follow, would
-/// make a slow motion. A finer level then does better.
-const TAUT_PIECES: usize = 6;
-
-/// Rows that a taut string may take, not to lose time with one that will not do.
-const TAUT_ROWS: usize = 600;
-
 /// Answers `problem` with `method`. `progress` hears about attempts that failed.
 #[must_use]
 pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     let path = effort.path.unwrap_or(method.path_kind());
     match method {
-        Method::Visibility => climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons),
+        Method::Shortest => shortest::solve(problem, effort, progress),
+        Method::First => first::solve(problem, effort),
+        Method::Visibility => climb_polygons(problem, method, effort, progress),
         Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid { path }, polygons),
         Method::Wavefront => climb(problem, method, effort, progress, &Wavefront { path, ..effort.wavefront }, cells),
         Method::Harmonic => match effort.field {
@@ -51,6 +41,16 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
         },
         Method::Subdivision => subdivision::solve(problem, effort, progress),
     }
+}
+
+/// By a visibility graph, on behalf of `method`.
+pub(super) fn climb_polygons(
+    problem: &Problem,
+    method: Method,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+) -> Answer {
+    climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons)
 }
 
 /// Level after level, until a path is good enough or a proof is found.
@@ -77,7 +77,9 @@ where
         let clock = Instant::now();
         let ends = Ends::new(problem, &space);
         let run = match method {
-            Method::Visibility => shortest_of_all(&ends, effort.metric, |query| planner.query(&space, &map, query)),
+            _ if method.optimises() => {
+                shortest_of_all(&ends, effort.metric, |query| planner.query(&space, &map, query))
+            }
             _ => planner.query(&space, &map, &ends.query),
         };
         climb.stages.query += clock.elapsed();
@@ -169,8 +171,7 @@ impl Climb<'_> {
 
     /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
     fn keep(&mut self, path: CertifiedPath) {
-        let wanted = self.effort.bounded || self.effort.gap.is_some();
-        if !wanted || self.method != Method::Visibility {
+        if !self.effort.bounded || !self.method.optimises() {
             self.path = Some(path);
             return;
         }
@@ -182,36 +183,11 @@ impl Climb<'_> {
             || bound(self.problem, path.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
             |best| Bound { upper, ..best },
         );
-        let (path, found) = match gap {
-            Some(gap) if found.gap() > gap => self.pulled_taut(path, found, gap),
-            _ => (path, found),
-        };
         self.stages.bound += clock.elapsed();
         if self.bound.is_none_or(|best| found.upper < best.upper) {
             self.path = Some(path);
             self.bound = Some(found);
         }
-    }
-
-    /// A path pulled taut until it is within the gap, as far as that makes it shorter without many more pieces: it gives up
-    /// what distance from obstacles it keeps beyond the clearance.
-    fn pulled_taut(&self, path: CertifiedPath, bound: Bound, gap: f64) -> (CertifiedPath, Bound) {
-        let most_pieces = TAUT_PIECES * path.path().waypoints().len();
-        let (mut path, mut bound) = (path, bound);
-        for kept in KEPT.into_iter().map(|share| share * gap) {
-            let (scene, way) = (self.problem.scene(), path.path().waypoints());
-            let Some(taut) = pulled_taut(scene, way, gap / 4.0, kept, TAUT_ROWS) else { break };
-            let taut = last_leg::shortened(self.problem, &taut, self.effort.metric, kept).unwrap_or(taut);
-            let upper = self.effort.metric.length(taut.path());
-            if upper >= bound.upper || taut.path().waypoints().len() > most_pieces {
-                break;
-            }
-            (path, bound.upper) = (taut, upper);
-            if bound.gap() <= gap {
-                break;
-            }
-        }
-        (path, bound)
     }
 }
 

@@ -7,6 +7,10 @@ use std::str::FromStr;
 /// A planner by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Method {
+    /// The shortest path by slabs, rows and the search that bounds the optimum, with that bound.
+    Shortest,
+    /// The first certified path that slabs lead to, or a proof that there is none: the quickest answer.
+    First,
     /// Visibility graph and A*: the shortest path, up to the margin.
     Visibility,
     /// Trapezoidal decomposition: a channel of cells, and a taut string through it.
@@ -20,19 +24,28 @@ pub enum Method {
 }
 
 impl Method {
-    /// All, roadmap planners first.
-    pub const ALL: [Method; 5] =
-        [Method::Visibility, Method::Trapezoid, Method::Wavefront, Method::Harmonic, Method::Subdivision];
+    /// All: the default, roadmap planners, field planners, those that judge the scene itself.
+    pub const ALL: [Method; 7] = [
+        Method::Shortest,
+        Method::Visibility,
+        Method::Trapezoid,
+        Method::Wavefront,
+        Method::Harmonic,
+        Method::Subdivision,
+        Method::First,
+    ];
 
     /// Name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            // No planners over a representation: these judge the scene itself.
+            Method::Shortest => "shortest",
+            Method::First => "first",
             Method::Visibility => Visibility::NAME,
             Method::Trapezoid => Trapezoid::NAME,
             Method::Wavefront => Wavefront::NAME,
             Method::Harmonic => Harmonic::NAME,
-            // No planner over a representation: it judges the scene itself.
             Method::Subdivision => "subdivision",
         }
     }
@@ -43,10 +56,16 @@ impl Method {
         if self == Method::Harmonic { PathKind::Own } else { PathKind::Taut }
     }
 
-    /// Whether it has a path of its own beside the taut one. What a visibility graph leads to is taut as it is.
+    /// Whether it has a path of its own beside the taut one. What is after the shortest path is taut as it is.
     #[must_use]
     pub fn has_own_path(self) -> bool {
-        self != Method::Visibility
+        !self.optimises() && self != Method::First
+    }
+
+    /// Whether it is after the optimum of a metric, and tells how near its path is to it.
+    #[must_use]
+    pub fn optimises(self) -> bool {
+        matches!(self, Method::Shortest | Method::Visibility)
     }
 }
 

@@ -6,15 +6,15 @@
 
 mod admission;
 mod bound;
+mod corners;
 mod effort;
+mod first;
 mod ladder;
-mod last_leg;
 mod method;
 mod rungs;
 mod settle;
-mod shorten;
+mod shortest;
 mod subdivision;
-mod taut;
 mod thinned;
 
 pub use bound::{Bound, bound, percent};
@@ -22,7 +22,6 @@ pub use effort::Effort;
 pub use ladder::solve;
 pub use method::Method;
 pub use settle::decide;
-pub use shorten::shorten;
 
 use crate::certify::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
@@ -30,6 +29,7 @@ use crate::plan::{PathKind, Planner, Run, Trace, Visibility};
 use crate::space::Configuration;
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use std::ops::Add;
 use std::time::Duration;
 
 /// The answer to a problem.
@@ -75,6 +75,20 @@ pub struct Stages {
     pub prove: Duration,
     /// Bounding the optimum from below.
     pub bound: Duration,
+}
+
+impl Add for Stages {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            build: self.build + other.build,
+            query: self.query + other.query,
+            certify: self.certify + other.certify,
+            prove: self.prove + other.prove,
+            bound: self.bound + other.bound,
+        }
+    }
 }
 
 /// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.

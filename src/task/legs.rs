@@ -7,7 +7,7 @@ use super::stroke::{ToolStroke, stroke};
 use crate::certify::{CertifiedPath, Connectivity, StuckBox, WristTurn, certify, slab_connectivity, wrist_turn};
 use crate::geometry::Pose;
 use crate::model::{Grip, Problem, Scene, Step, Task};
-use crate::solve::{Effort, Method, Verdict, solve};
+use crate::solve::{Effort, Verdict, solve};
 use crate::space::{Configuration, Path};
 use crate::trajectory::{Timed, single};
 use std::collections::{BTreeMap, BTreeSet};
@@ -93,6 +93,9 @@ const LOOKS: u32 = 16;
 /// What a scene depends on, bit by bit.
 type SceneKey = Vec<u64>;
 
+/// By which share paths may be longer than the shortest.
+const GAP: f64 = 0.01;
+
 /// A scene, and from where to where.
 type WayKey = (usize, [u64; 4]);
 
@@ -113,8 +116,8 @@ pub(super) struct Legs {
 
 impl Legs {
     pub fn new(manner: Manner) -> Self {
-        // Tasks bound times, not the lengths of paths.
-        let effort = Effort { bounded: false, ..manner.effort };
+        // Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster motions.
+        let effort = Effort { bounded: false, gap: Some(GAP), ..manner.effort };
         Self {
             manner: Manner { effort, ..manner },
             numbers: BTreeMap::new(),
@@ -165,7 +168,7 @@ impl Legs {
     ) -> Result<Rc<Timed>, Refusal> {
         let scene = from.scene(task, candidate.step.action.picked());
         let path = match &self.ways[&key] {
-            _ if self.manner.method != Method::Visibility => path(&scene, from.q, candidate.to, &self.manner)?,
+            _ if !self.manner.method.optimises() => path(&scene, from.q, candidate.to, &self.manner)?,
             Way::Straight(path) => path.clone(),
             Way::Open | Way::Barred(_) => self.shortest(task, from, candidate, &scene)?,
         };

@@ -40,7 +40,7 @@ def test_an_obstacle_that_is_dragged_into_the_path_changes_it(serve):
 
 def test_planners_can_be_switched(serve):
     seen = serve(*PLANAR)
-    kinds = {"visibility": "roadmap", "trapezoid": "channel", "wavefront": "wavefront", "harmonic": "field", "subdivision": "boxes"}
+    kinds = {"shortest": "rows", "visibility": "roadmap", "trapezoid": "channel", "wavefront": "wavefront", "harmonic": "field", "subdivision": "boxes"}
     for planner, kind in kinds.items():
         seen.page.get_by_label("planner", exact=True).select_option(planner)
         answer = settled(seen)

@@ -5,7 +5,7 @@ import json
 import pytest
 from live import PLANAR, settled
 
-PLANNERS = ["visibility", "trapezoid", "wavefront", "harmonic", "subdivision"]
+PLANNERS = ["shortest", "visibility", "trapezoid", "wavefront", "harmonic", "subdivision", "first"]
 
 
 def saved(seen, format_):

@@ -29,7 +29,7 @@ def test_edits_survive_a_reload(serve):
     seen.page.get_by_role("button", name="Start again").click()
     settled(seen)
     assert crate(seen)[0] == [0.5, -1.6]
-    seen.page.get_by_label("planner", exact=True).select_option("visibility")
+    seen.page.get_by_label("planner", exact=True).select_option("shortest")
     settled(seen)
     seen.page.reload()
     settled(seen)

@@ -98,7 +98,7 @@ def test_everything_can_be_done_by_keyboard(program, show_file):
     for _ in range(40):
         keyboard.press("Tab")
         reached.add(seen.do("document.activeElement.dataset.layer ?? document.activeElement.dataset.obstacle ?? document.activeElement.tagName"))
-    layers = {"c-obstacles", "path", "roadmap", "poses", "trace", "names"}
+    layers = {"c-obstacles", "path", "rows", "poses", "trace", "names"}
     assert layers | {"shelf", "crate", "CANVAS", "BUTTON", "INPUT", "SELECT", "SUMMARY"} <= reached
     nameless = seen.do(
         """[...document.querySelectorAll('button, input, select, canvas')].filter((e) =>
@@ -245,6 +245,6 @@ def test_other_commands_make_pages_too(program, show_file):
     program.run(*files, "--quiet", "--output", "plan.json")
     program.run("verify", *files, "plan.json", "--picture", "verify.html")
     assert show_file(folder / "check.html").do("cplan.q") == pytest.approx([0.1, 0.2])
-    assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 5
+    assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 7
     assert show_file(folder / "inspect.html").do("cplan.model.frames.length") == 3
     assert show_file(folder / "verify.html").do("cplan.model.paths.length") == 1

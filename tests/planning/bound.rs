@@ -3,12 +3,19 @@
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Problem;
-use cplan::solve::{Answer, Bound, Effort, Method, Verdict, bound, solve};
+use cplan::solve::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path};
 use std::f64::consts::TAU;
 
+/// Those that are after the optimum.
+const PLANNERS: [Method; 2] = [Method::Shortest, Method::Visibility];
+
 fn answer(problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
-    solve(problem, Method::Visibility, &Effort { metric, gap, ..Effort::default() }, &mut |_| {})
+    answer_by(Method::Visibility, problem, metric, gap)
+}
+
+fn answer_by(method: Method, problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
+    solve(problem, method, &Effort { metric, gap, ..Effort::default() }, &mut |_| {})
 }
 
 fn path(answer: &Answer) -> &Path {
@@ -25,10 +32,29 @@ fn bounded(answer: &Answer) -> Bound {
 #[test]
 fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
     for (name, problem) in shipped_feasible() {
-        let answer = answer(&problem, Metric::Euclidean, Some(0.001));
-        let bound = bounded(&answer);
-        assert_eq!(bound.upper, path(&answer).length(), "{name}");
-        assert!(bound.lower <= bound.upper && bound.gap() <= 0.001, "{name}: {bound:?}");
+        for planner in PLANNERS {
+            let answer = answer_by(planner, &problem, Metric::Euclidean, Some(0.001));
+            let bound = bounded(&answer);
+            assert_eq!(bound.upper, path(&answer).length(), "{name}");
+            assert!(bound.lower <= bound.upper && bound.gap() <= 0.001, "{name}, {planner}: {bound:?}");
+        }
+    }
+}
+
+/// By default, in every metric; and a hundred times closer where it is asked for.
+#[test]
+fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
+    for (name, problem) in shipped_feasible() {
+        let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+        let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds }];
+        for (metric, gap) in metrics.map(|metric| (metric, None)).into_iter().chain([(Metric::Euclidean, Some(1e-6))]) {
+            let answer = answer_by(Method::Shortest, &problem, metric, gap);
+            let bound = bounded(&answer);
+            assert_eq!(bound.upper, metric.length(path(&answer)), "{name}");
+            assert!(bound.gap() <= gap.unwrap_or(1e-4), "{name}, {metric:?}: {} of {gap:?}", bound.gap());
+            // No graph was needed.
+            assert!(!matches!(answer.space, Space::Regions(_)), "{name}, {metric:?}");
+        }
     }
 }
 
@@ -39,7 +65,7 @@ fn no_planner_finds_a_path_below_the_bound() {
         let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
         let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds }];
         let lower = metrics.map(|metric| bounded(&answer(&problem, metric, Some(0.01))).lower);
-        for method in [Method::Visibility, Method::Trapezoid, Method::Wavefront, Method::Subdivision] {
+        for method in Method::ALL.into_iter().filter(|&method| method != Method::Harmonic) {
             if let Verdict::Found(found) = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict {
                 for (metric, lower) in metrics.into_iter().zip(lower) {
                     let length = metric.length(found.path());
@@ -53,10 +79,12 @@ fn no_planner_finds_a_path_below_the_bound() {
 #[test]
 fn published_optima_lie_within_the_bounds() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
-        let bound = bounded(&answer(&common::problem(which), Metric::Euclidean, Some(1e-4)));
-        assert!(bound.gap() <= 1e-4, "{which:?}: {bound:?}");
-        // Published with four digits.
-        assert!(bound.lower <= optimum + 5e-5 && optimum - 5e-5 <= bound.upper, "{which:?}: {bound:?}");
+        for planner in PLANNERS {
+            let bound = bounded(&answer_by(planner, &common::problem(which), Metric::Euclidean, Some(1e-4)));
+            assert!(bound.gap() <= 1e-4, "{which:?}: {bound:?}");
+            // Published with four digits.
+            assert!(bound.lower <= optimum + 5e-5 && optimum - 5e-5 <= bound.upper, "{which:?}: {bound:?}");
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use cplan::certify::{certify, recheck};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, Obstacle, Problem, Shape, Workspace};
-use cplan::solve::{Verdict, decide, shorten};
+use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use cplan::space::Axis;
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -65,7 +65,8 @@ fn what_slabs_see_closed_is_proven_closed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
-    for verdict in [decide(&problem, 20_000), shorten(&problem, 1e-3, 10_000)] {
+    let first = solve(&problem, Method::First, &Effort { boxes: 10_000, ..Effort::default() }, &mut |_| {});
+    for verdict in [decide(&problem, 20_000), first.verdict] {
         let Verdict::Infeasible(proof) = verdict else { panic!("it is closed: {verdict:?}") };
         assert!(proof.stuck().len() < 1000, "{}", proof.stuck().len());
         assert_eq!(recheck(proof.stuck(), problem.scene(), problem.start(), problem.goals(), 0.0), Ok(()));

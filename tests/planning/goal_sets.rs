@@ -3,7 +3,7 @@
 use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
-use cplan::certify::{Connectivity, connectivity, least_length, recheck, slab_connectivity};
+use cplan::certify::{Connectivity, Motions, connectivity, least_length, recheck, slab_connectivity};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, Motion, Problem, Scene, inverse};
 use cplan::solve::{Effort, Method, Verdict, solve};
@@ -159,7 +159,9 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                         "seed {seed}: {} above {length} to {goal}",
                         bound.lower
                     );
-                    let least = least_length(scene, start, problem.goals(), 0.0, Metric::Euclidean, length, 1e-3);
+                    let metric = Metric::Euclidean;
+                    let motions = Motions { scene, start, goals: problem.goals(), clearance: 0.0, metric };
+                    let least = least_length(&motions, length, 1e-3, &[]);
                     assert!(least <= length, "seed {seed}");
                     // A shorter way that only the finest levels show is looked for where there is no other, or with a gap.
                     let most = if other.history.len() <= LOOKED_AT { 1.05 * length } else { f64::INFINITY };

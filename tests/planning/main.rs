@@ -16,6 +16,7 @@ mod random_tasks;
 mod random_worlds;
 mod roadmap;
 mod search;
+mod shortest;
 mod slabs;
 mod solve;
 mod task_optimum;

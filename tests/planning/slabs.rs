@@ -8,7 +8,7 @@ use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_co
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{Motion, Scene};
-use cplan::solve::{Verdict, decide, shorten};
+use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use cplan::space::{Axis, Configuration, GoalSet};
 use proptest::prelude::*;
 use std::path::Path;
@@ -241,7 +241,7 @@ fn shipped_workspaces_are_answered_as_they_say() {
             Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
             None => undecided.push(file.file_stem().unwrap().to_owned()),
         }
-        for verdict in [decide(&problem, BOXES), shorten(&problem, 1e-3, SLABS)] {
+        for verdict in [decide(&problem, BOXES), shortest(&problem)] {
             match verdict {
                 Verdict::Found(path) => assert!(feasible && path.clearance() >= clearance, "{}", file.display()),
                 Verdict::Infeasible(_) => assert!(!feasible, "{}", file.display()),
@@ -253,11 +253,15 @@ fn shipped_workspaces_are_answered_as_they_say() {
     assert_eq!(undecided, ["slot_closed"], "of {}", files.len());
 }
 
+fn shortest(problem: &cplan::model::Problem) -> Verdict {
+    solve(problem, Method::Shortest, &Effort::default(), &mut |_| {}).verdict
+}
+
 #[test]
 fn short_paths_are_within_a_ten_thousandth_of_the_optimum() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
         let problem = problem(which);
-        let Verdict::Found(certified) = shorten(&problem, 1e-4, SLABS) else { panic!("{which:?}") };
+        let Verdict::Found(certified) = shortest(&problem) else { panic!("{which:?}") };
         let length = certified.path().length();
         // The published optima have four digits behind the point.
         assert!(length > optimum - 1e-4 && length < optimum * 1.0001 + 1e-4, "{which:?}: {length}");

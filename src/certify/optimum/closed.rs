@@ -7,6 +7,7 @@ use crate::interrupt::checkpoint;
 use crate::model::{Carried, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 /// Times that a motion is halved before it counts as not proven.
@@ -24,14 +25,14 @@ pub(super) struct Wall {
 
 /// Pairs of link 2 at most. What fewer of them close is no more, so that the bound holds; with many it is hardly lower: they
 /// are smaller than the link, which keeps meeting others beside those that are left out.
-const MOST_PAIRS: usize = 4096;
+pub(super) const MOST_PAIRS: usize = 4096;
 
 /// Rows times pairs at most, some seconds' worth.
 const MOST_LOOKS: usize = 4_000_000;
 
 /// A pair of link 2.
 struct Prepared {
-    /// Into the parts.
+    /// Into the link's parts.
     part: usize,
     piece: Features,
     /// None where the shapes are too thin to overlap by as much as rounding may amount to.
@@ -53,35 +54,41 @@ pub(super) struct Closed<'a> {
     clearance: f64,
     parts: Vec<PreparedPart>,
     pairs: Vec<Prepared>,
-    chosen: Vec<Pair>,
+    /// Their numbers.
+    numbers: BTreeMap<Pair, usize>,
     scratch: Vec<[f64; 2]>,
 }
 
 impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let motion = scene.arm().joints[1].motion;
-        let (mut parts, mut pairs): (Vec<PreparedPart>, Vec<Prepared>) = (Vec::new(), Vec::new());
-        let chosen = chosen(scene, clearance);
-        for of_part in chosen.chunk_by(|a, b| a.part == b.part) {
-            let carried = Carried::new(motion, scene.part(of_part[0]));
-            let part = parts.len();
-            for &pair in of_part {
-                checkpoint();
-                let piece = scene.piece(pair);
-                let eroded = Eroded::new(&carried, piece, OUTWARD, clearance);
-                pairs.push(Prepared { part, piece: Features::new(piece), eroded, sides: half_planes(piece.core()) });
-            }
-            let sides = half_planes(carried.shape().core());
-            parts.push(PreparedPart { carried, sides });
-        }
-        Self { scene, clearance, parts, pairs, chosen, scratch: Vec::new() }
+        let parts = scene.arm().links[1].parts.iter().map(|part| {
+            let carried = Carried::new(motion, &part.shape);
+            PreparedPart { sides: half_planes(carried.shape().core()), carried }
+        });
+        let (parts, numbers) = (parts.collect(), BTreeMap::new());
+        let mut this = Self { scene, clearance, parts, pairs: Vec::new(), numbers, scratch: Vec::new() };
+        this.add(&chosen(scene, clearance));
+        this
     }
 
-    /// The pairs that are looked at: those of link 1, unless they are too many, and the chosen ones of link 2.
+    /// Looks at some more pairs of link 2.
+    pub fn add(&mut self, pairs: &[Pair]) {
+        for &pair in pairs {
+            checkpoint();
+            let piece = self.scene.piece(pair);
+            let eroded = Eroded::new(&self.parts[pair.part].carried, piece, OUTWARD, self.clearance);
+            let (sides, piece) = (half_planes(piece.core()), Features::new(piece));
+            self.numbers.insert(pair, self.pairs.len());
+            self.pairs.push(Prepared { part: pair.part, piece, eroded, sides });
+        }
+    }
+
+    /// The pairs that are looked at: those of link 1, unless they are too many, and those of link 2; in their order.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.scene.pairs().iter().take_while(|pair| pair.link == 0);
         let few = first.clone().count() <= MOST_PAIRS;
-        first.filter(|_| few).chain(&self.chosen).copied().collect()
+        first.filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
     /// How many rows are worth looking at.
@@ -109,28 +116,50 @@ impl<'a> Closed<'a> {
     /// What is closed at `q1`, in the order of the pairs.
     pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
         checkpoint();
-        let arm = self.scene.arm();
-        let pose = arm.pose(0, Configuration::new(q1, 0.0));
-        let (elbow, heading) = (pose * Point::from(arm.offset), pose * Vector::x());
-        let joint = &arm.joints[1];
         let mut walls = Vec::new();
-        for (number, pair) in self.pairs.iter().enumerate() {
-            let Some(eroded) = &pair.eroded else { continue };
-            self.scratch.clear();
-            let part = &self.parts[pair.part].carried;
-            let hits = eroded.hits(part, &pair.piece, elbow, heading, &mut self.scratch);
-            let mut add = |[lower, upper]: [f64; 2]| {
-                if lower < upper {
-                    walls.push(Wall { pair: number, lower, upper });
-                }
-            };
-            match hits {
-                Hits::Always if joint.axis.is_circle() => add([-PI, PI]),
-                Hits::Within if joint.axis.is_circle() => self.scratch.iter().copied().for_each(add),
-                _ => on_axis(joint, hits, &self.scratch, add),
-            }
+        let frame = self.frame(q1);
+        for number in 0..self.pairs.len() {
+            self.add_walls(number, frame, &mut walls);
         }
         walls
+    }
+
+    /// What a pair closes at `q1`.
+    pub fn walls_of(&mut self, number: usize, q1: f64) -> Vec<Wall> {
+        let mut walls = Vec::new();
+        self.add_walls(number, self.frame(q1), &mut walls);
+        walls
+    }
+
+    /// The number of a pair; none if it is not looked at.
+    pub fn number(&self, pair: Pair) -> Option<usize> {
+        self.numbers.get(&pair).copied()
+    }
+
+    /// Where joint 2 is at `q1`, and the direction of link 1.
+    fn frame(&self, q1: f64) -> (Point, Vector) {
+        let arm = self.scene.arm();
+        let pose = arm.pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(arm.offset), pose * Vector::x())
+    }
+
+    fn add_walls(&mut self, number: usize, (elbow, heading): (Point, Vector), walls: &mut Vec<Wall>) {
+        let pair = &self.pairs[number];
+        let Some(eroded) = &pair.eroded else { return };
+        let joint = &self.scene.arm().joints[1];
+        self.scratch.clear();
+        let part = &self.parts[pair.part].carried;
+        let hits = eroded.hits(part, &pair.piece, elbow, heading, &mut self.scratch);
+        let mut add = |[lower, upper]: [f64; 2]| {
+            if lower < upper {
+                walls.push(Wall { pair: number, lower, upper });
+            }
+        };
+        match hits {
+            Hits::Always if joint.axis.is_circle() => add([-PI, PI]),
+            Hits::Within if joint.axis.is_circle() => self.scratch.iter().copied().for_each(add),
+            _ => on_axis(joint, hits, &self.scratch, add),
+        }
     }
 
     /// Whether a pair is proven too near all along the straight motion between two configurations. True says so; false

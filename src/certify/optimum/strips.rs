@@ -1,10 +1,10 @@
 //! Joint 1's domain in strips: what is closed to joint 2 at the row between two strips, and across a strip.
 
 use super::closed::{Closed, Wall};
-use crate::geometry::merge_in_place;
+use crate::geometry::{Point, merge_in_place};
 use crate::model::{Pair, Scene};
 use crate::space::{Axis, Configuration, Segment, Topology};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// The first strips are this share of the domain wide, or narrower beside values that link 1 closes. At least three, so
 /// that across a seam no strip is its own neighbour.
@@ -18,6 +18,12 @@ const MOST_BARRIERS: usize = 512;
 
 /// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
 const NARROWEST: f64 = 1e-9;
+
+/// A way passes a door if it is no farther beside it: it turns at the ends of doors.
+const ABOUT: f64 = 1e-9;
+
+/// What a pair closes jumps in one half of a strip if this share of its change is in that half: more than that of a tip's.
+const JUMP: f64 = 0.85;
 
 /// Rows are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
 /// by, for reaches up to a kilometre.
@@ -37,6 +43,15 @@ impl Door {
     pub fn turned(self, turns: f64) -> Self {
         Self { lower: self.lower + turns * TAU, upper: self.upper + turns * TAU, ..self }
     }
+}
+
+/// By how much the ends of walls change from one place to another; infinitely where there are more at one of them.
+fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
+    if there.len() != beyond.len() {
+        return f64::INFINITY;
+    }
+    let ends = there.as_flattened().iter().zip(beyond.as_flattened());
+    ends.map(|(a, b)| (a - b).abs()).sum()
 }
 
 /// A straight line across a strip that is closed: its values of joint 2 at the row before and the row after.
@@ -98,12 +113,16 @@ pub(super) struct Strips<'a> {
 }
 
 impl<'a> Strips<'a> {
-    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+    /// With rows at these values of joint 1 beside the usual ones.
+    pub fn new(scene: &'a Scene, clearance: f64, rows: &[f64]) -> Self {
         let topology = scene.arm().topology();
         let (lower, upper) = topology.axes[0].domain();
         let mut closed = Closed::new(scene, clearance);
         let bands = apart(closed.bands(), [lower, upper]);
         let mut cuts: Vec<f64> = (0..=FIRST).map(|i| lower + (upper - lower) * i as f64 / FIRST as f64).collect();
+        cuts.extend(rows.iter().copied().filter(|row| lower < *row && *row < upper));
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
         cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > APART));
         cuts.extend(bands.iter().flatten().copied().chain([lower, upper]));
         cuts.sort_unstable_by(f64::total_cmp);
@@ -123,8 +142,26 @@ impl<'a> Strips<'a> {
         self.closed.pairs()
     }
 
+    /// Looks at some more pairs of link 2, if there are any among these that are not looked at. Whether there were.
+    pub fn add(&mut self, mut pairs: Vec<Pair>) -> bool {
+        pairs.retain(|pair| self.closed.number(*pair).is_none());
+        self.closed.add(&pairs);
+        if !pairs.is_empty() {
+            for strip in &mut self.strips {
+                *strip = Strip::new(strip.from, strip.to, strip.closed);
+            }
+            self.last = self.strips.last().map_or_else(Vec::new, |last| self.closed.walls(last.to));
+        }
+        !pairs.is_empty()
+    }
+
     pub fn count(&self) -> usize {
         self.strips.len()
+    }
+
+    /// The values of joint 1 at the rows before the strips.
+    pub fn rows(&self) -> Vec<f64> {
+        self.strips.iter().map(|strip| strip.from).collect()
     }
 
     /// Whether more strips would cost more than they are worth.
@@ -140,6 +177,16 @@ impl<'a> Strips<'a> {
     /// The strip's place among [`Strips::count`].
     pub fn index(&self, number: i64) -> usize {
         self.place(number).0
+    }
+
+    /// What to add to a strip's own values of joint 1 to get those on the turn that its number tells.
+    pub fn turns(&self, number: i64) -> f64 {
+        self.place(number).1
+    }
+
+    /// How wide a strip is, by its place among all.
+    pub fn width(&self, index: usize) -> f64 {
+        self.strips[index].to - self.strips[index].from
     }
 
     /// The value of joint 1 at a row.
@@ -231,6 +278,19 @@ impl<'a> Strips<'a> {
         self.strips[after].doors.as_deref().unwrap_or(&[])
     }
 
+    /// What is not closed about a value of joint 2 at a row, within the domain or half a turn to either side.
+    pub fn free_about(&mut self, row: i64, q2: f64) -> Option<[f64; 2]> {
+        let axis = self.topology.axes[1];
+        if !self.is_inner(row) {
+            return None;
+        }
+        let turns = if axis.is_circle() { ((q2 - axis.domain().0) / TAU).floor() * TAU } else { 0.0 };
+        let (bottom, top) = if axis.is_circle() { (q2 - PI, q2 + PI) } else { axis.domain() };
+        let doors = self.doors(row).iter().flat_map(|door| [-1.0, 0.0, 1.0].map(|by| door.turned(by + turns / TAU)));
+        let about = |door: &Door| door.lower - ABOUT <= q2 && q2 <= door.upper + ABOUT;
+        doors.into_iter().find(about).map(|door| [door.lower.max(bottom), door.upper.min(top)])
+    }
+
     /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the
     /// strips.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
@@ -277,8 +337,11 @@ impl<'a> Strips<'a> {
                 self.last.clone()
             };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
-            for (left, right) in some(of_the_same_pairs(&before, &after)) {
-                barriers.extend(self.barrier([from, to], left, right));
+            let candidates = some(of_the_same_pairs(&before, &after));
+            for of_pair in candidates.chunk_by(|a, b| a.0.pair == b.0.pair) {
+                for (left, right) in of_pair {
+                    barriers.extend(self.barrier([from, to], left, right, of_pair.len() > 1));
+                }
             }
             barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
             // Those that cross others are left out: cells are to be convex.
@@ -294,8 +357,9 @@ impl<'a> Strips<'a> {
         self.strips[index].barriers = Some(barriers);
     }
 
-    /// A line between two walls of a pair along which it is proven to be too near.
-    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
+    /// A line between two walls of a pair along which it is proven to be too near: between their middles, or else where both hold
+    /// the same value; that first where walls part or meet, lest their lines cross.
+    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall, part: bool) -> Option<Barrier> {
         let circle = self.topology.axes[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
         let turns = if circle { ((middle(left) - middle(right)) / TAU).round() * TAU } else { 0.0 };
@@ -306,7 +370,8 @@ impl<'a> Strips<'a> {
             let [from, to] = [0, 1].map(|side| Configuration::new(rows[side], ends[side]));
             self.closed.all_along(left.pair, from, to)
         };
-        let barrier = [Some(slanted), level].into_iter().flatten().find(proven)?;
+        let lines = if part { [level, Some(slanted)] } else { [Some(slanted), level] };
+        let barrier = lines.into_iter().flatten().find(proven)?;
         let back = self.topology.axes[1].wrap(barrier[0]) - barrier[0];
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }
@@ -325,28 +390,109 @@ impl<'a> Strips<'a> {
         wall.map(|wall| [wall[0] - value, wall[1] - value])
     }
 
+    /// Where to cut a strip so that its rows close in on the place where a wall begins, or grows, parts or meets another at once, by halves
+    /// down to a width: values of joint 1, ascending. Looked for between `closed`, where the pair closes what is given, and
+    /// `until`. Nothing if it changes smoothly all along.
+    fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
+        let (mut with, mut without) = (closed, until);
+        let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
+        let mut cuts = Vec::new();
+        while (without - with).abs() > width.max(NARROWEST) {
+            let middle = f64::midpoint(with, without);
+            let between = self.walls_about(number, middle, wall);
+            let (near, far) = (change(&there, &between), change(&between, &beyond));
+            let greater = f64::max(near, far);
+            if greater.is_finite() && greater <= JUMP * (near + far) {
+                // None, or it has come so near that the rest is smooth.
+                break;
+            }
+            cuts.push(middle);
+            if near > far { (without, beyond) = (middle, between) } else { (with, there) = (middle, between) }
+        }
+        cuts.sort_unstable_by(f64::total_cmp);
+        cuts
+    }
+
+    /// The walls that a pair makes at `q1`, those that meet a given one.
+    fn walls_about(&mut self, number: usize, q1: f64, wall: [f64; 2]) -> Vec<[f64; 2]> {
+        let round = self.topology.axes[1].is_circle();
+        let middle = f64::midpoint(wall[0], wall[1]);
+        let near = |at: &Wall| {
+            let turns = if round { ((middle - f64::midpoint(at.lower, at.upper)) / TAU).round() * TAU } else { 0.0 };
+            [at.lower + turns, at.upper + turns]
+        };
+        let walls = self.closed.walls_of(number, q1);
+        walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
+    }
+
+    /// Where to cut a strip in which a way comes into what a pair closes at a configuration: towards jumps on either side.
+    pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
+        let Some(number) = self.closed.number(pair) else { return Vec::new() };
+        let walls = self.walls_about(number, at.x, [at.y; 2]);
+        let [wall] = walls.as_slice() else { return Vec::new() };
+        let wall = *wall;
+        let (from, to) = (self.strips[index].from, self.strips[index].to);
+        let mut cuts = self.towards_jump(number, [at.x, from], wall, width);
+        cuts.extend(self.towards_jump(number, [at.x, to], wall, width));
+        cuts
+    }
+
+    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the row before or after it. Nothing if it leads
+    /// through the strip.
+    pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
+        let (from, to) = (self.strips[index].from, self.strips[index].to);
+        let (with, without) = if after { (to, from) } else { (from, to) };
+        let round = self.topology.axes[1].is_circle();
+        let ends_here = |end: f64| {
+            let off = if round { (end - q2) - ((end - q2) / TAU).round() * TAU } else { end - q2 };
+            off.abs() <= ABOUT
+        };
+        let walls = self.closed.walls(with);
+        let ending = walls.iter().find(|wall| ends_here(wall.lower) || ends_here(wall.upper));
+        ending.map_or_else(Vec::new, |wall| {
+            self.towards_jump(wall.pair, [with, without], [wall.lower, wall.upper], width)
+        })
+    }
+
     /// Halves strips, given in ascending order without repetition; those that can be. Whether any was.
     pub fn halve(&mut self, which: &[usize]) -> bool {
+        let cuts: Vec<(usize, Vec<f64>)> = which.iter().map(|&index| (index, Vec::new())).collect();
+        self.cut(&cuts)
+    }
+
+    /// Cuts strips, given in ascending order without repetition, each at values within it, ascending, or in halves if there
+    /// are none; those that can be. Whether any was.
+    pub fn cut(&mut self, which: &[(usize, Vec<f64>)]) -> bool {
         let before = std::mem::take(&mut self.strips);
         let count = before.len();
         self.strips.reserve(count + which.len());
         let mut which = which.iter().peekable();
         let mut is_beside = false;
         for (index, mut strip) in before.into_iter().enumerate() {
-            let chosen = which.next_if(|&&w| w == index).is_some() && strip.to - strip.from > NARROWEST;
-            if std::mem::replace(&mut is_beside, chosen) {
+            let chosen = which.next_if(|(chosen, _)| *chosen == index).filter(|_| strip.to - strip.from > NARROWEST);
+            if std::mem::replace(&mut is_beside, chosen.is_some()) {
                 strip.doors = None;
             }
-            if !chosen {
+            let Some((_, cuts)) = chosen else {
                 self.strips.push(strip);
                 continue;
+            };
+            let middle = [f64::midpoint(strip.from, strip.to)];
+            let apart = |cut: &f64| cut - strip.from > NARROWEST / 4.0 && strip.to - cut > NARROWEST / 4.0;
+            let mut cuts: Vec<f64> = cuts.iter().copied().filter(apart).collect();
+            if cuts.is_empty() {
+                cuts.extend(middle);
             }
-            let middle = f64::midpoint(strip.from, strip.to);
-            let mut second = Strip::new(middle, strip.to, strip.closed);
-            second.walls = strip.middle.take();
-            let mut first = Strip::new(strip.from, middle, strip.closed);
-            first.walls = strip.walls.take();
-            self.strips.extend([first, second]);
+            let ends: Vec<f64> = [strip.from].into_iter().chain(cuts).chain([strip.to]).collect();
+            for pair in ends.windows(2) {
+                let mut part = Strip::new(pair[0], pair[1], strip.closed);
+                if pair[0] == strip.from {
+                    part.walls = strip.walls.take();
+                } else if pair[0] == middle[0] {
+                    part.walls = strip.middle.take();
+                }
+                self.strips.push(part);
+            }
         }
         // Across the seam.
         if is_beside && let Some(first) = self.strips.first_mut() {

@@ -117,7 +117,8 @@ mod tests {
             planner.options.into_iter().map(|option| (option.name, option.standard)).collect::<Vec<_>>()
         };
         let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
-        assert_eq!(of("visibility"), pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]));
+        let optimum = pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]);
+        assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum.clone(), optimum, Vec::new()));
         let wavefront = pairs(&[("--cells", "256"), ("--path", "taut"), ("--search", "wave"), ("--neighbors", "4")]);
         assert_eq!(of("wavefront"), wavefront);
         assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own")]));

@@ -56,7 +56,7 @@ pub struct ServeArgs {
     #[arg(value_name = "WORLD")]
     pub world: Option<PathBuf>,
     /// Planner and options to begin with, such as "harmonic --field oriented --epsilon 0.5 --direction 0,-1".
-    #[arg(long, value_name = "PLANNER OPTIONS", default_value = "visibility")]
+    #[arg(long, value_name = "PLANNER OPTIONS", default_value = "shortest")]
     pub with: String,
     /// Port of the page; 0 takes any that is free.
     #[arg(long, value_name = "N", default_value_t = 7878)]

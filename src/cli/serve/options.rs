@@ -124,8 +124,8 @@ mod tests {
     fn what_is_wrong_is_said_in_a_line() {
         for (text, part) in [
             ("", "<PLANNER>"),
-            ("fastest", "[possible values: visibility"),
-            ("harmonic --gap 0.1", "--gap needs --planner visibility"),
+            ("fastest", "[possible values: shortest"),
+            ("harmonic --gap 0.1", "--gap needs --planner shortest or visibility"),
             ("visibility --search astar", "--search needs --planner wavefront"),
             ("visibility --path own", "--path own is not for visibility"),
             ("visibility --output plan.json", "unexpected argument"),

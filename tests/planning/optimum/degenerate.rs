@@ -2,7 +2,7 @@
 
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{asked, disc, q, rectangle, rr, scene};
-use cplan::certify::least_length;
+use cplan::certify::{Motions, least_length};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Problem;
 use cplan::space::{Axis, Configuration, Metric};
@@ -24,7 +24,12 @@ fn assert_straight(axes: [Axis; 2], start: Configuration, goals: &[Configuration
         let straight = goals.iter().map(way).fold(f64::INFINITY, f64::min);
         for factor in LIMITS {
             let limit = factor * straight.max(0.1);
-            let found = least_length(&scene, start, &goals.iter().copied().collect(), 0.0, metric, limit, 1e-4);
+            let found = least_length(
+                &Motions { scene: &scene, start, goals: &goals.iter().copied().collect(), clearance: 0.0, metric },
+                limit,
+                1e-4,
+                &[],
+            );
             let error = (found - straight).abs();
             assert!(
                 error <= 2.0 * ROUNDING * straight.max(1e-3),

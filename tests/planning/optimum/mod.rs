@@ -8,7 +8,7 @@ mod polygons;
 mod shipped;
 mod worlds;
 
-use cplan::certify::least_length;
+use cplan::certify::{Motions, least_length};
 use cplan::model::Problem;
 use cplan::space::Metric;
 
@@ -20,8 +20,9 @@ const LIMITS: [f64; 2] = [3.0, 10.0];
 
 /// The bound for a problem.
 fn bound(problem: &Problem, metric: Metric, limit: f64, gap: f64) -> f64 {
-    let scene = problem.scene();
-    least_length(scene, problem.start(), problem.goals(), scene.workspace().clearance, metric, limit, gap)
+    let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
+    let clearance = scene.workspace().clearance;
+    least_length(&Motions { scene, start, goals, clearance, metric }, limit, gap, &[])
 }
 
 /// Euclidean, weighted, and time.

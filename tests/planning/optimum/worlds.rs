@@ -5,7 +5,7 @@ use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wa
 use crate::random_worlds::world;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::Problem;
-use cplan::solve::{Effort, Method, Verdict, decide, shorten, solve};
+use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use cplan::space::{GoalSet, Metric, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -15,8 +15,10 @@ const SLABS: usize = 20_000;
 /// Certified motions of all that plan.
 fn motions(problem: &Problem) -> Vec<Path> {
     let effort = |metric| Effort { levels: 2, margin: 1e-4, cells: 128, boxes: 5000, metric, ..Effort::default() };
-    let mut verdicts = vec![decide(problem, SLABS), shorten(problem, 1e-4, SLABS)];
-    verdicts.extend(metrics().map(|metric| solve(problem, Method::Visibility, &effort(metric), &mut |_| {}).verdict));
+    let mut verdicts = vec![decide(problem, SLABS)];
+    for method in [Method::Shortest, Method::Visibility] {
+        verdicts.extend(metrics().map(|metric| solve(problem, method, &effort(metric), &mut |_| {}).verdict));
+    }
     let others = [Method::Trapezoid, Method::Wavefront, Method::Subdivision];
     verdicts.extend(others.map(|method| solve(problem, method, &effort(Metric::Euclidean), &mut |_| {}).verdict));
     let found = |verdict| if let Verdict::Found(found) = verdict { Some(found.path().clone()) } else { None };

@@ -10,7 +10,7 @@
 //!
 //! for so many worlds of each kind of arm, on all cores. Also from the environment: `CPLAN_KIND` (only this kind),
 //! `CPLAN_FIRST` (the first seed, that of `CPLAN_SEED`), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
-//! visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
+//! shortest, visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
 //! [`Effort::default`] has it), `CPLAN_THREADS`.
 
 mod flood;
@@ -112,9 +112,10 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let mut lies = Vec::new();
     let mut lengths = [None; PLANNERS];
     let mut infeasible = None;
+    let mut lower = Vec::new();
     let mut counts = [Count::default(); PLANNERS];
     for (i, method) in Method::ALL.into_iter().enumerate() {
-        let always = matches!(method, Method::Visibility | Method::Subdivision);
+        let always = matches!(method, Method::Shortest | Method::Visibility | Method::Subdivision);
         if !always && !seed.is_multiple_of(run.share) {
             continue;
         }
@@ -142,6 +143,7 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
                 println!("unknown: {kind} {seed} {method} ({truth:?}): {why} {:?}", answer.history);
             }
         }
+        lower.extend(answer.bound.map(|bound| (bound.lower, method)));
         if let Some(lie) = lie(problem, &oracle, truth, &answer) {
             lies.push(format!("{kind} {seed} {method}: {lie}"));
         }
@@ -149,8 +151,16 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     if let (Some(method), Some(_)) = (infeasible, lengths.iter().flatten().next()) {
         lies.push(format!("{kind} {seed}: infeasible by {method}, found by another"));
     }
+    for (lower, method) in lower {
+        for (length, ..) in lengths.iter().flatten() {
+            if lower > length * (1.0 + ROUNDING) {
+                lies.push(format!("{kind} {seed}: no path below {lower} by {method}, yet {length}"));
+            }
+        }
+    }
     // Both roadmaps see the same polygons on the same level, and the visibility graph holds a shortest path in them.
-    if let [Some((shortest, _, level)), Some((other, _, at)), ..] = lengths
+    let of = |method: Method| Method::ALL.into_iter().zip(lengths).find(|of| of.0 == method).and_then(|of| of.1);
+    if let (Some((shortest, _, level)), Some((other, _, at))) = (of(Method::Visibility), of(Method::Trapezoid))
         && level == at
         && shortest > other * (1.0 + ROUNDING)
     {
@@ -159,11 +169,11 @@ fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
     // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
     let margin = 3.0 * run.effort.margin * problem.scene().arm().reach();
-    if let Some((shortest, _, _)) = lengths[0]
+    if let Some((shortest, _, _)) = of(Method::Visibility)
         && problem.goals().points().all(|goal| oracle.room(goal) > margin)
     {
         let margin = margin + problem.scene().workspace().clearance;
-        for (length, clearance, _) in lengths[1..].iter().flatten() {
+        for (length, clearance, _) in lengths.iter().flatten() {
             if *clearance > margin && shortest > length * (1.0 + ROUNDING) {
                 lies.push(format!("{kind} {seed}: visibility {shortest}, another {length}"));
             }

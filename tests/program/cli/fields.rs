@@ -14,7 +14,7 @@ fn u_trap() -> [String; 2] {
 fn options_that_do_not_go_together_end_with_2() {
     let place = Place::new();
     for (options, part) in [
-        ("--field oriented", "--field needs --planner harmonic: visibility follows no such field"),
+        ("--field oriented", "--field needs --planner harmonic: shortest follows no such field"),
         ("--planner wavefront --tolerance 1e-3", "--tolerance needs --planner harmonic"),
         ("--planner harmonic --field laplace", "possible values: harmonic, oriented, local, bvp, bvp2, khatib"),
         ("--planner harmonic --field oriented", "needs --epsilon and --direction"),
@@ -177,7 +177,7 @@ fn compare_takes_rows_with_options() {
         ("harmonic --field oriented", "needs --epsilon and --direction"),
         ("wavefront --field bvp", "needs --planner harmonic"),
         ("harmonic --search bfs", "needs --planner wavefront"),
-        ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: visibility, "),
+        ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: shortest, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
         ("", "not provided"),
     ] {

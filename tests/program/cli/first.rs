@@ -55,7 +55,9 @@ fn the_demo_spares_what_is_there() {
     place.run(&["demo"], "--dir plan.json").refused(1, &["plan.json: it exists and is not a folder"]);
     // Bad options are those of the main job.
     place.run(&["demo"], "--force --goal-tip 9,9").refused(1, &["--goal-tip", "out of reach"]);
-    place.run(&["demo"], "--force --planner wavefront --gap 0.1").refused(2, &["--gap needs --planner visibility"]);
+    place
+        .run(&["demo"], "--force --planner wavefront --gap 0.1")
+        .refused(2, &["--gap needs --planner shortest or visibility"]);
 }
 
 #[test]
@@ -80,7 +82,7 @@ fn what_init_writes_can_be_planned_at_once() {
                     assert!(ran.stdout.contains("result     the robot can be planned with"), "{}", ran.stdout);
                     assert!(!ran.stdout.contains("warning"), "{}", ran.stdout);
                 }
-                "compare" => assert_eq!(ran.stdout.matches("found").count(), 5, "{kind}: {}", ran.stdout),
+                "compare" => assert_eq!(ran.stdout.matches("found").count(), 7, "{kind}: {}", ran.stdout),
                 _ => {
                     assert!(ran.stdout.contains(&format!("({arm})")), "{}", ran.stdout);
                     assert!(ran.stdout.contains("found and certified"), "{}", ran.stdout);

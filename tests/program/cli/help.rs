@@ -104,7 +104,10 @@ fn completions_know_commands_options_and_values() {
     place.run(&["completions", "csh"], "").refused(2, &["bash, elvish, fish, powershell, zsh"]);
     let bash = place.run(&["completions", "bash"], "").stdout;
     let planner = bash.split("--planner)\n").nth(1).expect("values of --planner").lines().next().unwrap();
-    assert!(planner.contains("compgen -W \"visibility trapezoid wavefront harmonic subdivision\""), "{planner}");
+    assert!(
+        planner.contains("compgen -W \"shortest visibility trapezoid wavefront harmonic subdivision first\""),
+        "{planner}"
+    );
     let output = bash.split("--output)\n").nth(1).expect("values of --output").split(";;").next().unwrap();
     assert!(output.contains("compgen -f"), "{output}");
     let dir = bash.split("--dir)\n").nth(1).expect("values of --dir").split(";;").next().unwrap();

@@ -27,15 +27,17 @@ fn planners_with_two_paths_give_the_one_that_is_asked_for() {
         |pair: &[Value]| (0..2).any(|k| (pair[0][k].as_f64().unwrap() - pair[1][k].as_f64().unwrap()).abs() < 1e-9);
     // All but the pieces from the start to the first cell, and from the last one to the goal.
     assert!(path[1..path.len() - 1].windows(2).all(straight), "a step that is not along a joint");
-    let visibility = run("--planner visibility --path taut");
-    assert_eq!(visibility["path_kind"], "taut");
-    assert_eq!(visibility["path"], run("")["path"]);
+    for planner in ["shortest", "visibility", "first"] {
+        let [plain, taut] = ["", "--path taut"].map(|path| run(&format!("--planner {planner} {path}")));
+        assert_eq!(taut["path_kind"], "taut", "{planner}");
+        assert_eq!(taut["path"], plain["path"], "{planner}");
+    }
 }
 
 #[test]
-fn a_visibility_graph_has_no_other_path() {
+fn the_shortest_path_has_no_other_beside_it() {
     let place = Place::new();
-    place.run(&["no.urdf", "no.toml"], "--path own").refused(2, &["--path own is not for visibility", "taut as it is"]);
+    place.run(&["no.urdf", "no.toml"], "--path own").refused(2, &["--path own is not for shortest", "taut as it is"]);
     place.run(&["no.urdf", "no.toml"], "--path straight").refused(2, &["own, taut"]);
     let compare = ["compare", "no.urdf", "no.toml", "--with", "visibility --path own"];
     let done = place.command().args(compare).output().unwrap();
@@ -63,9 +65,11 @@ fn compare_lists_both_paths_of_each_planner() {
     let json = done.json();
     let rows = json["planners"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
-    assert_eq!(names, ["visibility", "trapezoid", "wavefront", "harmonic", "subdivision"]);
-    assert!(rows[0]["paths"].is_null(), "{}", rows[0]);
-    for row in &rows[1..] {
+    assert_eq!(names, ["shortest", "visibility", "trapezoid", "wavefront", "harmonic", "subdivision", "first"]);
+    for row in [&rows[0], &rows[1], &rows[6]] {
+        assert!(row["paths"].is_null(), "{row}");
+    }
+    for row in &rows[2..6] {
         let of = |kind: &str, key: &str| row["paths"][kind][key].as_f64().unwrap();
         assert!(of("own", "length") > of("taut", "length"), "{row}");
         let kind = row["path_kind"].as_str().unwrap();

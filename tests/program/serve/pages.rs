@@ -108,7 +108,7 @@ fn wrong_command_lines_are_said_so() {
         (output.status.code().unwrap(), stderr)
     };
     let (code, error) = run(&["--with", "fastest"]);
-    assert!(code == 2 && error.contains("--with: ") && error.contains("[possible values: visibility"), "{error}");
+    assert!(code == 2 && error.contains("--with: ") && error.contains("[possible values: shortest"), "{error}");
     let (code, error) = run(&["--time-limit", "0"]);
     assert!(code == 2 && error.contains("from 0.01 to 3600"), "{error}");
     let (code, error) = run(&["arm.urdf"]);

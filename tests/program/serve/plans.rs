@@ -162,7 +162,7 @@ fn what_is_saved_is_what_was_planned() {
         .current_dir(folder.path())
         .output()
         .unwrap();
-    let (_, json) = page.download(Some(state), "visibility", "json").unwrap();
+    let (_, json) = page.download(Some(state), "shortest", "json").unwrap();
     assert_eq!(String::from_utf8(json).unwrap().trim_end(), String::from_utf8(main.stdout).unwrap().trim_end());
 }
 

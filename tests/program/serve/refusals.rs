@@ -106,7 +106,7 @@ fn states_that_make_no_sense_are_refused() {
         assert!(error_of(&answer).contains(part), "{part}: {answer}");
     }
     for (options, part) in
-        [("fastest", "[possible values: visibility"), ("harmonic --gap 0.1", "--gap needs"), ("", "<PLANNER>")]
+        [("fastest", "[possible values: shortest"), ("harmonic --gap 0.1", "--gap needs"), ("", "<PLANNER>")]
     {
         let answer = page.plan(None, options);
         assert!(error_of(&answer).contains(part), "{part}: {answer}");

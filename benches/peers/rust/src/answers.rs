@@ -2,30 +2,23 @@
 
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
-use cplan::solve::{Verdict, bound, decide, shorten};
-use cplan::space::Metric;
+use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use serde_json::{Value, json};
 
-/// Slabs of joint 1 that a search may look at.
-const SLABS: usize = 10_000;
-
-/// How far the path of `shorten` may be from the shortest in the channel.
-const TOLERANCE: f64 = 1e-4;
+/// Boxes that a search may look at.
+const BOXES: usize = 10_000;
 
 pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {
     let problem = scenes::problem(urdf, world)?;
     let mut times = Rounds::default();
-    let (mut decided, mut shortened, mut proven) = (None, None, None);
+    let (mut decided, mut shortest, mut proven) = (None, None, None);
+    let answer = |bounded| solve(&problem, Method::Shortest, &Effort { bounded, ..Effort::default() }, &mut |_| {});
     for _ in 0..rounds {
-        decided = Some(times.time("decide", || decide(&problem, SLABS)));
-        shortened = Some(times.time("shorten", || shorten(&problem, TOLERANCE, SLABS)));
+        decided = Some(times.time("decide", || decide(&problem, BOXES)));
+        shortest = Some(times.time("shortest", || answer(false).verdict));
         proven = Some(times.time("proven", || {
-            let verdict = shorten(&problem, TOLERANCE, SLABS);
-            let gap = match &verdict {
-                Verdict::Found(path) => Some(bound(&problem, path.path(), Metric::Euclidean, TOLERANCE).gap()),
-                Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
-            };
-            (verdict, gap)
+            let answer = answer(true);
+            (answer.verdict, answer.bound.map(|bound| bound.gap()))
         }));
     }
     let told = |verdict: Option<Verdict>| match verdict {
@@ -39,5 +32,5 @@ pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {
     let (proven, gap) = proven.map_or((None, None), |(verdict, gap)| (Some(verdict), gap));
     let mut proven = told(proven);
     proven["gap"] = gap.into();
-    Ok(json!({"times": times.into_json(), "decide": told(decided), "shorten": told(shortened), "proven": proven}))
+    Ok(json!({"times": times.into_json(), "decide": told(decided), "shortest": told(shortest), "proven": proven}))
 }

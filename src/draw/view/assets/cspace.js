@@ -135,6 +135,13 @@ const CSpace = (() => {
       }
       context.stroke();
     }
+    if (seen.kind === 'rows' && view.shows('rows')) {
+      context.beginPath();
+      for (let i = 0; i + 3 < seen.free.length; i += 4) {
+        shifted(context, panel, seen.free.slice(i, i + 4), circles(view), false);
+      }
+      context.stroke();
+    }
     if (seen.kind === 'channel' && view.shows('cells')) {
       context.beginPath();
       for (const cell of seen.cells) shifted(context, panel, cell, circles(view), true);

@@ -17,6 +17,7 @@ const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
   ['path', 'path', true],
   ['roadmap', 'visibility graph', true],
+  ['rows', 'rows that the path passes', true],
   ['channel', 'channel', true],
   ['cells', 'cells', true],
   ['wavefront', 'wavefront', true],
@@ -243,8 +244,8 @@ class View {
     const kinds = new Set(worlds.map((world) => world.trace?.kind));
     const any = (key) => worlds.some((world) => world[key].length > 0);
     const there = {
-      'c-obstacles': any('c_obstacles'), path: paths.length > 0, roadmap: kinds.has('roadmap'), channel: kinds.has('channel'),
-      cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
+      'c-obstacles': any('c_obstacles'), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
+      channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
       flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
       trace: paths.length > 0, names: any('obstacles'), frames: this.model.frames.length > 0,
     };

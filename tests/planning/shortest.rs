@@ -1,0 +1,47 @@
+//! The shortest path among random obstacles: never below what others prove, hardly ever far above, and smooth to drive.
+
+use crate::common::random::{seeds, usual};
+use crate::random_worlds::world;
+use cplan::certify::certify;
+use cplan::solve::{Effort, Method, Verdict, bound, solve};
+use cplan::space::Metric;
+
+/// Worlds of each kind of arm.
+const WORLDS: u64 = 12;
+
+/// A path is within 1e-4 of what is proven by its own bound and by that of an independent run for another planner's path; it is
+/// never longer than another planner's by more than that, and says the same about whether there is one.
+#[test]
+fn it_is_within_a_ten_thousandth_of_the_optimum_in_random_worlds() {
+    let (mut found, mut wide) = (0, 0);
+    for kind in ["RR", "RP", "PR", "PP"] {
+        for seed in seeds(WORLDS) {
+            let Some(problem) = world::world(kind, seed) else { continue };
+            let (effort, clearance) = (Effort::default(), problem.scene().workspace().clearance);
+            let [own, first, graph] = [Method::Shortest, Method::First, Method::Visibility]
+                .map(|method| solve(&problem, method, &effort, &mut |_| {}));
+            let Verdict::Found(path) = &own.verdict else {
+                assert!(!matches!(first.verdict, Verdict::Found(_)), "{kind} {seed}: {:?}", own.verdict);
+                assert!(!matches!(graph.verdict, Verdict::Found(_)), "{kind} {seed}: {:?}", own.verdict);
+                continue;
+            };
+            found += 1;
+            assert!(certify(problem.scene(), path.path().clone(), clearance).is_ok(), "{kind} {seed}");
+            let given = own.bound.expect("it is bounded");
+            assert_eq!(given.upper, path.path().length(), "{kind} {seed}");
+            wide += u32::from(given.gap() > 1e-4);
+            for other in [&first, &graph] {
+                let Verdict::Found(other) = &other.verdict else { continue };
+                let length = other.path().length();
+                assert!(given.lower <= length * (1.0 + 1e-9), "{kind} {seed}: {given:?}, yet {length}");
+                assert!(given.upper <= length * (1.0 + 1e-4), "{kind} {seed}: {given:?} above {length}");
+                let again = bound(&problem, other.path(), Metric::Euclidean, 1e-4);
+                assert!(again.lower <= given.upper * (1.0 + 1e-9), "{kind} {seed}: {given:?}, {again:?}");
+            }
+        }
+    }
+    println!("{found} found, {wide} of them not within 1e-4");
+    assert!(!usual() || found >= 20, "{found}");
+    // One in twenty may lead through a passage that is too narrow for it.
+    assert!(wide * 20 <= found + 20, "{wide} of {found}");
+}
