@@ -19,7 +19,7 @@ BATCHES = 3
 
 FEASIBLE = ("A", "B")
 
-CPLAN = {"decide": "cplan decide", "shorten": "cplan shorten", "proven": "cplan shorten, bound"}
+CPLAN = {"decide": "cplan decide", "shortest": "cplan shortest", "proven": "cplan shortest, bound"}
 
 
 def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, bounds: dict[str, float]) -> Table:
@@ -27,8 +27,8 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
     table = Table(
         "Answers from a warm process",
         "The same by library calls, one after the other in one process, without files: `decide` (a certified path, "
-        "or a proof that has passed its check), `shorten` (the same, then shortened within its channel), `bound` (how "
-        "far its path is from the optimum, at the most: proven), OMPL's first solutions (seeds differ). Milliseconds, "
+        "or a proof that has passed its check), `shortest` (the planner, without its bound, and with it: how far its path "
+        "is from the optimum, at the most: proven), OMPL's first solutions (seeds differ). Milliseconds, "
         "median (quartiles); length over the proven lower bound.",
         ["problem", "program", "ms", "answer", "length", "valid"],
     )
