@@ -117,7 +117,7 @@ pub(super) struct Legs {
 impl Legs {
     pub fn new(manner: Manner) -> Self {
         // Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster motions.
-        let effort = Effort { bounded: false, gap: Some(GAP), ..manner.effort };
+        let effort = Effort { bounded: false, gap: manner.effort.gap.or(Some(GAP)), ..manner.effort };
         Self {
             manner: Manner { effort, ..manner },
             numbers: BTreeMap::new(),

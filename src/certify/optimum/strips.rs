@@ -120,7 +120,7 @@ impl<'a> Strips<'a> {
         let mut closed = Closed::new(scene, clearance);
         let bands = apart(closed.bands(), [lower, upper]);
         let mut cuts: Vec<f64> = (0..=FIRST).map(|i| lower + (upper - lower) * i as f64 / FIRST as f64).collect();
-        cuts.extend(rows.iter().copied().filter(|row| lower < *row && *row < upper));
+        cuts.extend(rows.iter().copied().filter(|row| lower + NARROWEST < *row && *row < upper - NARROWEST));
         cuts.sort_unstable_by(f64::total_cmp);
         cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
         cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > APART));
