@@ -337,11 +337,8 @@ impl<'a> Strips<'a> {
                 self.last.clone()
             };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
-            let candidates = some(of_the_same_pairs(&before, &after));
-            for of_pair in candidates.chunk_by(|a, b| a.0.pair == b.0.pair) {
-                for (left, right) in of_pair {
-                    barriers.extend(self.barrier([from, to], left, right, of_pair.len() > 1));
-                }
+            for (left, right) in some(of_the_same_pairs(&before, &after)) {
+                barriers.extend(self.barrier([from, to], left, right));
             }
             barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
             // Those that cross others are left out: cells are to be convex.
@@ -358,8 +355,8 @@ impl<'a> Strips<'a> {
     }
 
     /// A line between two walls of a pair along which it is proven to be too near: between their middles, or else where both hold
-    /// the same value; that first where walls part or meet, lest their lines cross.
-    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall, part: bool) -> Option<Barrier> {
+    /// the same value.
+    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
         let circle = self.topology.axes[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
         let turns = if circle { ((middle(left) - middle(right)) / TAU).round() * TAU } else { 0.0 };
@@ -370,8 +367,7 @@ impl<'a> Strips<'a> {
             let [from, to] = [0, 1].map(|side| Configuration::new(rows[side], ends[side]));
             self.closed.all_along(left.pair, from, to)
         };
-        let lines = if part { [level, Some(slanted)] } else { [Some(slanted), level] };
-        let barrier = lines.into_iter().flatten().find(proven)?;
+        let barrier = [Some(slanted), level].into_iter().flatten().find(proven)?;
         let back = self.topology.axes[1].wrap(barrier[0]) - barrier[0];
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }

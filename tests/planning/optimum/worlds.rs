@@ -62,6 +62,14 @@ fn obstacle() -> impl Strategy<Value = Convex> {
     })
 }
 
+/// A pair whose walls part and meet within a strip: level barriers through them all once closed the way.
+#[test]
+fn walls_that_part_and_meet_close_no_way() {
+    for gap in [1e-2, 1e-4] {
+        keeps_below(&world::world("PR", 5_703_491_533_213_168_642).unwrap(), gap);
+    }
+}
+
 proptest! {
     #![proptest_config(crate::common::random::cases(60))]
 
