@@ -1,6 +1,8 @@
 //! How short a motion may be at best: a proven lower bound.
 
 mod closed;
+mod doors;
+mod jumps;
 mod refine;
 mod search;
 mod strips;

@@ -91,7 +91,8 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
         if !tip.is_empty() {
             return vec![(index, tip)];
         }
-        if strips.width(index) > finest {
+        let [from, to] = strips.ends(index);
+        if to - from > finest {
             cuts.push((index, Vec::new()));
         }
     }

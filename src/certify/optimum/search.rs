@@ -1,6 +1,7 @@
 //! The shortest way past what is closed in strips and at the rows between them.
 
-use super::strips::{Cell, Door, Strips};
+use super::doors::Door;
+use super::strips::{Cell, Strips};
 use crate::geometry::{Ordered, Point};
 use crate::interrupt::checkpoint;
 use crate::space::{Measure, Segment};

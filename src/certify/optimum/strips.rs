@@ -1,7 +1,8 @@
 //! Joint 1's domain in strips: what is closed to joint 2 at the row between two strips, and across a strip.
 
 use super::closed::{Closed, Wall};
-use crate::geometry::{Point, merge_in_place};
+use super::doors::{Door, left_by, within_domain};
+use crate::geometry::merge_in_place;
 use crate::model::{Pair, Scene};
 use crate::space::{Axis, Configuration, Segment, Topology};
 use std::f64::consts::{PI, TAU};
@@ -17,42 +18,14 @@ const MOST_STRIPS: usize = 100_000;
 const MOST_BARRIERS: usize = 512;
 
 /// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
-const NARROWEST: f64 = 1e-9;
+pub(super) const NARROWEST: f64 = 1e-9;
 
 /// A way passes a door if it is no farther beside it: it turns at the ends of doors.
-const ABOUT: f64 = 1e-9;
-
-/// What a pair closes jumps in one half of a strip if this share of its change is in that half: more than that of a tip's.
-const JUMP: f64 = 0.85;
+pub(super) const ABOUT: f64 = 1e-9;
 
 /// Rows are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
 /// by, for reaches up to a kilometre.
 const APART: f64 = 1e-12;
-
-/// An interval of joint 2 that is not closed at a row; infinite ends where nothing is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Door {
-    pub lower: f64,
-    pub upper: f64,
-    /// Whether the lower and the upper end are the ends of something closed, not of the domain.
-    pub tips: [bool; 2],
-}
-
-impl Door {
-    /// The same some turns of joint 2 further.
-    pub fn turned(self, turns: f64) -> Self {
-        Self { lower: self.lower + turns * TAU, upper: self.upper + turns * TAU, ..self }
-    }
-}
-
-/// By how much the ends of walls change from one place to another; infinitely where there are more at one of them.
-fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
-    if there.len() != beyond.len() {
-        return f64::INFINITY;
-    }
-    let ends = there.as_flattened().iter().zip(beyond.as_flattened());
-    ends.map(|(a, b)| (a - b).abs()).sum()
-}
 
 /// A straight line across a strip that is closed: its values of joint 2 at the row before and the row after.
 type Barrier = [f64; 2];
@@ -106,7 +79,7 @@ impl Strip {
 /// turns; strip `k` lies between rows `k` and `k + 1`.
 pub(super) struct Strips<'a> {
     topology: Topology,
-    closed: Closed<'a>,
+    pub(super) closed: Closed<'a>,
     strips: Vec<Strip>,
     /// What is closed at the end of the domain of a joint 1 with limits.
     last: Vec<Wall>,
@@ -184,9 +157,9 @@ impl<'a> Strips<'a> {
         self.place(number).1
     }
 
-    /// How wide a strip is, by its place among all.
-    pub fn width(&self, index: usize) -> f64 {
-        self.strips[index].to - self.strips[index].from
+    /// The values of joint 1 between which a strip lies, by its place among all.
+    pub fn ends(&self, index: usize) -> [f64; 2] {
+        [self.strips[index].from, self.strips[index].to]
     }
 
     /// The value of joint 1 at a row.
@@ -386,70 +359,6 @@ impl<'a> Strips<'a> {
         wall.map(|wall| [wall[0] - value, wall[1] - value])
     }
 
-    /// Where to cut a strip so that its rows close in on the place where a wall begins, or grows, parts or meets another at once, by halves
-    /// down to a width: values of joint 1, ascending. Looked for between `closed`, where the pair closes what is given, and
-    /// `until`. Nothing if it changes smoothly all along.
-    fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
-        let (mut with, mut without) = (closed, until);
-        let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
-        let mut cuts = Vec::new();
-        while (without - with).abs() > width.max(NARROWEST) {
-            let middle = f64::midpoint(with, without);
-            let between = self.walls_about(number, middle, wall);
-            let (near, far) = (change(&there, &between), change(&between, &beyond));
-            let greater = f64::max(near, far);
-            if greater.is_finite() && greater <= JUMP * (near + far) {
-                // None, or it has come so near that the rest is smooth.
-                break;
-            }
-            cuts.push(middle);
-            if near > far { (without, beyond) = (middle, between) } else { (with, there) = (middle, between) }
-        }
-        cuts.sort_unstable_by(f64::total_cmp);
-        cuts
-    }
-
-    /// The walls that a pair makes at `q1`, those that meet a given one.
-    fn walls_about(&mut self, number: usize, q1: f64, wall: [f64; 2]) -> Vec<[f64; 2]> {
-        let round = self.topology.axes[1].is_circle();
-        let middle = f64::midpoint(wall[0], wall[1]);
-        let near = |at: &Wall| {
-            let turns = if round { ((middle - f64::midpoint(at.lower, at.upper)) / TAU).round() * TAU } else { 0.0 };
-            [at.lower + turns, at.upper + turns]
-        };
-        let walls = self.closed.walls_of(number, q1);
-        walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
-    }
-
-    /// Where to cut a strip in which a way comes into what a pair closes at a configuration: towards jumps on either side.
-    pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
-        let Some(number) = self.closed.number(pair) else { return Vec::new() };
-        let walls = self.walls_about(number, at.x, [at.y; 2]);
-        let [wall] = walls.as_slice() else { return Vec::new() };
-        let wall = *wall;
-        let (from, to) = (self.strips[index].from, self.strips[index].to);
-        let mut cuts = self.towards_jump(number, [at.x, from], wall, width);
-        cuts.extend(self.towards_jump(number, [at.x, to], wall, width));
-        cuts
-    }
-
-    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the row before or after it. Nothing if it leads
-    /// through the strip.
-    pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
-        let (from, to) = (self.strips[index].from, self.strips[index].to);
-        let (with, without) = if after { (to, from) } else { (from, to) };
-        let round = self.topology.axes[1].is_circle();
-        let ends_here = |end: f64| {
-            let off = if round { (end - q2) - ((end - q2) / TAU).round() * TAU } else { end - q2 };
-            off.abs() <= ABOUT
-        };
-        let walls = self.closed.walls(with);
-        let ending = walls.iter().find(|wall| ends_here(wall.lower) || ends_here(wall.upper));
-        ending.map_or_else(Vec::new, |wall| {
-            self.towards_jump(wall.pair, [with, without], [wall.lower, wall.upper], width)
-        })
-    }
-
     /// Halves strips, given in ascending order without repetition; those that can be. Whether any was.
     pub fn halve(&mut self, which: &[usize]) -> bool {
         let cuts: Vec<(usize, Vec<f64>)> = which.iter().map(|&index| (index, Vec::new())).collect();
@@ -476,6 +385,7 @@ impl<'a> Strips<'a> {
             let middle = [f64::midpoint(strip.from, strip.to)];
             let apart = |cut: &f64| cut - strip.from > NARROWEST / 4.0 && strip.to - cut > NARROWEST / 4.0;
             let mut cuts: Vec<f64> = cuts.iter().copied().filter(apart).collect();
+            cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
             if cuts.is_empty() {
                 cuts.extend(middle);
             }
@@ -540,34 +450,4 @@ fn apart(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     });
     bands.retain(|band| band[1] - band[0] > APART);
     bands
-}
-
-/// An interval that may lead across the seam of a circle, in pieces within its domain.
-fn within_domain(axis: Axis, lower: f64, upper: f64) -> impl Iterator<Item = [f64; 2]> {
-    let (bottom, top) = axis.domain();
-    let beyond = (axis.is_circle() && upper > top).then(|| [bottom, (upper - TAU).min(top)]);
-    [Some([lower, upper.min(top)]), beyond].into_iter().flatten()
-}
-
-/// What closed intervals of the domain, disjoint and ascending, leave of it.
-fn left_by(closed: &[[f64; 2]], axis: Axis) -> Vec<Door> {
-    let (bottom, top) = axis.domain();
-    let round = axis.is_circle();
-    let (Some(first), Some(last)) = (closed.first(), closed.last()) else {
-        let (lower, upper) = if round { (f64::NEG_INFINITY, f64::INFINITY) } else { (bottom, top) };
-        return vec![Door { lower, upper, tips: [false; 2] }];
-    };
-    let mut doors = Vec::with_capacity(closed.len() + 1);
-    if !round && bottom < first[0] {
-        doors.push(Door { lower: bottom, upper: first[0], tips: [false, true] });
-    }
-    doors.extend(closed.windows(2).map(|w| Door { lower: w[0][1], upper: w[1][0], tips: [true; 2] }));
-    if !round && last[1] < top {
-        doors.push(Door { lower: last[1], upper: top, tips: [true, false] });
-    }
-    // Across the seam.
-    if round && last[1] < first[0] + TAU {
-        doors.push(Door { lower: last[1], upper: first[0] + TAU, tips: [true; 2] });
-    }
-    doors
 }
