@@ -6,7 +6,7 @@ mod wave;
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, FreeCells, Lattice, harmonic};
-use cplan::plan::{PathKind, Planner, Query, Wavefront};
+use cplan::planner::{PathKind, Planner, Query, Wavefront};
 use cplan::space::{Axis, Topology};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;

@@ -7,7 +7,7 @@ mod common;
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::input::{self, Overrides};
 use cplan::model::Problem;
-use cplan::plan::{Harmonic, Outcome, Planner, Query, Trapezoid, Visibility, Wavefront};
+use cplan::planner::{Harmonic, Outcome, Planner, Query, Trapezoid, Visibility, Wavefront};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;

@@ -7,7 +7,7 @@ mod roadmap;
 
 use cplan::cspace::Regions;
 use cplan::geometry::{Point, segments_cross};
-use cplan::plan::{Outcome, Planner, Query, Trapezoid, Visibility};
+use cplan::planner::{Outcome, Planner, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
 use roadmap::{Random, configuration, sides, star_crowd};

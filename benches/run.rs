@@ -1,9 +1,9 @@
 //! The whole run in one process: from the files of an arm with five obstacles to the file of a certified trajectory.
 
-use cplan::certify::blend;
+use cplan::check::blend;
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, Overrides};
-use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::trajectory::{Limits, Report, Timed, time, write_whole};
+use cplan::motion::{Limits, Report, Timed, time, write_whole};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
 

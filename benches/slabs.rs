@@ -4,9 +4,9 @@
 mod common;
 
 use common::{Benchmark, benchmark, problem, w20};
-use cplan::certify::slab_connectivity;
 use cplan::cspace::bitmap;
-use cplan::solve::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::search::slab_connectivity;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 

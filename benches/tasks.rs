@@ -1,10 +1,10 @@
 //! Whole tasks, from the loaded world to certified trajectories of all motions.
 
+use cplan::engine::task::{Manner, TaskVerdict, plan};
+use cplan::engine::{Effort, Method};
 use cplan::input::{self, Overrides};
 use cplan::model::Task;
-use cplan::solve::{Effort, Method};
-use cplan::task::{Manner, TaskVerdict, plan};
-use cplan::trajectory::Drive;
+use cplan::motion::Drive;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;

@@ -7,7 +7,7 @@
 use cplan::cspace::{Rows, c_obstacles};
 use cplan::draw::{Picture, svg};
 use cplan::input;
-use cplan::trajectory::write_whole;
+use cplan::motion::write_whole;
 use std::error::Error;
 use std::path::PathBuf;
 

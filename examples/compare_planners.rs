@@ -4,9 +4,9 @@
 //! cargo run --release --example compare_planners -- robots/planar_2r.urdf workspaces/shelf.toml
 //! ```
 
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, Overrides};
-use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::trajectory::{Limits, time};
+use cplan::motion::{Limits, time};
 use std::error::Error;
 use std::path::PathBuf;
 

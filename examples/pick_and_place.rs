@@ -4,10 +4,10 @@
 //! cargo run --release --example pick_and_place -- robots/scara.urdf workspaces/tasks/table_mission.toml
 //! ```
 
+use cplan::engine::task::{Event, Manner, Sequence, TaskVerdict, plan};
+use cplan::engine::{Effort, Method};
 use cplan::input::{self, Overrides};
-use cplan::solve::{Effort, Method};
-use cplan::task::{Event, Manner, Sequence, TaskVerdict, plan};
-use cplan::trajectory::Drive;
+use cplan::motion::Drive;
 use std::error::Error;
 use std::path::PathBuf;
 

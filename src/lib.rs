@@ -13,15 +13,14 @@
 //!          |
 //!      [cspace]           C-obstacles: Regions (polygons) or Grid (cells), with what they prove
 //!          |
-//!  [field] [plan]         visibility graph, trapezoids, wavefront, harmonic field -> a proposed path
+//! [field] [planner]       visibility graph, trapezoids, wavefront, harmonic field -> a proposed path
+//!          |    [search]  slabs and boxes: proofs that there is no path, bounds on the shortest
+//!          |     /
+//!       [check]           the judge: certifies motions, checks proofs
 //!          |
-//!      [certify]          the judge: continuous collision check; proof that there is no path
+//!      [motion]           timing under limits on velocity, acceleration, jerk; JSON, CSV, ROS 2, MCAP
 //!          |
-//!      [solve]            plan, certify, refine: Found, Infeasible or Unknown
-//!          |
-//!     [trajectory]        timing under limits on velocity, acceleration, jerk; JSON, CSV, ROS 2, MCAP
-//!          |
-//!       [task]            motions one after another: grips, postures and order chosen together
+//!      [engine]           plan, certify, refine: Found, Infeasible or Unknown; tasks as sequences of motions
 //!          |
 //!   [draw] [report]       pictures and tables, pure functions of results
 //!          |
@@ -33,8 +32,8 @@
 //!
 //! Long loops everywhere can be stopped from outside: [`interrupt`].
 //!
-//! Modules import downwards only; [`certify`] imports neither [`cspace`] nor [`plan`], so that it judges them
-//! independently. A test holds this table.
+//! Modules import downwards only; [`check`] imports geometry, space and model alone, so that it judges planners
+//! and searches independently. A test holds this table.
 //!
 //! # Conventions
 //!
@@ -50,11 +49,11 @@ pub mod model;
 pub mod input;
 pub mod cspace;
 pub mod field;
-pub mod plan;
-pub mod certify;
-pub mod solve;
-pub mod trajectory;
-pub mod task;
+pub mod planner;
+pub mod check;
+pub mod search;
+pub mod motion;
+pub mod engine;
 pub mod draw;
 pub mod report;
 pub mod cli;

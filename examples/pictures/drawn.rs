@@ -2,11 +2,11 @@
 
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, svg, task_svg};
+use cplan::engine::task::{Manner, TaskVerdict, plan};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, Overrides};
 use cplan::model::Scene;
-use cplan::solve::{Effort, Method, Verdict, solve};
-use cplan::task::{Manner, TaskVerdict, plan};
-use cplan::trajectory::Drive;
+use cplan::motion::Drive;
 use std::error::Error;
 use std::path::Path;
 

@@ -7,7 +7,7 @@
 
 mod drawn;
 
-use cplan::trajectory::write_whole;
+use cplan::motion::write_whole;
 use std::error::Error;
 use std::path::Path;
 

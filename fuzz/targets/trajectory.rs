@@ -6,7 +6,7 @@ mod files;
 #[path = "shipped.rs"]
 mod shipped;
 
-use cplan::certify::limits_kept;
+use cplan::check::limits_kept;
 use cplan::input::{LoadedScene, load_recording, load_scene};
 use files::Files;
 use libfuzzer_sys::fuzz_target;

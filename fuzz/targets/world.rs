@@ -8,9 +8,9 @@ mod files;
 mod shipped;
 
 use cplan::input::{LoadedScene, Overrides, load, load_scene};
-use cplan::solve::{Effort, Method};
-use cplan::task::{Manner, TaskReport, plan};
-use cplan::trajectory::Drive;
+use cplan::engine::{Effort, Method};
+use cplan::engine::task::{Manner, TaskReport, plan};
+use cplan::motion::Drive;
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;

@@ -12,10 +12,10 @@ use super::path_args::PathArgs;
 use super::search_args::SearchArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
+use crate::engine::{Effort, Method};
 use crate::input::{JointValues, Overrides, TipPoint};
-use crate::solve::{Effort, Method};
+use crate::motion::SHORTEST_INTERVAL;
 use crate::space::Metric;
-use crate::trajectory::SHORTEST_INTERVAL;
 use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
 use std::path::PathBuf;
 

@@ -1,9 +1,9 @@
 //! What ends a job before its result: exit code 1, or 2 for a wrong command line.
 
 use crate::draw::DrawError;
+use crate::engine::task::MessageError;
 use crate::input::InputError;
-use crate::task::MessageError;
-use crate::trajectory::{AccelerationJump, FormatError, TimingError, WriteError};
+use crate::motion::{AccelerationJump, FormatError, TimingError, WriteError};
 use thiserror::Error;
 
 /// Bad input or I/O, in the user's words.

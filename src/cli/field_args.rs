@@ -1,12 +1,12 @@
 //! The command line's words for fields.
 
 use super::args::number_in;
+use crate::engine::Method;
 use crate::field::{
     Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
 };
 use crate::model::Preference;
-use crate::plan::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
-use crate::solve::Method;
+use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use clap::{Args, ValueEnum};
 
 /// Equations.

@@ -1,9 +1,9 @@
 //! A field's settings in the result.
 
+use crate::engine::{Answer, Space};
 use crate::field::{Difference, Factor, Khatib, Limits, Relaxation, Scheme};
-use crate::plan::{EquationChoice, FieldChoice, FieldPlanner, Size};
-use crate::solve::{Answer, Space};
-use crate::trajectory::FieldReport;
+use crate::motion::FieldReport;
+use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, Size};
 
 /// The field that was asked for and what came of it.
 pub fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {

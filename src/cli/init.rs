@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::fresh::{folder, spare, word};
 use super::summary::laid_out;
 use super::{DONE, output, schema};
-use crate::trajectory::write_whole_set;
+use crate::motion::write_whole_set;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 

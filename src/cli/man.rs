@@ -4,7 +4,7 @@ use super::args::Cli;
 use super::failure::Failure;
 use super::fresh::folder;
 use super::{DONE, output};
-use crate::trajectory::write_whole_set;
+use crate::motion::write_whole_set;
 use clap::{Args, Command, CommandFactory, ValueHint};
 use clap_mangen::Man;
 use std::io;

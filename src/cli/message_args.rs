@@ -1,10 +1,10 @@
 //! What tables and ROS 2 messages hold, on the command line.
 
 use super::failure::Failure;
+use crate::engine::task::{TaskAnswer, TaskReport};
 use crate::input::LoadedTask;
 use crate::model::RobotJoints;
-use crate::task::{TaskAnswer, TaskReport};
-use crate::trajectory::Report;
+use crate::motion::Report;
 use clap::{Args, ValueEnum};
 
 /// Joints that a message names.

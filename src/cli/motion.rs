@@ -2,7 +2,7 @@
 
 use super::args::{number_in, seconds};
 use crate::model::Joint;
-use crate::trajectory::Drive;
+use crate::motion::Drive;
 use clap::Args;
 
 /// How to drive along a path.

@@ -1,7 +1,7 @@
 //! Planners, paths and searches by name on the command line, so that help and shells can list them.
 
-use crate::plan::{GridSearch, PathKind};
-use crate::solve::Method;
+use crate::engine::Method;
+use crate::planner::{GridSearch, PathKind};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 

@@ -3,10 +3,10 @@
 use super::failure::Failure;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, Ending, Picture, Posture, TaskPicture, View};
+use crate::engine::task::TaskVerdict;
 use crate::input::{FileIdentity, read_from};
 use crate::model::{Problem, Scene, plain, plain_json};
-use crate::task::TaskVerdict;
-use crate::trajectory::{Format, Report, check_writable, write_whole};
+use crate::motion::{Format, Report, check_writable, write_whole};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! The command line's word for which of a planner's paths is wanted.
 
-use crate::plan::PathKind;
-use crate::solve::Method;
+use crate::engine::Method;
+use crate::planner::PathKind;
 use clap::Args;
 
 /// Which path.

@@ -8,13 +8,13 @@ use super::output::{self, Sink};
 use super::planned::Planned;
 use super::summary::{self, Clock};
 use super::{DONE, INFEASIBLE, UNKNOWN, task};
-use crate::certify::{CertifiedCurve, ProofBox};
+use crate::check::{CertifiedCurve, ProofBox};
+use crate::engine::{Answer, Bound, Effort, Method, Verdict, percent, solve};
 use crate::input::{self, InputError, LoadedScene};
 use crate::model::{Problem, Scene};
-use crate::plan::{FieldPlanner, Wavefront};
-use crate::solve::{Answer, Bound, Effort, Method, Verdict, percent, solve};
+use crate::motion::{Optimum, Report, SearchUsed, Timed};
+use crate::planner::{FieldPlanner, Wavefront};
 use crate::space::Metric;
-use crate::trajectory::{Optimum, Report, SearchUsed, Timed};
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///

@@ -3,13 +3,13 @@
 use super::failure::Failure;
 use super::output::{self, PictureFormat};
 use super::summary;
-use crate::certify::CertifiedCurve;
+use crate::check::CertifiedCurve;
 use crate::cspace::CObstacle;
 use crate::draw::{Ending, Picture, View, page};
+use crate::engine::{Answer, Verdict};
 use crate::model::Problem;
-use crate::plan::FieldPlanner;
-use crate::solve::{Answer, Verdict};
-use crate::trajectory::{Report, write_whole};
+use crate::motion::{Report, write_whole};
+use crate::planner::FieldPlanner;
 use std::path::Path;
 
 /// A verdict in a word or two.

@@ -4,7 +4,7 @@ use super::DONE;
 use super::args::RecheckArgs;
 use super::failure::Failure;
 use super::output;
-use crate::certify::{read_proof, recheck};
+use crate::check::{read_proof, recheck};
 use crate::input::{self, Source};
 
 /// Checks the proof in a result file against the two input files. That it was made for them is not taken on trust.

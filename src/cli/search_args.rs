@@ -1,8 +1,8 @@
 //! The command line's words for the search of a grid.
 
+use crate::engine::Method;
 use crate::field::Neighborhood;
-use crate::plan::{GridSearch, Wavefront};
-use crate::solve::Method;
+use crate::planner::{GridSearch, Wavefront};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 

@@ -2,10 +2,10 @@
 
 use super::output::Sink;
 use super::planned::Planned;
-use crate::certify::CertifiedCurve;
+use crate::check::CertifiedCurve;
+use crate::engine::{Bound, Stages, Verdict, percent};
 use crate::input::Loaded;
 use crate::model::{Arm, Joint, Scene, plain_line};
-use crate::solve::{Bound, Stages, Verdict, percent};
 use crate::space::{Axis, Configuration, Metric, Segment};
 use std::fmt::Write;
 use std::time::{Duration, Instant};

@@ -8,11 +8,11 @@ use super::summary::{Clock, counted};
 use super::task_files::TaskFiles;
 use super::{DONE, INFEASIBLE, UNKNOWN, task_summary};
 use crate::draw::TaskPicture;
+use crate::engine::Method;
+use crate::engine::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
 use crate::input::{LoadedScene, LoadedTask};
-use crate::plan::FieldPlanner;
-use crate::solve::Method;
-use crate::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
-use crate::trajectory::SearchUsed;
+use crate::motion::SearchUsed;
+use crate::planner::FieldPlanner;
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///

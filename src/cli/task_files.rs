@@ -2,8 +2,8 @@
 
 use super::failure::Failure;
 use super::output::{self, Sink};
-use crate::task::TaskReport;
-use crate::trajectory::{Format, check_writable, write_whole_set};
+use crate::engine::task::TaskReport;
+use crate::motion::{Format, check_writable, write_whole_set};
 use std::path::{Path, PathBuf};
 
 /// Digits of a step's number in file names, at least: so that names sort as the steps follow.

@@ -2,11 +2,11 @@
 
 use super::step_lines::{StepLine, step_lines};
 use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, named, non_empty, time_line};
+use crate::engine::percent;
+use crate::engine::task::{Leg, TaskAnswer, TaskReport};
 use crate::input::LoadedTask;
 use crate::model::Task;
-use crate::plan::FieldPlanner;
-use crate::solve::percent;
-use crate::task::{Leg, TaskAnswer, TaskReport};
+use crate::planner::FieldPlanner;
 
 /// What was found, a line a step.
 pub fn text(

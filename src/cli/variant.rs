@@ -3,9 +3,9 @@
 use super::field_args::FieldArgs;
 use super::path_args::PathArgs;
 use super::search_args::SearchArgs;
+use crate::engine::{Effort, Method};
 use crate::model::Preference;
-use crate::plan::PathKind;
-use crate::solve::{Effort, Method};
+use crate::planner::PathKind;
 use clap::Parser;
 
 /// A planner with options, in the grammar of the main job.

@@ -4,7 +4,7 @@ use super::axes::Frame;
 use super::color::{BARRED, INK, Rgb};
 use super::figure::{Item, Rect, Style, rectangle};
 use super::legend::{Key, Sign};
-use crate::certify::StuckBox;
+use crate::check::StuckBox;
 use crate::space::Configuration;
 
 const FREE: Rgb = Rgb(0xcf, 0xe8, 0xd5);
@@ -59,7 +59,7 @@ pub fn proof_key() -> Key {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certify::Cell;
+    use crate::check::Cell;
     use crate::model::Pair;
 
     #[test]

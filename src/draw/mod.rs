@@ -38,11 +38,11 @@ pub use task::task_png;
 pub use task::{TaskPicture, task_svg};
 pub use view::{Ending, View, page, shell};
 
-use crate::certify::StuckBox;
+use crate::check::StuckBox;
 use crate::cspace::CObstacle;
 use crate::geometry::Point;
 use crate::model::Scene;
-use crate::plan::Trace;
+use crate::planner::Trace;
 use crate::space::{Configuration, Measure, Metric, Path, Segment};
 use nalgebra::Vector3;
 

@@ -7,7 +7,7 @@ use super::copies::Window;
 use super::figure::{Anchor, Item, Label, Pen, Raster, Rect, Style, chain};
 use super::isolines::Samples;
 use super::legend::{Key, Sign};
-use crate::plan::Trace;
+use crate::planner::Trace;
 use crate::space::{Configuration, Topology};
 use std::borrow::Cow;
 

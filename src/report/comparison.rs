@@ -2,7 +2,7 @@
 
 use super::row::{Outcome, Row};
 use super::table::{Align, Column, Table, fixed, quoted};
-use crate::plan::{PathKind, Size};
+use crate::planner::{PathKind, Size};
 use crate::space::Configuration;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -209,7 +209,7 @@ fn quotient(a: f64, b: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::Note;
+    use crate::planner::Note;
     use crate::report::Family;
 
     fn example() -> Comparison {

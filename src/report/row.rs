@@ -1,7 +1,7 @@
 //! What one planner did on one problem.
 
-use crate::plan::{Note, PathKind, Size};
-use crate::solve::Method;
+use crate::engine::Method;
+use crate::planner::{Note, PathKind, Size};
 use std::fmt;
 
 /// How a run ended.

@@ -5,8 +5,8 @@ use super::row::{Family, Outcome};
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
-use crate::plan::PathKind;
-use crate::solve::percent;
+use crate::engine::percent;
+use crate::planner::PathKind;
 
 /// A side is said to be better if a fair coin would favour it as clearly as this seldom.
 const SIGNIFICANT: f64 = 0.05;

@@ -16,29 +16,18 @@ const MAY_IMPORT: [(&str, &[&str]); 15] = [
     ("input", &["geometry", "space", "model"]),
     ("cspace", &["geometry", "space", "model"]),
     ("field", &["geometry", "space", "cspace"]),
-    ("plan", &["geometry", "space", "cspace", "field"]),
-    ("certify", &["geometry", "space", "model"]),
-    ("solve", &["geometry", "space", "model", "cspace", "plan", "certify"]),
-    ("trajectory", &["geometry", "space", "model", "certify"]),
-    ("task", &["geometry", "space", "model", "certify", "solve", "trajectory"]),
-    ("draw", &["geometry", "space", "model", "cspace", "plan", "certify", "solve", "trajectory", "task"]),
-    ("report", &["geometry", "space", "model", "plan", "certify", "solve", "trajectory"]),
+    ("planner", &["geometry", "space", "cspace", "field"]),
+    ("check", &["geometry", "space", "model"]),
+    ("search", &["geometry", "space", "model", "check"]),
+    ("motion", &["geometry", "space", "model", "check"]),
+    ("engine", &["geometry", "space", "model", "cspace", "planner", "check", "search", "motion"]),
+    ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine"]),
+    ("report", &["geometry", "space", "model", "planner", "check", "motion", "engine"]),
     (
         "cli",
         &[
-            "geometry",
-            "space",
-            "model",
-            "input",
-            "cspace",
-            "field",
-            "plan",
-            "certify",
-            "solve",
-            "trajectory",
-            "task",
-            "draw",
-            "report",
+            "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
+            "draw", "report",
         ],
     ),
 ];
@@ -97,7 +86,7 @@ fn every_module_is_in_the_table() {
 #[test]
 fn the_reader_of_imports_sees_all_forms() {
     let text =
-        "use crate::model::{Arm, Pair};\nlet x = crate::plan::Run; // crate::draw\nuse crate::{cspace, field::A};";
-    let expected: Vec<&str> = vec!["cspace", "field", "model", "plan"];
+        "use crate::model::{Arm, Pair};\nlet x = crate::planner::Run; // crate::draw\nuse crate::{cspace, field::A};";
+    let expected: Vec<&str> = vec!["cspace", "field", "model", "planner"];
     assert_eq!(imports(text).into_iter().collect::<Vec<_>>(), expected);
 }

@@ -4,7 +4,7 @@
 use crate::common::mazes;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
-use cplan::plan::{Harmonic, Outcome, PathKind, Planner, Query};
+use cplan::planner::{Harmonic, Outcome, PathKind, Planner, Query};
 use cplan::space::{Axis, Topology};
 use num_rational::BigRational;
 use proptest::prelude::*;

@@ -2,7 +2,7 @@
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
-use cplan::plan::{Harmonic, Outcome, PathKind, Planner, Query, Run, Size, Trace, Wavefront};
+use cplan::planner::{Harmonic, Outcome, PathKind, Planner, Query, Run, Size, Trace, Wavefront};
 use cplan::space::{Axis, Configuration, GoalSet, Path, Topology};
 use proptest::prelude::*;
 

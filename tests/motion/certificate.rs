@@ -2,10 +2,10 @@
 
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
-use cplan::certify::{Passage, blend, certify, limits_kept, passage};
+use cplan::check::{Passage, blend, certify, limits_kept, passage};
 use cplan::model::Scene;
+use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
-use cplan::trajectory::{Limits, time};
 use proptest::prelude::*;
 
 /// Least distance at `n` places of each blend, by the definition of the curve.

@@ -3,10 +3,10 @@
 use crate::common::{placed, q};
 use crate::sampled::{as_vector, between, recording};
 use crate::{curve, empty, waypoints};
-use cplan::certify::{Limit, limits_kept};
+use cplan::check::{Limit, limits_kept};
 use cplan::model::{Joint, Scene};
+use cplan::motion::{Limits, SHORTEST_INTERVAL, Timed, TipSpeed, time};
 use cplan::space::Configuration;
-use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, TipSpeed, time};
 use proptest::prelude::*;
 
 fn room(velocity: [f64; 2], acceleration: [f64; 2], jerk: [Option<f64>; 2]) -> Scene {

@@ -13,7 +13,7 @@ mod sampled;
 mod trajectory;
 
 use common::{arm, joint, link, q, scene};
-use cplan::certify::{CertifiedCurve, CertifiedPath, blend, certify};
+use cplan::check::{CertifiedCurve, CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::space::{Axis, Path};

@@ -1,7 +1,7 @@
 //! Recordings, read back by the MCAP crate's reader and a decoder of CDR that shares no code with the writer: it knows
 //! where a value lies from the standard's rule alone. `tests/python/read_mcap.py` reads the same with other people's code.
 
-use cplan::trajectory::{JointMotion, mcap};
+use cplan::motion::{JointMotion, mcap};
 use mcap_reader::read::{LinearReader, MessageStream, Summary};
 use mcap_reader::records::Record;
 use proptest::prelude::*;

@@ -2,10 +2,10 @@
 
 use crate::common::q;
 use crate::{certified, curve, empty, limits, waypoints};
-use cplan::certify::CertifiedCurve;
+use cplan::check::CertifiedCurve;
 use cplan::model::Scene;
+use cplan::motion::{Limits, TipSpeed, time};
 use cplan::space::Configuration;
-use cplan::trajectory::{Limits, TipSpeed, time};
 use proptest::prelude::*;
 
 /// The path and its first and second derivative by a parameter, at steps of that parameter.

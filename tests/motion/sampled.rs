@@ -2,10 +2,10 @@
 
 use crate::common::q;
 use crate::{curve, empty, limits, waypoints};
-use cplan::certify::{CertifiedCurve, limits_kept};
+use cplan::check::{CertifiedCurve, limits_kept};
 use cplan::model::Joint;
+use cplan::motion::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
 use cplan::space::{Configuration, HAIR, Recording};
-use cplan::trajectory::{Limits, SHORTEST_INTERVAL, Timed, Trajectory, time};
 use proptest::prelude::*;
 
 /// Samples lie at whole nanoseconds, as near as that to where phases of the motion begin. Seconds.

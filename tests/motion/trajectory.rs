@@ -1,12 +1,12 @@
 //! From a certified path to files, and back through independent readers.
 
 use crate::common::{disc, placed};
-use cplan::certify::{CertifiedPath, blend, certify};
+use cplan::check::{CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::Heights;
 use cplan::model::{Arm, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::motion::{Format, Limits, Report, Status, Timed, Trajectory, time};
 use cplan::space::{Axis, Configuration, Path};
-use cplan::trajectory::{Format, Limits, Report, Status, Timed, Trajectory, time};
 use nalgebra::Vector3;
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
 
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
+use cplan::engine::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Problem;
-use cplan::solve::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path};
 use std::f64::consts::TAU;
 

@@ -1,12 +1,10 @@
 //! The judge against dense sampling and problems whose answers are known.
 
 use crate::common::{Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, rectangle, rr, scene, wall};
-use cplan::certify::{
-    CertifiedPath, Connectivity, Deviation, Occupancy, Posture, ProofDefect, Rejection, StuckBox, certify,
-    connectivity, explore, recheck,
-};
+use cplan::check::{CertifiedPath, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify, recheck};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene};
+use cplan::search::{Connectivity, Occupancy, connectivity, explore};
 use cplan::space::{Axis, Configuration, Path};
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -327,7 +325,7 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
         assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
         for i in 0..4_000_u32 {
             let at = inside(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
-            let holds = |c: &cplan::certify::Cell| (0..2).all(|k| c.lower[k] <= at[k] && at[k] <= c.upper[k]);
+            let holds = |c: &cplan::check::Cell| (0..2).all(|k| c.lower[k] <= at[k] && at[k] <= c.upper[k]);
             let clearance = scene.clearance(at);
             let mut held = false;
             for (_, occupancy) in boxes.iter().filter(|(cell, _)| holds(cell)) {

@@ -8,7 +8,7 @@ use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
 use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
-use cplan::plan::{
+use cplan::planner::{
     EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, PathKind, Planner, Query, Run, Size,
     Trace, Trapezoid, Visibility, Wavefront,
 };

@@ -1,11 +1,11 @@
 //! Whether there is a path at all, among thousands of pieces and where nothing can tell.
 
 use crate::common::{asked, placed, q, rr, wall};
-use cplan::certify::{certify, recheck};
+use cplan::check::{certify, recheck};
+use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, Obstacle, Problem, Shape, Workspace};
-use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use cplan::space::Axis;
 use std::f64::consts::TAU;
 use std::path::Path;

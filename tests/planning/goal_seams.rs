@@ -4,9 +4,9 @@
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, rr, scene, wall};
 use crate::random_worlds::world::Dice;
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Problem, Scene};
-use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::{Axis, Configuration, GoalSet, Path, Segment};
 use std::f64::consts::PI;
 

@@ -3,10 +3,11 @@
 use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
-use cplan::certify::{Connectivity, Motions, connectivity, least_length, recheck, slab_connectivity};
+use cplan::check::recheck;
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, Motion, Problem, Scene, inverse};
-use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

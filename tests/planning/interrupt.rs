@@ -1,12 +1,12 @@
 //! Plans that are stopped: nothing comes of them but that they were, and nothing is left of them.
 
-use cplan::certify::{connectivity, slab_connectivity};
+use cplan::engine::task::{Manner, plan};
+use cplan::engine::{Answer, Effort, Method, Verdict, solve};
 use cplan::input::{Overrides, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
 use cplan::model::Problem;
-use cplan::plan::Outcome;
-use cplan::solve::{Answer, Effort, Method, Verdict, solve};
-use cplan::task::{Manner, plan};
+use cplan::planner::Outcome;
+use cplan::search::{connectivity, slab_connectivity};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -91,7 +91,7 @@ fn proofs_and_tasks_stop_too() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));
     let task = load_scene(&robot, &world).unwrap().task(&Overrides::default()).unwrap().task;
-    let drive = cplan::trajectory::Drive::default();
+    let drive = cplan::motion::Drive::default();
     let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive };
     assert!(stopped(&mut || drop(plan(&task, &manner, &mut |_| ()))));
 }

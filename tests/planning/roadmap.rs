@@ -3,7 +3,7 @@
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
-use cplan::plan::{Outcome, PathKind, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
+use cplan::planner::{Outcome, PathKind, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

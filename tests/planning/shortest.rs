@@ -2,8 +2,8 @@
 
 use crate::common::random::{seeds, usual};
 use crate::random_worlds::world;
-use cplan::certify::certify;
-use cplan::solve::{Effort, Method, Verdict, bound, solve};
+use cplan::check::certify;
+use cplan::engine::{Effort, Method, Verdict, bound, solve};
 use cplan::space::Metric;
 
 /// Worlds of each kind of arm.

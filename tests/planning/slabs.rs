@@ -4,11 +4,12 @@ use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, rectangle, rr, scene,
     wall,
 };
-use cplan::certify::{Cell, Connectivity, certify, connectivity, recheck, slab_connectivity};
+use cplan::check::{Cell, certify, recheck};
+use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{Motion, Scene};
-use cplan::solve::{Effort, Method, Verdict, decide, solve};
+use cplan::search::{Connectivity, connectivity, slab_connectivity};
 use cplan::space::{Axis, Configuration, GoalSet};
 use proptest::prelude::*;
 use std::path::Path;

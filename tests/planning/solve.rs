@@ -1,7 +1,7 @@
 //! The benchmark problems whose answers are published, with every planner.
 
 use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene};
-use cplan::solve::{Answer, Effort, Method, Verdict, solve};
+use cplan::engine::{Answer, Effort, Method, Verdict, solve};
 use cplan::space::Axis;
 
 fn answer(which: Benchmark, method: Method) -> Answer {

@@ -1,14 +1,14 @@
 //! The choice of postures and order against trying all of them.
 
 use crate::common::{arm, disc, joint, link, obstacle, placed, q, rectangle};
+use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan, rest_to_rest};
+use cplan::engine::{Effort, Method};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, Motion, Object, Shape, Step, Task, Workspace, inverse, within,
 };
-use cplan::solve::{Effort, Method};
+use cplan::motion::Drive;
 use cplan::space::{Axis, Configuration};
-use cplan::task::{Manner, TaskAnswer, TaskVerdict, plan, rest_to_rest};
-use cplan::trajectory::Drive;
 use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 

@@ -4,14 +4,14 @@
 //! `# expect: infeasible`).
 
 use crate::random_tasks::replay;
-use cplan::certify::recheck;
+use cplan::check::recheck;
+use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan};
+use cplan::engine::{Effort, Method};
 use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
 use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
-use cplan::solve::{Effort, Method};
+use cplan::motion::Drive;
 use cplan::space::Configuration;
-use cplan::task::{Manner, TaskAnswer, TaskVerdict, plan};
-use cplan::trajectory::Drive;
 use std::path::{Path, PathBuf};
 
 fn manner() -> Manner {

@@ -1,11 +1,12 @@
 //! Workspaces without a path and their feasible twins: proofs pass the independent check as they stand in a file, and
 //! found paths a sweep by parry2d.
 
-use cplan::certify::{Connectivity, ProofBox, connectivity, read_proof, recheck};
+use cplan::check::{ProofBox, read_proof, recheck};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
 use cplan::model::{Problem, Scene};
-use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::search::{Connectivity, connectivity};
 use cplan::space::{Configuration, Path};
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;

@@ -4,13 +4,13 @@
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall};
 use crate::random_worlds::world::{self, Dice};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{
     Convex, ConvexDefect, Orientation, Point, Polygon, PolygonDefect, RingDefect, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
     Arm, Grip, Heights, Motion, Payload, Preference, Problem, ProblemDefect, Region, Scene, SceneDefect, Workspace,
 };
-use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::{Axis, GoalSet, Segment};
 use std::f64::consts::PI;
 

@@ -4,9 +4,9 @@
 //! `# expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not do: they
 //! may answer either as stated or unknown, never the contrary.
 
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, Overrides};
 use cplan::model::Problem;
-use cplan::solve::{Effort, Method, Verdict, solve};
 use std::path::{Path, PathBuf};
 
 struct Shipped {

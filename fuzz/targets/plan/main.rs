@@ -4,10 +4,10 @@
 
 mod draft;
 
-use cplan::certify::{CertifiedPath, certify};
+use cplan::check::{CertifiedPath, certify};
 use cplan::geometry::Convex;
 use cplan::model::{Motion, Problem, Scene};
-use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::space::{Configuration, Path};
 use draft::Draft;
 use libfuzzer_sys::fuzz_target;

@@ -3,7 +3,7 @@
 use crate::cli::args::{EffortArgs, QueryArgs};
 use crate::cli::motion::MotionArgs;
 use crate::cli::variant::Variant;
-use crate::solve::Method;
+use crate::engine::Method;
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 

@@ -1,7 +1,7 @@
 //! Files with results of a comparison.
 
 use crate::cli::failure::Failure;
-use crate::trajectory::check_writable;
+use crate::motion::check_writable;
 use std::path::{Path, PathBuf};
 
 /// A format of results.

@@ -4,9 +4,9 @@ use super::options::Options;
 use super::result::Found;
 use crate::cli::output::{self, PictureFormat};
 use crate::cli::{task, task_summary};
+use crate::engine::task::{Manner, TaskReport};
 use crate::input::{LoadedScene, Overrides};
-use crate::task::{Manner, TaskReport};
-use crate::trajectory::{Format, Report};
+use crate::motion::{Format, Report};
 use std::path::Path;
 
 /// What a file holds, by the extension of its name.
@@ -33,7 +33,7 @@ pub fn content(loaded: LoadedScene, options: &Options, format: &str) -> Result<V
         let mut loaded = loaded.task(&Overrides::default()).map_err(|error| in_words(&error))?;
         options.override_limits(&mut loaded.task.arm.joints);
         let manner = Manner { method: options.method(), effort, drive: options.drive() };
-        let answer = crate::task::plan(&loaded.task, &manner, &mut |_| ());
+        let answer = crate::engine::task::plan(&loaded.task, &manner, &mut |_| ());
         let mut report = TaskReport::new(options.method().name(), &loaded.task, &answer);
         report.assumed = loaded.robot.assumed.clone();
         let named = report.name_joints(&loaded.robot.joints, &loaded.task, &answer, false);

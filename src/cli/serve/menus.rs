@@ -5,9 +5,9 @@
 
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
+use crate::engine::{Effort, Method};
 use crate::field::Neighborhood;
-use crate::plan::GridSearch;
-use crate::solve::{Effort, Method};
+use crate::planner::GridSearch;
 use clap::{Arg, Command, ValueEnum};
 
 /// An option with a menu of its own. All others can be typed.

@@ -5,10 +5,10 @@ use crate::cli::field_args::FieldArgs;
 use crate::cli::motion::MotionArgs;
 use crate::cli::path_args::PathArgs;
 use crate::cli::search_args::SearchArgs;
+use crate::engine::{Effort, Method};
 use crate::model::{Joint, Scene};
-use crate::plan::FieldPlanner;
-use crate::solve::{Effort, Method};
-use crate::trajectory::Drive;
+use crate::motion::Drive;
+use crate::planner::FieldPlanner;
 use clap::{Command, CommandFactory, Parser};
 
 /// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.

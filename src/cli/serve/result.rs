@@ -3,19 +3,19 @@
 use super::contours::Contours;
 use super::options::Options;
 use super::protocol::{AnswerReply, Figures};
-use crate::certify::CertifiedCurve;
+use crate::check::CertifiedCurve;
 use crate::cli::output;
 use crate::cli::plan;
 use crate::cli::planned::{self, Planned};
 use crate::cli::{task, task_summary};
 use crate::cspace::CObstacle;
 use crate::draw::{Ending, Picture, View};
+use crate::engine::task::{Manner, TaskReport, TaskVerdict};
+use crate::engine::{Answer, Effort, Method, Verdict, solve};
 use crate::input::LoadedTask;
 use crate::model::{Problem, Scene};
-use crate::solve::{Answer, Effort, Method, Verdict, solve};
+use crate::motion::Report;
 use crate::space::{Configuration, Segment};
-use crate::task::{Manner, TaskReport, TaskVerdict};
-use crate::trajectory::Report;
 use serde_json::value::RawValue;
 
 /// A scene with its configuration space, and no path: why not, in a word or two.
@@ -154,7 +154,7 @@ impl<'a> Found<'a> {
 /// All that can be known of a task.
 pub fn of_task(loaded: &LoadedTask, options: &Options, effort: Effort) -> AnswerReply {
     let manner = Manner { method: options.method(), effort, drive: options.drive() };
-    let answer = crate::task::plan(&loaded.task, &manner, &mut |_| ());
+    let answer = crate::engine::task::plan(&loaded.task, &manner, &mut |_| ());
     let report = TaskReport::new(options.method().name(), &loaded.task, &answer);
     let (verdict, certified, ending) = match answer.verdict {
         TaskVerdict::Done => ("found", true, Ending::Found),

@@ -1,7 +1,7 @@
 //! What `verify` found, as data.
 
 use super::task::StepFinding;
-use crate::certify::{Encounter, Excess, Limit, Moment, Passage};
+use crate::check::{Encounter, Excess, Limit, Moment, Passage};
 use crate::model::{Claims, Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;

@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::output::{self, Sink};
 use super::summary::value;
 use super::{DONE, REFUTED, UNKNOWN};
-use crate::certify::{ENDS_WITHIN, claims_kept, ends_kept, limits_kept, passage, replay};
+use crate::check::{ENDS_WITHIN, claims_kept, ends_kept, limits_kept, passage, replay};
 use crate::draw::Picture;
 use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 use crate::model::{Claims, RecordedStep, Scene};

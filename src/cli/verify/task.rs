@@ -1,7 +1,7 @@
 //! What `verify` found of a task, step by step.
 
 use super::findings::{Findings, LimitFinding, Verdict, WayFinding, limits, verdict};
-use crate::certify::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
+use crate::check::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
 use crate::model::{Claims, RecordedStep, Scene, Task};
 use crate::space::Recording;
 use serde::Serialize;

@@ -2,7 +2,7 @@
 
 use super::findings::{EncounterFinding, Findings, LimitFinding, MomentFinding, Verdict, WayFinding};
 use super::task::StepFinding;
-use crate::certify::Limit;
+use crate::check::Limit;
 use crate::cli::step_lines::{StepLine, step_lines};
 use crate::cli::summary::{Line, configuration, counted, laid_out, value};
 use crate::model::Arm;

@@ -15,8 +15,8 @@ pub(super) use steps::words;
 use super::{DrawError, png_writer};
 use super::{color, svg_writer};
 use crate::cspace::CObstacle;
+use crate::engine::task::{Leg, TaskAnswer};
 use crate::model::{Scene, Task};
-use crate::task::{Leg, TaskAnswer};
 
 /// What the picture of a task shows. Objects count as obstacles, numbered after those that stay: they have the same
 /// colour wherever they are, and in every panel.

@@ -8,9 +8,9 @@ use crate::draw::cspace::{blocked, goal_marker, start_marker};
 use crate::draw::figure::{Anchor, Item, Rect, Style, shortened};
 use crate::draw::shapes::DASH;
 use crate::draw::{boxes, page, preferences};
+use crate::engine::task::{Impossible, Leg};
 use crate::model::{Scene, Task};
 use crate::space::Configuration;
-use crate::task::{Impossible, Leg};
 
 /// A world with a payload, and the motions in it.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Which motions share a panel.
 
+use crate::engine::task::Leg;
 use crate::space::{Configuration, Topology};
-use crate::task::Leg;
 use std::rc::Rc;
 
 /// Configurations nearer than this, radians and metres, look the same; rounding of those that are.

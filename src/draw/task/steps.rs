@@ -5,7 +5,7 @@ use super::states::rounds;
 use crate::draw::color::{BARRED, GREY, INK, Rgb};
 use crate::draw::figure::{Anchor, Item, Rect, shortened, text_width};
 use crate::draw::page::label;
-use crate::task::TaskVerdict;
+use crate::engine::task::TaskVerdict;
 
 /// Height of a row, pixels.
 const ROW: f64 = 19.0;

@@ -7,9 +7,9 @@ use crate::draw::figure::{Item, Rect, Spot, Step, Style};
 use crate::draw::posture::{self, GOAL, START, UNREACHED};
 use crate::draw::workspace::{framed, ground, tip_trace};
 use crate::draw::{extent, page, preferences, shapes};
+use crate::engine::task::{Event, Leg};
 use crate::geometry::Pose;
 use crate::model::{Obstacle, Scene, Task, Workspace};
-use crate::task::{Event, Leg};
 
 /// Poses nearer than this, metres and radians, look the same; rounding of those that are.
 const SAME: f64 = 1e-6;

@@ -21,8 +21,8 @@ mod world;
 pub use html::{page, shell};
 
 use super::{Picture, Posture, TaskPicture, extent};
+use crate::motion::Trajectory;
 use crate::space::Segment;
-use crate::trajectory::Trajectory;
 use arm::ArmView;
 use motion::{Clock, MotionView, PathView};
 use round::Grain;

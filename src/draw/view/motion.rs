@@ -2,8 +2,8 @@
 
 use super::round::Grain;
 use crate::draw::page::path_pen;
+use crate::motion::Trajectory;
 use crate::space::{Configuration, Path};
-use crate::trajectory::Trajectory;
 use serde::Serialize;
 
 /// A path in a world.

@@ -7,9 +7,9 @@ use super::world::WorldView;
 use super::{Ending, View};
 use crate::draw::task::{describe, motion_pen, words};
 use crate::draw::{TaskPicture, extent};
+use crate::engine::task::{Event, Impossible, Leg, Sequence};
 use crate::geometry::Pose;
 use crate::model::{Scene, Task};
-use crate::task::{Event, Impossible, Leg, Sequence};
 use std::rc::Rc;
 
 /// See [`View::of_task`].

@@ -3,7 +3,7 @@
 use super::flow;
 use super::round::Grain;
 use crate::draw::trace::{Slope, Waves};
-use crate::plan::Trace;
+use crate::planner::Trace;
 use crate::space::{Configuration, Topology};
 use serde::Serialize;
 

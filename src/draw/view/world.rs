@@ -3,12 +3,12 @@
 use super::arm::ShapeView;
 use super::round::Grain;
 use super::trace::TraceView;
-use crate::certify::StuckBox;
+use crate::check::StuckBox;
 use crate::cspace::CObstacle;
 use crate::draw::color;
 use crate::geometry::Convex;
 use crate::model::{Grip, Obstacle, Pair, Region, Scene, Shape};
-use crate::plan::Trace;
+use crate::planner::Trace;
 use crate::space::{Configuration, Topology};
 use serde::Serialize;
 

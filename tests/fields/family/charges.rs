@@ -5,7 +5,7 @@ use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
 use cplan::model::Workspace;
-use cplan::plan::{FieldChoice, FieldPlanner, Outcome, PathKind, Planner, Query};
+use cplan::planner::{FieldChoice, FieldPlanner, Outcome, PathKind, Planner, Query};
 use cplan::space::{Axis, Configuration, Topology};
 use proptest::prelude::*;
 

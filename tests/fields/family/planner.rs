@@ -5,7 +5,7 @@ use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
-use cplan::plan::{
+use cplan::planner::{
     EquationChoice, FieldChoice, FieldPlanner, Note, Outcome, PathKind, Planner, Query, Run, Size, Trace, Wavefront,
 };
 use cplan::space::{Axis, Configuration, Path, Topology};

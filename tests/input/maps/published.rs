@@ -2,9 +2,9 @@
 
 use super::robot;
 use crate::common::reference::published;
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::Problem;
-use cplan::solve::{Effort, Method, Verdict, solve};
 
 /// The problem of a world that names a map and a preference file by their whole paths.
 fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> Problem {

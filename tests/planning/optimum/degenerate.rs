@@ -2,9 +2,9 @@
 
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{asked, disc, q, rectangle, rr, scene};
-use cplan::certify::{Motions, least_length};
 use cplan::geometry::{Convex, Point};
 use cplan::model::Problem;
+use cplan::search::{Motions, least_length};
 use cplan::space::{Axis, Configuration, Metric};
 use std::f64::consts::{PI, TAU};
 

@@ -8,8 +8,8 @@ mod polygons;
 mod shipped;
 mod worlds;
 
-use cplan::certify::{Motions, least_length};
 use cplan::model::Problem;
+use cplan::search::{Motions, least_length};
 use cplan::space::Metric;
 
 /// What rounding may add to a length, as a share of it.

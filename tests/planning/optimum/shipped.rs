@@ -2,7 +2,7 @@
 
 use super::{ROUNDING, bound};
 use crate::common::shipped_feasible;
-use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::space::Metric;
 
 /// The gap asked for, and to the best known path, which is itself within a thousandth of the optimum.

@@ -3,9 +3,9 @@
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
 use crate::random_worlds::world;
+use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::Problem;
-use cplan::solve::{Effort, Method, Verdict, decide, solve};
 use cplan::space::{GoalSet, Metric, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;

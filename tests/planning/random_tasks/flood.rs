@@ -5,8 +5,8 @@ use super::replay::World;
 use super::task::{self, Dice};
 use crate::common::asked;
 use crate::common::random::{seeds, times};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::model::{Grip, Holding, Payload, Scene, Task};
-use cplan::solve::{Effort, Method, Verdict, solve};
 use cplan::space::Configuration;
 use nalgebra::Point2;
 

@@ -3,11 +3,11 @@
 
 use super::{manner, task};
 use crate::common::random::{seeds, times};
-use cplan::certify::{Passage, ReplayedStep};
+use cplan::check::{Passage, ReplayedStep};
+use cplan::engine::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
 use cplan::model::{RecordedStep, RecordedTurn, Task};
+use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
-use cplan::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
-use cplan::trajectory::Drive;
 
 /// What a result file says.
 fn record(task: &Task, answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
@@ -42,7 +42,7 @@ fn what_is_planned_is_judged_free() {
         }
         done += 1;
         let (recording, steps) = record(&task, &answer);
-        let judge = cplan::certify::replay(&task, &recording, &steps);
+        let judge = cplan::check::replay(&task, &recording, &steps);
         assert_eq!(judge.departure(), None, "seed {seed}");
         let mut clearance = f64::INFINITY;
         for (step, leg) in judge.zip(&answer.legs) {
@@ -57,7 +57,7 @@ fn what_is_planned_is_judged_free() {
         assert!(clearance > 0.0, "seed {seed}");
         let mut larger = task.clone();
         larger.objects.iter_mut().flat_map(|o| &mut o.pieces).for_each(|piece| *piece = piece.grown(0.4));
-        let is_refuted = !cplan::certify::replay(&larger, &recording, &steps).all(|step| is_free(&step));
+        let is_refuted = !cplan::check::replay(&larger, &recording, &steps).all(|step| is_free(&step));
         refuted += u64::from(is_refuted);
     }
     println!("{done} of {count} tasks, {turns} turns; {refuted} refuted with larger objects");

@@ -10,9 +10,9 @@ pub mod replay;
 pub mod task;
 
 use crate::common::random::seeds;
-use cplan::solve::{Effort, Method};
-use cplan::task::{Manner, TaskVerdict, plan};
-use cplan::trajectory::Drive;
+use cplan::engine::task::{Manner, TaskVerdict, plan};
+use cplan::engine::{Effort, Method};
+use cplan::motion::Drive;
 
 /// Planned, proven impossible, unknown.
 #[derive(Debug, Default, PartialEq)]

@@ -1,7 +1,7 @@
 //! What rests on something presses into it no deeper than is promised, also with its corners.
 
 use super::{manner, replay, task};
-use cplan::task::{TaskVerdict, plan};
+use cplan::engine::task::{TaskVerdict, plan};
 
 /// A clearance of 1 cm, and a pentagon that is picked beside the disc that supports it: made smaller by the clearance and grown
 /// again its corners were rounded off, and so one of them was carried through the disc's rim, 0.46 mm deep.

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test uses some of it")]
 
 use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
+use cplan::engine::task::TaskAnswer;
 use cplan::model::{Action, Goal, Holding, Item, Joint, Motion, Step, Task};
-use cplan::task::TaskAnswer;
 
 /// Positions agree to this, metres: inverse kinematics promises a few nanometres.
 const NEAR: f64 = 1e-7;
@@ -156,7 +156,7 @@ fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>,
 }
 
 /// Position and velocity between samples, as the documentation of trajectories says.
-fn state(t: &cplan::trajectory::Trajectory, time: f64) -> (V, V) {
+fn state(t: &cplan::motion::Trajectory, time: f64) -> (V, V) {
     // Nothing moves where there is but one sample.
     if let [at] = &t.position[..] {
         return ([at[0], at[1]], [0.0; 2]);

@@ -19,8 +19,8 @@ pub mod solid;
 pub mod world;
 
 use crate::common::random::seeds;
+use cplan::engine::{Answer, Effort, Method, Verdict, solve};
 use cplan::model::Problem;
-use cplan::solve::{Answer, Effort, Method, Verdict, solve};
 use flood::{Truth, connected};
 use oracle::Oracle;
 use std::sync::Mutex;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::common::random;
-use cplan::certify::{Cell, ProofDefect, StuckBox, recheck};
+use cplan::check::{Cell, ProofDefect, StuckBox, recheck};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::Pair;
 use cplan::space::Configuration;

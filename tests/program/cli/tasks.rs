@@ -1,7 +1,7 @@
 //! Worlds with steps.
 
 use super::{Done, Place, shipped};
-use cplan::certify::limits_kept;
+use cplan::check::limits_kept;
 use cplan::input::load_scene;
 use cplan::model::Arm;
 use cplan::space::{Configuration, Recording};

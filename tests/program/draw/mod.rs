@@ -10,7 +10,7 @@ use crate::common::placed;
 use cplan::draw::{Ending, Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
-use cplan::plan::Trace;
+use cplan::planner::Trace;
 use cplan::space::{Axis, Configuration, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;

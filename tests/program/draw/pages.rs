@@ -1,14 +1,14 @@
 //! Pages: self-contained, deterministic, finite, and the same results as the pictures.
 
 use super::{at, bare, three, torus};
-use cplan::certify::{Cell, StuckBox, certify};
+use cplan::check::{Cell, StuckBox, certify};
 use cplan::cspace::c_obstacles;
 use cplan::draw::{AxesFrame, Ending, Picture, Posture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Pair;
-use cplan::plan::Trace;
+use cplan::motion::Drive;
+use cplan::planner::Trace;
 use cplan::space::Path;
-use cplan::trajectory::Drive;
 use nalgebra::Vector3;
 use serde_json::Value;
 

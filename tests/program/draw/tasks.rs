@@ -5,14 +5,14 @@ use super::{inspected, pages, words};
 use crate::common::{convex, disc};
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Ending, Picture, TaskPicture, View, svg, task_svg};
+use cplan::engine::task::{Event, Manner, TaskAnswer, TaskVerdict, plan};
+use cplan::engine::{Effort, Method};
 use cplan::geometry::{Point, Pose};
 use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
 };
-use cplan::solve::{Effort, Method};
+use cplan::motion::Drive;
 use cplan::space::Configuration;
-use cplan::task::{Event, Manner, TaskAnswer, TaskVerdict, plan};
-use cplan::trajectory::Drive;
 use std::collections::BTreeSet;
 
 const START: [f64; 2] = [0.2, 2.2];

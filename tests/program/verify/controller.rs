@@ -1,7 +1,7 @@
 //! What a ROS 2 controller makes of a message is what is judged: held to the controller's own formulas.
 
 use crate::common::rr;
-use cplan::certify::{Limit, limits_kept};
+use cplan::check::{Limit, limits_kept};
 use cplan::input::{load_recording, load_scene};
 use cplan::model::Joint;
 use cplan::space::{Axis, Configuration, Derivative, Interpolation, Recording};

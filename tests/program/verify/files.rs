@@ -1,10 +1,10 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
-use cplan::certify::{Excess, Limit, Passage, blend, limits_kept, passage};
+use cplan::check::{Excess, Limit, Passage, blend, limits_kept, passage};
+use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
-use cplan::solve::{Effort, Method, Verdict, solve};
+use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
 use cplan::space::{Configuration, Path, Recording};
-use cplan::trajectory::{Format, Limits, Report, Timed, Trajectory, time};
 use std::path::PathBuf;
 
 fn root(file: &str) -> PathBuf {

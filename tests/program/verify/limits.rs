@@ -1,7 +1,7 @@
 //! Limits of recorded motions, between the samples too.
 
 use crate::common::{q, rr};
-use cplan::certify::{Excess, Limit, limits_kept};
+use cplan::check::{Excess, Limit, limits_kept};
 use cplan::model::Joint;
 use cplan::space::{Axis, Configuration, Derivative, Recording};
 use proptest::prelude::*;

@@ -1,7 +1,7 @@
 //! The continuous check against dense sampling and contacts known in closed form.
 
 use crate::common::{all_kinds, clutter, disc, q, rectangle, rr, scene};
-use cplan::certify::{Passage, passage};
+use cplan::check::{Passage, passage};
 use cplan::geometry::Point;
 use cplan::model::Scene;
 use cplan::space::{Axis, Configuration, Recording};

@@ -2,7 +2,7 @@
 
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
-use cplan::solve::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use serde_json::{Value, json};
 
 /// Boxes that a search may look at.

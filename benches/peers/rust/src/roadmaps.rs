@@ -9,7 +9,7 @@ use crate::Result;
 use crate::rounds::Rounds;
 use cplan::cspace::Regions;
 use cplan::geometry::Point;
-use cplan::plan::{Outcome, Planner, Query, Visibility};
+use cplan::planner::{Outcome, Planner, Query, Visibility};
 use cplan::space::Configuration;
 use glam::{Vec2, vec2};
 use polyanya::{Mesh, Triangulation};

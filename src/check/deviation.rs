@@ -1,0 +1,253 @@
+//! How far link and obstacle can come together while the configuration deviates from a given one.
+//!
+//! Let `q` deviate from `m` by `d`, let `n` be the direction of least distance at `m`, and let `x(d)` be a corner of
+//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2` with `K` a bound on the second
+//! derivative along the way. The link stays on its side of the obstacle's supporting line as long as this is below it
+//! for every corner, which bounds the distance from below: to first order only motion *towards* the obstacle counts.
+//! The same holds in the link's frame, where the obstacle's corners move and the link rests; whichever is the better
+//! bound counts. Both are far better than "no point moves farther than" (Schwarzer, Saha, Latombe 2005) when a link
+//! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
+
+use crate::geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, separation};
+use crate::model::{Arm, Motion, Pair, Scene};
+use crate::space::Configuration;
+
+/// Rounding errors of one evaluation stay far below this share of the lengths involved (a few dozen operations at
+/// 1.1e-16 each); bounds are weakened by it, so that they hold in floating point too.
+const ROUNDING: f64 = 1e-13;
+
+/// The same where shapes are to be stuck: more than the independent check demands ([`super::recheck`], 1e-12), so that it
+/// accepts what is claimed.
+pub(crate) const STUCK_ROUNDING: f64 = 2e-12;
+
+/// A set of deviations from a configuration, symmetric about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Deviation {
+    /// Along a straight motion: `t d` for `-1 <= t <= 1`.
+    Along(Configuration),
+    /// A box: `|d_1| <= h_1` and `|d_2| <= h_2`.
+    Box([f64; 2]),
+    /// The sum of both: a motion that is straight up to a box about each of its points, as a curve about its chord is.
+    Tube(Configuration, [f64; 2]),
+}
+
+impl Deviation {
+    /// The greatest `|g_1 d_1 + g_2 d_2|`.
+    fn linear(self, g: [f64; 2]) -> f64 {
+        match self {
+            Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
+            Deviation::Box(h) => g[0].abs() * h[0] + g[1].abs() * h[1],
+            Deviation::Tube(d, h) => Deviation::Along(d).linear(g) + Deviation::Box(h).linear(g),
+        }
+    }
+
+    /// The greatest `|d_1|` and `|d_2|`.
+    fn each(self) -> [f64; 2] {
+        match self {
+            Deviation::Along(d) => [d[0].abs(), d[1].abs()],
+            Deviation::Box(h) => h,
+            Deviation::Tube(d, h) => [d[0].abs() + h[0], d[1].abs() + h[1]],
+        }
+    }
+}
+
+/// The arm at one configuration, ready to judge deviations from it.
+#[derive(Debug, Clone)]
+pub struct Posture<'a> {
+    scene: &'a Scene,
+    q: Configuration,
+    poses: [Pose; 2],
+    elbow: Point,
+}
+
+/// A pair at a posture: its distance there, and the least it can come to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounded {
+    /// Signed distance at the posture.
+    pub here: Separation,
+    /// Lower bound on the signed distance over the deviation, metres.
+    pub least: f64,
+}
+
+impl<'a> Posture<'a> {
+    /// The arm of `scene` at `q`.
+    #[must_use]
+    pub fn new(scene: &'a Scene, q: Configuration) -> Self {
+        let poses = scene.arm().poses(q);
+        Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm().offset) }
+    }
+
+    /// Distance of a pair here and a lower bound on it over `deviation`.
+    #[must_use]
+    pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {
+        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
+        let part = local.at(&self.poses[pair.link]);
+        let here = separation(&part, piece);
+        let anywhere = here.distance - self.farthest_motion(pair, deviation);
+        let radii = part.radius() + piece.radius();
+        let least = self.least_in_plane(pair, &part, local, piece, here.direction, deviation).max(self.least_in_link(
+            pair,
+            &part,
+            piece,
+            here.direction,
+            deviation,
+        )) - radii;
+        let scale = self.scale(&part, piece);
+        Bounded { here, least: least.max(anywhere) - ROUNDING * scale }
+    }
+
+    /// A lower bound on the distance of a pair over `deviation` from discs around the shapes: far below
+    /// [`Posture::bound`]'s where shapes are near each other, and a small part of its cost.
+    pub(crate) fn apart(&self, pair: Pair, deviation: Deviation) -> f64 {
+        let (fixed, around) = disc(self.scene.piece(pair));
+        let (at, extent) = self.place(pair, deviation);
+        let between = (at - fixed).norm();
+        let scale = self.scene.arm().base.coords.norm() + at.coords.norm() + fixed.coords.norm() + extent + around;
+        between - extent - around - ROUNDING * scale
+    }
+
+    /// A disc that holds the part of a pair over `deviation`.
+    pub(crate) fn place(&self, pair: Pair, deviation: Deviation) -> (Point, f64) {
+        let (center, extent) = disc(self.scene.part(pair));
+        (self.poses[pair.link] * center, extent + self.farthest_motion(pair, deviation))
+    }
+
+    /// An upper bound on the signed distance of a pair over `deviation`: negative means stuck everywhere in it.
+    ///
+    /// Were the shapes separate at some deviation, a separating line there, moved back by the farthest motion of a
+    /// point, would bound the depth here by that motion.
+    #[must_use]
+    pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
+        let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
+        let part = local.at(&self.poses[pair.link]);
+        let room = separation(&part, piece).distance + self.farthest_motion(pair, deviation);
+        room + STUCK_ROUNDING * self.scale(&part, piece)
+    }
+
+    /// Magnitude of the coordinates that enter a distance.
+    pub(crate) fn scale(&self, part: &Convex, piece: &Convex) -> f64 {
+        let base = self.scene.arm().base;
+        base.coords.norm() + part.reach_from(base) + piece.reach_from(base)
+    }
+
+    /// Bound with the separating direction fixed in the plane: the link's corners move.
+    fn least_in_plane(
+        &self,
+        pair: Pair,
+        part: &Convex,
+        local: &Convex,
+        piece: &Convex,
+        n: Vector,
+        deviation: Deviation,
+    ) -> f64 {
+        let line = piece.core().iter().map(|p| n.dot(&p.coords)).fold(f64::INFINITY, f64::min);
+        let mut least = f64::INFINITY;
+        for (x, a) in part.core().iter().zip(local.core()) {
+            let gap = line - n.dot(&x.coords);
+            let toward = deviation.linear(self.rates(pair.link, *x, n));
+            least = least.min(gap - toward - self.curvature_in_plane(pair.link, *a, deviation) / 2.0);
+        }
+        least
+    }
+
+    /// Bound with the separating direction fixed in the link: the obstacle's corners move, with the opposite of the
+    /// velocity that a point of the link has in their place.
+    fn least_in_link(&self, pair: Pair, part: &Convex, piece: &Convex, n: Vector, deviation: Deviation) -> f64 {
+        let line = part.core().iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+        let mut least = f64::INFINITY;
+        for p in piece.core() {
+            let gap = n.dot(&p.coords) - line;
+            let toward = deviation.linear(self.rates(pair.link, *p, n));
+            least = least.min(gap - toward - self.curvature_in_link(pair.link, *p, deviation) / 2.0);
+        }
+        least
+    }
+
+    /// Rate along `n`, for each joint, of the point of link `link` that is at `x` now.
+    fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
+        let arm = self.scene.arm();
+        let first = match arm.joints[0].motion {
+            Motion::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
+            Motion::Prismatic { direction } => n.dot(&direction),
+        };
+        let second = match arm.joints[1].motion {
+            _ if link == 0 => 0.0,
+            Motion::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbow)),
+            Motion::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
+        };
+        [first, second]
+    }
+
+    /// Bound on `|x''|` of the link's point `a` (link frame) in the plane, per squared parameter of the deviation.
+    pub(crate) fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
+        use Motion::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let [d1, d2] = deviation.each();
+        let turn = turn_of_link_2(arm, deviation);
+        match (link, arm.joints[0].motion, arm.joints[1].motion) {
+            (0, Revolute { .. }, _) => a.coords.norm() * d1 * d1,
+            (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 * d1 + a.coords.norm() * turn * turn,
+            (_, Revolute { .. }, Prismatic { direction }) => {
+                let radius = (arm.offset + direction * self.q[1] + a.coords).norm() + d2;
+                radius * d1 * d1 + 2.0 * d1 * d2
+            }
+            (1, Prismatic { .. }, Revolute { .. }) => a.coords.norm() * d2 * d2,
+            _ => 0.0,
+        }
+    }
+
+    /// Bound on `|y''|` of the plane's point `p` seen from the link, per squared parameter of the deviation.
+    pub(crate) fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
+        use Motion::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let [d1, d2] = deviation.each();
+        let turn = turn_of_link_2(arm, deviation);
+        let from_base = (p - arm.base).norm();
+        match (link, arm.joints[0].motion, arm.joints[1].motion) {
+            (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => from_base * d1 * d1,
+            // y = R(-phi) (p - base) - R(-q2) offset
+            (_, Revolute { .. }, Revolute { .. }) => from_base * turn * turn + arm.offset.norm() * d2 * d2,
+            (1, Prismatic { .. }, Revolute { .. }) => ((p - self.elbow).norm() + d1) * d2 * d2 + 2.0 * d1 * d2,
+            _ => 0.0,
+        }
+    }
+
+    /// Bound on how far any point of the pair's link part moves.
+    pub(crate) fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
+        use Motion::{Prismatic, Revolute};
+        let arm = self.scene.arm();
+        let reach = self.scene.part(pair).reach_from(Point::origin());
+        let [d1, d2] = deviation.each();
+        match (pair.link, arm.joints[0].motion, arm.joints[1].motion) {
+            (0, Revolute { .. }, _) => reach * d1,
+            (0, Prismatic { .. }, _) => d1,
+            (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),
+            (_, Revolute { .. }, Prismatic { direction }) => {
+                ((arm.offset + direction * self.q[1]).norm() + d2 + reach) * d1 + d2
+            }
+            (_, Prismatic { .. }, Revolute { .. }) => d1 + reach * d2,
+            (_, Prismatic { direction: one }, Prismatic { direction: two }) => match deviation {
+                Deviation::Along(d) => (one * d[0] + two * d[1]).norm(),
+                Deviation::Box(_) => d1 + d2,
+                Deviation::Tube(d, h) => (one * d[0] + two * d[1]).norm() + h[0] + h[1],
+            },
+        }
+    }
+}
+
+/// A disc around a shape.
+fn disc(shape: &Convex) -> (Point, f64) {
+    let core = shape.core();
+    let center = Point::from(core.iter().map(|p| p.coords).sum::<Vector>() / core.len() as f64);
+    let extent2 = core.iter().map(|p| (p - center).norm_squared()).fold(0.0, f64::max);
+    (center, extent2.sqrt() + shape.radius())
+}
+
+/// Greatest turn of link 2 against the plane when both joints turn.
+fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
+    let sign = |k: usize| match arm.joints[k].motion {
+        Motion::Revolute { sign } => sign,
+        Motion::Prismatic { .. } => 0.0,
+    };
+    deviation.linear([sign(0), sign(1)])
+}

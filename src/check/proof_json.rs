@@ -1,0 +1,90 @@
+//! Proofs of disconnection in result files.
+
+use super::cell::Cell;
+use super::disconnection::StuckBox;
+use crate::model::Pair;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A stuck box as it stands in a file: all configurations from `lower` to `upper`, and which shapes are too near in all
+/// of them. Numbers count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProofBox {
+    /// Least value of each joint, radians or metres.
+    pub lower: [f64; 2],
+    /// Greatest value of each joint.
+    pub upper: [f64; 2],
+    /// 0 for what the first joint carries, 1 for the second.
+    pub link: usize,
+    /// Number of the convex part of the link.
+    pub part: usize,
+    /// Number of the obstacle in the world file.
+    pub obstacle: usize,
+    /// Number of the convex piece of the obstacle.
+    pub piece: usize,
+}
+
+impl From<&StuckBox> for ProofBox {
+    fn from(StuckBox { cell, pair }: &StuckBox) -> Self {
+        let Pair { link, part, obstacle, piece } = *pair;
+        Self { lower: cell.lower, upper: cell.upper, link, part, obstacle, piece }
+    }
+}
+
+impl From<ProofBox> for StuckBox {
+    fn from(claim: ProofBox) -> Self {
+        let ProofBox { lower, upper, link, part, obstacle, piece } = claim;
+        Self { cell: Cell { lower, upper }, pair: Pair { link, part, obstacle, piece } }
+    }
+}
+
+/// Why a text holds no proof.
+#[derive(Debug, Error)]
+pub enum ProofFormatError {
+    /// Not JSON, or not the fields of a proof.
+    #[error("not a result with a proof: {0}")]
+    Malformed(#[from] serde_json::Error),
+    /// A result without a proof.
+    #[error("the result holds no proof: its \"status\" is not \"infeasible\"")]
+    Missing,
+}
+
+/// The claim in a result file: its field `proof`. Whether it is true is for [`super::recheck`] to say.
+///
+/// # Errors
+/// [`ProofFormatError`].
+pub fn read_proof(json: &str) -> Result<Vec<StuckBox>, ProofFormatError> {
+    #[derive(Deserialize)]
+    struct Claim {
+        proof: Option<Vec<ProofBox>>,
+    }
+    let claim: Claim = serde_json::from_str(json)?;
+    let boxes = claim.proof.ok_or(ProofFormatError::Missing)?;
+    Ok(boxes.into_iter().map(StuckBox::from).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read_back_bit_by_bit() {
+        // Values whose shortest decimal form a careless reader gets wrong by one unit in the last place.
+        let values = [0.1 + 0.2, -2.9, 1.0 / 3.0, 5e-324, 123_456.789_012_345_67, -std::f64::consts::PI];
+        for &lower in &values {
+            let pair = Pair { link: 1, part: 0, obstacle: 3, piece: 2 };
+            let stuck = StuckBox { cell: Cell { lower: [lower, lower / 7.0], upper: [lower / 3.0, 2.5] }, pair };
+            let text = serde_json::to_string(&[ProofBox::from(&stuck)]).unwrap();
+            assert_eq!(read_proof(&format!(r#"{{"status": "infeasible", "proof": {text}}}"#)).unwrap(), vec![stuck]);
+        }
+    }
+
+    #[test]
+    fn what_is_no_proof_is_refused() {
+        assert!(matches!(read_proof(r#"{"status": "found"}"#), Err(ProofFormatError::Missing)));
+        for text in ["", "[]", r#"{"proof": 3}"#, r#"{"proof": [{"lower": [0, 1]}]}"#] {
+            assert!(matches!(read_proof(text), Err(ProofFormatError::Malformed(_))), "{text}");
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! How far a path is from the optimum, at the most.
+
+use crate::model::Problem;
+use crate::search::{Motions, least_length};
+use crate::space::{Metric, Path};
+
+/// A path's length and a proven lower bound on that of every other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bound {
+    /// How lengths are measured.
+    pub metric: Metric,
+    /// No motion from the start to any of the goals, on whichever turns, is shorter.
+    pub lower: f64,
+    /// Length of the path.
+    pub upper: f64,
+}
+
+impl Bound {
+    /// By which share the path is longer than the lower bound: 0.001 for a thousandth. Infinite where nothing is known.
+    #[must_use]
+    pub fn gap(&self) -> f64 {
+        if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
+    }
+}
+
+/// A share in words: `0.031 %`.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent == 0.0 || percent >= 0.01 { format!("{percent:.2} %") } else { format!("{percent:.1e} %") }
+}
+
+/// A bound for `path`; see [`least_length`]. It is made better until the gap is known to be below `gap` (0.001 for a
+/// thousandth), or cannot be. Milliseconds, as a rule.
+#[must_use]
+pub fn bound(problem: &Problem, path: &Path, metric: Metric, gap: f64) -> Bound {
+    let upper = metric.length(path);
+    Bound { metric, lower: least_length(&motions(problem, metric), upper, gap, &[]), upper }
+}
+
+/// All motions that answer a problem.
+pub(super) fn motions(problem: &Problem, metric: Metric) -> Motions<'_> {
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
+    Motions { scene, start: problem.start(), goals: problem.goals(), clearance, metric }
+}

@@ -1,0 +1,231 @@
+//! The ladder of refinement.
+
+use super::admission::{Admit, Ends};
+use super::bound::{Bound, bound, percent};
+use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells};
+use super::settle::decide;
+use super::{Answer, Effort, Method, Space, Stages, Verdict, first, shortest, subdivision};
+use crate::check::{CertifiedPath, Rejection, certify};
+use crate::model::{Problem, Scene};
+use crate::planner::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::space::{Metric, Path, Segment};
+use std::time::Instant;
+
+/// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
+/// beside a finer attempt where it is not.
+pub(super) const FIRST_BOXES: usize = 20_000;
+
+/// Lower bounds are made better until the path is known to be within this share of the optimum, or cannot be.
+pub(super) const CLOSE: f64 = 1e-4;
+
+/// A path that may be longer than the optimum by more than this share of it is looked at again on finer levels, though no gap is
+/// asked for: a shorter way may lead through a passage that the first level closes. Such paths are rare, one in a hundred.
+const WIDE: f64 = 0.05;
+
+/// The last level for that, four times finer each: it shows passages down to a five-thousandth of the arm's reach.
+const LAST_LOOK: usize = 2;
+
+/// Answers `problem` with `method`. `progress` hears about attempts that failed.
+#[must_use]
+pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+    let path = effort.path.unwrap_or(method.path_kind());
+    match method {
+        Method::Shortest => shortest::solve(problem, effort, progress),
+        Method::First => first::solve(problem, effort),
+        Method::Visibility => climb_polygons(problem, method, effort, progress),
+        Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid { path }, polygons),
+        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront { path, ..effort.wavefront }, cells),
+        Method::Harmonic => match effort.field {
+            Some(field) => climb(problem, method, effort, progress, &FieldPlanner { path, ..field }, zoned_cells),
+            None => climb(problem, method, effort, progress, &Harmonic { path }, field_cells),
+        },
+        Method::Subdivision => subdivision::solve(problem, effort, progress),
+    }
+}
+
+/// By a visibility graph, on behalf of `method`.
+pub(super) fn climb_polygons(
+    problem: &Problem,
+    method: Method,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+) -> Answer {
+    climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons)
+}
+
+/// Level after level, until a path is good enough or a proof is found.
+fn climb<P: Planner>(
+    problem: &Problem,
+    method: Method,
+    effort: &Effort,
+    progress: &mut dyn FnMut(&str),
+    planner: &P,
+    build: Builder<P::Space>,
+) -> Answer
+where
+    P::Space: Into<Space> + Described + Admit,
+{
+    let mut climb = Climb { problem, method, effort, level: 0, stages: Stages::default(), path: None, bound: None };
+    let mut history = Vec::new();
+    let mut last: Option<(Run, P::Space)> = None;
+    let mut known = None;
+    for level in 0..effort.levels.max(1) {
+        let clock = Instant::now();
+        let Some(space) = build(problem, effort, level) else { break };
+        let map = planner.build(&space);
+        climb.stages.build += clock.elapsed();
+        let clock = Instant::now();
+        let ends = Ends::new(problem, &space);
+        let run = match method {
+            _ if method.optimises() => {
+                shortest_of_all(&ends, effort.metric, |query| planner.query(&space, &map, query))
+            }
+            _ => planner.query(&space, &map, &ends.query),
+        };
+        climb.stages.query += clock.elapsed();
+        climb.level = level;
+        let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
+        last = Some((run, space));
+        let Some(failure) = failure else { break };
+        progress(&format!("{method}: {failure}"));
+        history.push(failure);
+        if level == 0 && climb.path.is_none() {
+            known = settle(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
+            if let Some(Verdict::Infeasible(_)) = known {
+                break;
+            }
+        }
+    }
+    let path = climb.path.take();
+    if path.is_none() && known.is_none() {
+        progress(&format!("{method}: looking for a proof that there is no path"));
+        known = settle(problem, effort.boxes, &mut climb.stages);
+    }
+    let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
+    let why = || history.last().cloned().unwrap_or_default();
+    let unknown = || format!("{method} found no certified path at its finest resolution ({})", why());
+    let (verdict, witness) = match (path, known) {
+        (Some(path), _) => (Verdict::Found(path), None),
+        (None, Some(Verdict::Infeasible(proof))) => (Verdict::Infeasible(proof), None),
+        (None, Some(Verdict::Found(witness))) => {
+            let reason = "there is a path (certified by subdivision), which this planner's space does not show";
+            (Verdict::Unknown(format!("{reason}: {}", unknown())), Some(witness))
+        }
+        (None, _) => (Verdict::Unknown(unknown()), None),
+    };
+    let (kind, bound) = (effort.path.unwrap_or(method.path_kind()), climb.bound);
+    let stages = climb.stages;
+    Answer { method, verdict, path: kind, witness, bound, history, run, space: space.into(), stages }
+}
+
+/// What is known on the way up the ladder.
+struct Climb<'a> {
+    problem: &'a Problem,
+    method: Method,
+    effort: &'a Effort,
+    level: usize,
+    stages: Stages,
+    /// The best certified path so far.
+    path: Option<CertifiedPath>,
+    /// How far it is from the optimum at the most, by all levels together.
+    bound: Option<Bound>,
+}
+
+impl Climb<'_> {
+    /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
+    fn judge(&mut self, ends: &Ends, outcome: &Outcome) -> Option<String> {
+        let proposal = match outcome {
+            Outcome::Found(path) => path,
+            Outcome::NoPath => return self.unless_content("no path in it".into()),
+            Outcome::GaveUp(reason) => return self.unless_content(reason.clone()),
+        };
+        match self.certified(ends, proposal) {
+            Ok(path) => {
+                self.keep(path);
+                let excess = self.bound.map_or_else(String::new, |bound| percent(bound.gap()));
+                self.unless_content(format!("its path is longer than the bound by {excess}"))
+            }
+            Err(rejection) => {
+                let why = explain(self.problem.scene(), rejection);
+                self.unless_content(format!("its path is not certified: {why}"))
+            }
+        }
+    }
+
+    /// `failure`, unless there is a path and no gap that is still to be closed: the one asked for, or else a wide one.
+    fn unless_content(&self, failure: String) -> Option<String> {
+        let gap = self.effort.gap.or((self.level < LAST_LOOK).then_some(WIDE));
+        let wants_more = self.bound.zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
+        (self.path.is_none() || wants_more).then_some(failure)
+    }
+
+    /// The certified path from start to goal along a proposal between their stand-ins.
+    fn certified(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
+        let clock = Instant::now();
+        let judge = |path| certify(self.problem.scene(), path, self.problem.scene().workspace().clearance);
+        let straight = ends.past_stand_ins(proposal).and_then(|path| judge(path).ok());
+        let certified = straight.map_or_else(|| judge(ends.complete(proposal)), Ok);
+        self.stages.certify += clock.elapsed();
+        certified
+    }
+
+    /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
+    fn keep(&mut self, path: CertifiedPath) {
+        if !self.effort.bounded || !self.method.optimises() {
+            self.path = Some(path);
+            return;
+        }
+        let clock = Instant::now();
+        let (metric, gap) = (self.effort.metric, self.effort.gap);
+        let upper = metric.length(path.path());
+        // What no motion is below does not depend on the path: once is enough.
+        let found = self.bound.map_or_else(
+            || bound(self.problem, path.path(), metric, gap.map_or(CLOSE, |gap| CLOSE.min(gap / 2.0))),
+            |best| Bound { upper, ..best },
+        );
+        self.stages.bound += clock.elapsed();
+        if self.bound.is_none_or(|best| found.upper < best.upper) {
+            self.path = Some(path);
+            self.bound = Some(found);
+        }
+    }
+}
+
+/// The run whose path is the shortest when it is completed. A planner measures to the stand-in of a goal, not to the goal:
+/// where that makes a difference each goal is asked for by itself.
+fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
+    if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
+        return query(&ends.query);
+    }
+    let length = |run: &Run| match &run.outcome {
+        Outcome::Found(path) => metric.length(&ends.past_stand_ins(path).unwrap_or_else(|| ends.complete(path))),
+        Outcome::NoPath | Outcome::GaveUp(_) => f64::INFINITY,
+    };
+    let one = |piece: &Segment| query(&Query { start: ends.query.start, goals: (*piece).into() });
+    let each = ends.query.goals.pieces().iter().map(one);
+    let shortest = each.min_by(|a, b| length(a).total_cmp(&length(b)));
+    shortest.unwrap_or_else(|| query(&ends.query))
+}
+
+/// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
+fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+    let clock = Instant::now();
+    let verdict = decide(problem, boxes);
+    stages.prove += clock.elapsed();
+    (!matches!(verdict, Verdict::Unknown(_))).then_some(verdict)
+}
+
+pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {
+    match rejection {
+        Rejection::OutOfLimits { waypoint, joint } => {
+            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm().joints[joint].name)
+        }
+        Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => format!(
+            "{} come within {:.3e} m of each other at ({:.6}, {:.6})",
+            scene.describe(nearest.contact.pair),
+            nearest.contact.separation.distance,
+            nearest.at[0],
+            nearest.at[1],
+        ),
+    }
+}

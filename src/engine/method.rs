@@ -1,0 +1,87 @@
+//! The closed list of planners, for the edges of the program.
+
+use crate::planner::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
+use std::fmt;
+use std::str::FromStr;
+
+/// A planner by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Method {
+    /// The shortest path by slabs, rows and the search that bounds the optimum, with that bound.
+    Shortest,
+    /// The first certified path that slabs lead to, or a proof that there is none: the quickest answer.
+    First,
+    /// Visibility graph and A*: the shortest path, up to the margin.
+    Visibility,
+    /// Trapezoidal decomposition: a channel of cells, and a taut string through it.
+    Trapezoid,
+    /// Manhattan wavefront on a grid.
+    Wavefront,
+    /// Harmonic potential on a grid.
+    Harmonic,
+    /// Subdivision into free, stuck and mixed boxes: a path with proven room around it, or a proof that there is none.
+    Subdivision,
+}
+
+impl Method {
+    /// All: the default, roadmap planners, field planners, those that judge the scene itself.
+    pub const ALL: [Method; 7] = [
+        Method::Shortest,
+        Method::Visibility,
+        Method::Trapezoid,
+        Method::Wavefront,
+        Method::Harmonic,
+        Method::Subdivision,
+        Method::First,
+    ];
+
+    /// Name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            // No planners over a representation: these judge the scene itself.
+            Method::Shortest => "shortest",
+            Method::First => "first",
+            Method::Visibility => Visibility::NAME,
+            Method::Trapezoid => Trapezoid::NAME,
+            Method::Wavefront => Wavefront::NAME,
+            Method::Harmonic => Harmonic::NAME,
+            Method::Subdivision => "subdivision",
+        }
+    }
+
+    /// The path that it gives where none is asked for: a field is for being followed, cells are for finding a channel.
+    #[must_use]
+    pub fn path_kind(self) -> PathKind {
+        if self == Method::Harmonic { PathKind::Own } else { PathKind::Taut }
+    }
+
+    /// Whether it has a path of its own beside the taut one. What is after the shortest path is taut as it is.
+    #[must_use]
+    pub fn has_own_path(self) -> bool {
+        !self.optimises() && self != Method::First
+    }
+
+    /// Whether it is after the optimum of a metric, and tells how near its path is to it.
+    #[must_use]
+    pub fn optimises(self) -> bool {
+        matches!(self, Method::Shortest | Method::Visibility)
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+impl FromStr for Method {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        Method::ALL.into_iter().find(|m| m.name() == name).ok_or_else(|| {
+            let known: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
+            format!("no planner is called \"{name}\"; choose one of {}", known.join(", "))
+        })
+    }
+}

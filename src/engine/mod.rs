@@ -1,0 +1,141 @@
+//! From a problem to a verdict: build a space, plan, certify; refine and replan where that fails; and where no path is
+//! found, look for a proof that there is none.
+//!
+//! Planners see approximations of the configuration space, so their paths are proposals. What leaves this module as
+//! found has passed [`crate::check`], what leaves it as infeasible is proven there.
+
+mod admission;
+mod bound;
+mod corners;
+mod effort;
+mod first;
+mod ladder;
+mod method;
+mod rungs;
+mod settle;
+mod shortest;
+mod subdivision;
+pub mod task;
+mod thinned;
+
+pub use bound::{Bound, bound, percent};
+pub use effort::Effort;
+pub use ladder::solve;
+pub use method::Method;
+pub use settle::decide;
+
+use crate::check::{CertifiedPath, Disconnection, StuckBox};
+use crate::cspace::{Grid, Regions};
+use crate::planner::{PathKind, Planner, Run, Trace, Visibility};
+use crate::space::Configuration;
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::ops::Add;
+use std::time::Duration;
+
+/// The answer to a problem.
+#[derive(Debug, Clone)]
+pub enum Verdict {
+    /// A motion that is proven free.
+    Found(CertifiedPath),
+    /// There is none: proven.
+    Infeasible(Disconnection),
+    /// Neither within the effort: why, in words.
+    Unknown(String),
+}
+
+impl Verdict {
+    /// The boxes that prove that there is no path; none where that is not proven.
+    #[must_use]
+    pub fn proof(&self) -> &[StuckBox] {
+        if let Verdict::Infeasible(proof) = self { proof.stuck() } else { &[] }
+    }
+}
+
+/// The representation that the last attempt worked on.
+#[derive(Debug, Clone)]
+pub enum Space {
+    /// Polygons, with the margin that obstacles were grown by, metres.
+    Regions(Box<Regions>),
+    /// Cells.
+    Grid(Box<Grid>),
+    /// None: subdivision judges the scene itself.
+    Scene,
+}
+
+/// Time spent in each stage, over all attempts.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Stages {
+    /// Building the configuration space, and what the planner prepares without start and goal.
+    pub build: Duration,
+    /// Answering the query.
+    pub query: Duration,
+    /// Certifying proposals.
+    pub certify: Duration,
+    /// Looking for a proof that there is no path.
+    pub prove: Duration,
+    /// Bounding the optimum from below.
+    pub bound: Duration,
+}
+
+impl Add for Stages {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            build: self.build + other.build,
+            query: self.query + other.query,
+            certify: self.certify + other.certify,
+            prove: self.prove + other.prove,
+            bound: self.bound + other.bound,
+        }
+    }
+}
+
+/// A visibility graph of more corners than this is drawn as far as it was searched: more lines make a grey surface.
+const MOST_CORNERS: usize = 5_000;
+
+/// A verdict and how it came about.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// Which planner was asked.
+    pub method: Method,
+    /// The result.
+    pub verdict: Verdict,
+    /// Which of the method's paths was asked for.
+    pub path: PathKind,
+    /// Where the verdict is unknown: a certified path by slabs or boxes, which the method's space does not show. Then the
+    /// question whether there is one is settled, but not by the method that was asked.
+    pub witness: Option<CertifiedPath>,
+    /// How far the path is from the optimum at the most; of visibility planners that found one.
+    pub bound: Option<Bound>,
+    /// What became of each attempt before the last, coarse to fine, in words.
+    pub history: Vec<String>,
+    /// The planner's last run.
+    pub run: Run,
+    /// What it worked on.
+    pub space: Space,
+    /// Where the time went.
+    pub stages: Stages,
+}
+
+impl Answer {
+    /// What to draw of the planner's work: its trace; to that of a visibility graph all arcs between corners are added, which
+    /// takes the time to find them.
+    #[must_use]
+    pub fn drawn(&self) -> Cow<'_, Trace> {
+        if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
+            let map = Visibility::default().build(regions);
+            if map.corners() <= MOST_CORNERS {
+                // Those that were searched end at start and goals too, and may be directed the other way.
+                let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
+                let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };
+                let mut arcs: Vec<_> = map.arcs().into_iter().chain(edges.iter().copied()).map(directed).collect();
+                arcs.sort_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(Ordering::Equal));
+                arcs.dedup();
+                return Cow::Owned(Trace::Roadmap { edges: arcs, whole: true });
+            }
+        }
+        Cow::Borrowed(&self.run.trace)
+    }
+}

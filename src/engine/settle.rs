@@ -1,0 +1,132 @@
+//! Whether there is a path at all: by slabs of joint 1, else by boxes.
+
+use super::Verdict;
+use super::ladder::explain;
+use super::subdivision::certified;
+use super::thinned::Thinned;
+use crate::check::Disconnection;
+use crate::model::{Pair, Problem};
+use crate::search::{Connectivity, connectivity, slab_connectivity};
+
+/// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
+const SLABS: usize = 10_000;
+
+/// A proof by slabs of more boxes than this is large: boxes that are halved need fewer, as where obstacles overlap little all
+/// along a slanted line, which slabs tile with boxes as narrow as themselves.
+const LARGE_PROOF: usize = 10_000;
+
+/// Boxes that are looked at for a smaller proof than slabs have, at least: the most that any of some thousand random proofs
+/// took, twice.
+const BOXES_FOR_SMALLER: usize = 100_000;
+
+/// With more pairs of shapes what is known of fewer of them is asked for first, ...
+const MANY_PAIRS: usize = 4096;
+
+/// ... of as few as a lattice of this share of the arm's reach leaves, one after the other.
+const LATTICES: [f64; 2] = [1.0 / 128.0, 1.0 / 1024.0];
+
+/// Pairs times slabs, and times boxes, that are looked at in such a scene: a second's worth each, or some.
+const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
+
+/// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
+/// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
+/// code with the search. Where slabs show that there is no path, but state it in no small number of boxes, up to 100 000 are
+/// looked at even if `boxes` is less.
+///
+/// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
+/// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
+/// pieces the questions are put to some of them first: what these close is closed, and a path among them is judged among all.
+/// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell, but among thousands of pieces: there no more
+/// than a second's worth of each are looked at.
+#[must_use]
+pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
+    let pairs = |problem: &Problem| problem.scene().pairs().len();
+    if pairs(problem) <= MANY_PAIRS {
+        let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller: BOXES_FOR_SMALLER.max(boxes) };
+        return asked(problem, problem, &|pair| pair, limits);
+    }
+    let limited = |asked: &Problem| {
+        let [slabs, boxes] = LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
+        Limits { slabs, boxes, for_smaller: BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1)) }
+    };
+    for lattice in LATTICES {
+        let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
+        let verdict = asked(problem, &thinned.problem, &|pair| thinned.in_truth(pair), limited(&thinned.problem));
+        if !matches!(verdict, Verdict::Unknown(_)) {
+            return verdict;
+        }
+    }
+    asked(problem, problem, &|pair| pair, limited(problem))
+}
+
+/// How much is looked at.
+#[derive(Clone, Copy)]
+struct Limits {
+    slabs: usize,
+    boxes: usize,
+    /// Boxes, where slabs show that there is no path, but with a large proof.
+    for_smaller: usize,
+}
+
+/// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
+fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, limits: Limits) -> Verdict {
+    let (scene, start, goals) = (some.scene(), some.start(), some.goals());
+    let clearance = scene.workspace().clearance;
+    let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
+    match slab_connectivity(scene, start, goals, clearance, limits.slabs) {
+        Connectivity::Disconnected(proof) if proof.stuck().len() > LARGE_PROOF => {
+            small(problem, proof.of_pairs(in_truth), || by_boxes(limits.for_smaller))
+        }
+        // There is none, but slabs take no end of boxes to state it.
+        Connectivity::Undecided { closed: true, .. } => by_boxes(limits.for_smaller),
+        answer => match judged(problem, in_truth, answer) {
+            Verdict::Unknown(_) => by_boxes(limits.boxes),
+            known => known,
+        },
+    }
+}
+
+/// A large proof by slabs with fewer boxes: the largest of its own, or what `by_boxes` takes.
+fn small(problem: &Problem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
+    let proof = match proof.slimmed_to(LARGE_PROOF, |proof| holds(problem, proof)) {
+        Ok(smaller) => return Verdict::Infeasible(smaller),
+        Err(proof) => proof,
+    };
+    let other = by_boxes();
+    if matches!(&other, Verdict::Infeasible(other) if other.stuck().len() <= LARGE_PROOF) {
+        return other;
+    }
+    match (checked(problem, proof), other) {
+        (Some(proof), Verdict::Infeasible(other)) if other.stuck().len() < proof.stuck().len() => {
+            Verdict::Infeasible(other)
+        }
+        (Some(proof), _) => Verdict::Infeasible(proof),
+        (None, other) => other,
+    }
+}
+
+/// What a search's answer is worth.
+fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivity) -> Verdict {
+    match answer {
+        Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
+            |rejection| Verdict::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
+            Verdict::Found,
+        ),
+        Connectivity::Disconnected(proof) => checked(problem, proof.of_pairs(in_truth))
+            .map_or_else(|| Verdict::Unknown("the proof that there is none does not hold".into()), Verdict::Infeasible),
+        Connectivity::Undecided { boxes, .. } => {
+            Verdict::Unknown(format!("{boxes} boxes do not tell whether there is a path"))
+        }
+    }
+}
+
+/// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
+pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
+    holds(problem, &proof).then(|| proof.slimmed(|some| holds(problem, some)))
+}
+
+/// Whether it passes the independent check.
+fn holds(problem: &Problem, proof: &Disconnection) -> bool {
+    let clearance = problem.scene().workspace().clearance;
+    proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok()
+}

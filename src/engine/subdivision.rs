@@ -1,0 +1,93 @@
+//! Planning by subdivision of the configuration space.
+
+use super::ladder::explain;
+use super::settle::checked;
+use super::{Answer, Effort, Method, Space, Stages, Verdict};
+use crate::check::CertifiedPath;
+use crate::check::{Rejection, certify};
+use crate::geometry::Point;
+use crate::model::Problem;
+use crate::planner::{Outcome, Passage, PathKind, Run, Size, Trace, nearest_end, taut_string};
+use crate::search::{Channel, Connectivity, Exploration, Occupancy, explore};
+use crate::space::{Configuration, Path};
+use std::time::Instant;
+
+/// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
+/// [`Effort::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
+pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+    let scene = problem.scene();
+    let clearance = scene.workspace().clearance;
+    let mut stages = Stages::default();
+    let clock = Instant::now();
+    let exploration = explore(scene, problem.start(), problem.goals(), clearance, effort.boxes);
+    let size = Size::Graph { nodes: exploration.boxes.len(), edges: exploration.adjacencies };
+    let trace = trace(&exploration);
+    stages.query = clock.elapsed();
+    let clock = Instant::now();
+    let (outcome, verdict) = match exploration.answer {
+        Connectivity::Connected(channel) => {
+            let certified = match effort.path {
+                Some(PathKind::Own) => certify(scene, channel.path(), clearance),
+                Some(PathKind::Taut) | None => certified(problem, &channel),
+            };
+            stages.certify = clock.elapsed();
+            match certified {
+                Ok(path) => (Outcome::Found(path.path().clone()), Verdict::Found(path)),
+                Err(rejection) => {
+                    let reason = format!("its path is not certified: {}", explain(scene, rejection));
+                    (Outcome::Found(channel.path()), Verdict::Unknown(reason))
+                }
+            }
+        }
+        Connectivity::Disconnected(proof) => {
+            let proof = checked(problem, proof);
+            stages.prove = clock.elapsed();
+            let refused = || Verdict::Unknown("its proof does not hold".into());
+            let verdict = proof.map_or_else(refused, Verdict::Infeasible);
+            (Outcome::NoPath, verdict)
+        }
+        Connectivity::Undecided { boxes, .. } => {
+            let reason = format!("{boxes} boxes do not tell whether there is a path");
+            (Outcome::GaveUp(reason.clone()), Verdict::Unknown(reason))
+        }
+    };
+    if let Verdict::Unknown(reason) = &verdict {
+        progress(&format!("{}: {reason}", Method::Subdivision));
+    }
+    let run = Run { outcome, trace, size, note: None };
+    Answer {
+        method: Method::Subdivision,
+        verdict,
+        path: effort.path.unwrap_or(Method::Subdivision.path_kind()),
+        witness: None,
+        bound: None,
+        history: Vec::new(),
+        run,
+        space: Space::Scene,
+        stages,
+    }
+}
+
+/// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
+/// middles.
+pub(super) fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
+    let clearance = problem.scene().workspace().clearance;
+    certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
+}
+
+/// The channel's shortest path.
+pub(super) fn taut(channel: &Channel) -> Path {
+    let passage = |[left, right]: &[Configuration; 2]| Passage { left: Point::from(*left), right: Point::from(*right) };
+    let passages: Vec<Passage> = channel.doors().iter().map(passage).collect();
+    let start = Point::from(channel.start());
+    let string = taut_string(start, nearest_end(start, channel.goals(), &passages), &passages);
+    Path::new(string.into_iter().map(|p| p.coords).collect())
+}
+
+fn trace(exploration: &Exploration) -> Trace {
+    let of = |kind: Occupancy| {
+        let boxes = exploration.boxes.iter().filter(|(_, occupancy)| *occupancy == kind);
+        boxes.map(|(cell, _)| [cell.lower.into(), cell.upper.into()]).collect()
+    };
+    Trace::Boxes { free: of(Occupancy::Free), stuck: of(Occupancy::Stuck), mixed: of(Occupancy::Mixed) }
+}

@@ -1,0 +1,115 @@
+//! Why a task cannot be done, or is not known to be possible.
+
+use super::legs::Refusal;
+use crate::check::StuckBox;
+use crate::model::{Arm, Joint, Scene, Step};
+use crate::space::Configuration;
+use std::rc::Rc;
+
+/// Beginnings of motions beyond these are not named for one reason.
+const NAMED: usize = 4;
+
+/// Digits behind the point of joint values in words.
+const DIGITS: i32 = 4;
+
+/// A posture at the target of a step that the arm cannot take, or is not known to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unreached {
+    /// Joint values.
+    pub posture: Configuration,
+    /// Why, in words.
+    pub reason: String,
+    /// Boxes of colliding configurations that separate it from where the arm stands; none where that is not the reason.
+    pub proof: Rc<[StuckBox]>,
+}
+
+/// Why a task cannot be done, or is not known to be possible.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Impossible {
+    /// The first step that cannot be done after as many as possible before it.
+    pub step: Step,
+    /// Why, in words, with the motions that were tried: also those from other postures, or with other grips, than the
+    /// steps before end with in the answer.
+    pub reasons: Vec<String>,
+    /// The world after the steps before, as it is for the motion that fails, and what is carried.
+    pub scene: Rc<Scene>,
+    /// Where the arm stands then.
+    pub from: Configuration,
+    /// The postures that were tried from there; none if no posture within the joint limits reaches the target.
+    pub postures: Vec<Unreached>,
+}
+
+/// A step that could not be done.
+pub(super) struct Refused<'a> {
+    /// After how many steps.
+    pub depth: usize,
+    /// The node of the search from which it was tried.
+    pub node: usize,
+    pub step: &'a Step,
+    /// With which posture; none if there is none.
+    pub posture: Option<Configuration>,
+    pub refusal: Refusal,
+}
+
+impl Refused<'_> {
+    /// The posture that is out of reach, if there is one.
+    pub fn unreached(&self) -> Option<Unreached> {
+        let Refusal { reason, proof, .. } = &self.refusal;
+        self.posture.map(|posture| Unreached { posture, reason: reason.clone(), proof: proof.clone() })
+    }
+}
+
+/// A motion that was tried, and why it is refused.
+pub(super) struct Tried<'a> {
+    pub from: Configuration,
+    /// None where there is no posture at the target.
+    pub to: Option<Configuration>,
+    pub reason: &'a str,
+}
+
+/// Each reason once, with the motions that it holds for: `to joints (0.3, 1.2) rad and (1.5, -1.2) rad: ...`. Where they
+/// begin is said if not all of them begin at one place.
+pub(super) fn reasons(arm: &Arm, tried: &[Tried]) -> Vec<String> {
+    let several = tried.iter().any(|motion| motion.from != tried[0].from);
+    let mut reasons: Vec<&str> = Vec::new();
+    for motion in tried {
+        if !reasons.contains(&motion.reason) {
+            reasons.push(motion.reason);
+        }
+    }
+    let explained = |reason: &str| {
+        let mut motions: Vec<(Configuration, Vec<String>)> = Vec::new();
+        for Tried { from, to, .. } in tried.iter().filter(|motion| motion.reason == reason) {
+            let Some(to) = to.map(|to| joints(arm, to)) else { continue };
+            match motions.iter_mut().find(|(known, _)| known == from) {
+                Some((_, ends)) if ends.contains(&to) => {}
+                Some((_, ends)) => ends.push(to),
+                None => motions.push((*from, vec![to])),
+            }
+        }
+        let others = motions.len().saturating_sub(NAMED);
+        motions.truncate(NAMED);
+        let words = motions.iter().map(|(from, ends)| {
+            let beginning =
+                if several { format!("from joints {} to ", joints(arm, *from)) } else { "to joints ".into() };
+            beginning + &ends.join(" and ")
+        });
+        let mut words = words.collect::<Vec<_>>().join(", ");
+        if others > 0 {
+            words += &format!(", and from {others} others");
+        }
+        if words.is_empty() { reason.to_owned() } else { format!("{words}: {reason}") }
+    };
+    reasons.into_iter().map(explained).collect()
+}
+
+/// Joint values in words: `(0.3, 1.2) rad`, `(0.3 m, 1.2 rad)`.
+fn joints(arm: &Arm, q: Configuration) -> String {
+    let grains = 10_f64.powi(DIGITS);
+    // Zero has no sign in words.
+    let [a, b] = [0, 1].map(|k| (q[k] * grains).round() / grains + 0.0);
+    match arm.joints.each_ref().map(Joint::unit) {
+        [first, second] if first == second => format!("({a}, {b}) {first}"),
+        [first, second] => format!("({a} {first}, {b} {second})"),
+    }
+}

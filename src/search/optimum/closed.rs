@@ -1,0 +1,301 @@
+//! What is closed: for joint 1, for joint 2 at one value of joint 1, and along straight motions.
+
+use crate::check::{Deviation, Posture, STUCK_ROUNDING};
+use crate::geometry::{Convex, Features, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
+use crate::interrupt::checkpoint;
+use crate::model::{Carried, Pair, Scene, on_axis, swept};
+use crate::search::slab::{Eroded, OUTWARD};
+use crate::space::Configuration;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Times that a motion is halved before it counts as not proven.
+const HALVINGS: usize = 4;
+
+/// Values of joint 2 at which a pair is too near: within the domain on an interval; on a circle an arc whose end may be
+/// beyond its domain, by no more than a turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Wall {
+    /// Number of the pair, among those of link 2.
+    pub pair: usize,
+    pub lower: f64,
+    pub upper: f64,
+}
+
+/// Pairs of link 2 at most. What fewer of them close is no more, so that the bound holds; with many it is hardly lower: they
+/// are smaller than the link, which keeps meeting others beside those that are left out.
+pub(super) const MOST_PAIRS: usize = 4096;
+
+/// Rows times pairs at most, some seconds' worth.
+const MOST_LOOKS: usize = 4_000_000;
+
+/// A pair of link 2.
+struct Prepared {
+    /// Into the link's parts.
+    part: usize,
+    piece: Features,
+    /// None where the shapes are too thin to overlap by as much as rounding may amount to.
+    eroded: Option<Eroded>,
+    /// Half-planes of the piece's core.
+    sides: Vec<(Vector, f64)>,
+}
+
+/// A part of link 2.
+struct PreparedPart {
+    carried: Carried,
+    /// Half-planes of its core.
+    sides: Vec<(Vector, f64)>,
+}
+
+/// All that link 2 can meet.
+pub(super) struct Closed<'a> {
+    scene: &'a Scene,
+    clearance: f64,
+    parts: Vec<PreparedPart>,
+    pairs: Vec<Prepared>,
+    /// Their numbers.
+    numbers: BTreeMap<Pair, usize>,
+    scratch: Vec<[f64; 2]>,
+}
+
+impl<'a> Closed<'a> {
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        let motion = scene.arm().joints[1].motion;
+        let parts = scene.arm().links[1].parts.iter().map(|part| {
+            let carried = Carried::new(motion, &part.shape);
+            PreparedPart { sides: half_planes(carried.shape().core()), carried }
+        });
+        let (parts, numbers) = (parts.collect(), BTreeMap::new());
+        let mut this = Self { scene, clearance, parts, pairs: Vec::new(), numbers, scratch: Vec::new() };
+        this.add(&chosen(scene, clearance));
+        this
+    }
+
+    /// Looks at some more pairs of link 2.
+    pub fn add(&mut self, pairs: &[Pair]) {
+        for &pair in pairs {
+            checkpoint();
+            let piece = self.scene.piece(pair);
+            let eroded = Eroded::new(&self.parts[pair.part].carried, piece, OUTWARD, self.clearance);
+            let (sides, piece) = (half_planes(piece.core()), Features::new(piece));
+            self.numbers.insert(pair, self.pairs.len());
+            self.pairs.push(Prepared { part: pair.part, piece, eroded, sides });
+        }
+    }
+
+    /// The pairs that are looked at: those of link 1, unless they are too many, and those of link 2; in their order.
+    pub fn pairs(&self) -> Vec<Pair> {
+        let first = self.scene.pairs().iter().take_while(|pair| pair.link == 0);
+        let few = first.clone().count() <= MOST_PAIRS;
+        first.filter(|_| few).chain(self.numbers.keys()).copied().collect()
+    }
+
+    /// How many rows are worth looking at.
+    pub fn most_rows(&self) -> usize {
+        MOST_LOOKS / self.pairs.len().max(1)
+    }
+
+    /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
+    pub fn bands(&self) -> Vec<[f64; 2]> {
+        let arm = self.scene.arm();
+        let joint = &arm.joints[0];
+        let (mut bands, mut arcs) = (Vec::new(), Vec::new());
+        for &pair in self.scene.pairs().iter().filter(|pair| pair.link == 0) {
+            let (part, piece) = (Carried::new(joint.motion, self.scene.part(pair)), self.scene.piece(pair));
+            let Some(eroded) = Eroded::new(&part, piece, OUTWARD, self.clearance) else { continue };
+            arcs.clear();
+            let hits = eroded.hits(&part, &Features::new(piece), arm.base, Vector::x(), &mut arcs);
+            on_axis(joint, hits, &arcs, |band| bands.push(band));
+        }
+        bands.retain(|[lower, upper]| lower < upper);
+        merge_in_place(&mut bands);
+        bands
+    }
+
+    /// What is closed at `q1`, in the order of the pairs.
+    pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
+        checkpoint();
+        let mut walls = Vec::new();
+        let frame = self.frame(q1);
+        for number in 0..self.pairs.len() {
+            self.add_walls(number, frame, &mut walls);
+        }
+        walls
+    }
+
+    /// What a pair closes at `q1`.
+    pub fn walls_of(&mut self, number: usize, q1: f64) -> Vec<Wall> {
+        let mut walls = Vec::new();
+        self.add_walls(number, self.frame(q1), &mut walls);
+        walls
+    }
+
+    /// The number of a pair; none if it is not looked at.
+    pub fn number(&self, pair: Pair) -> Option<usize> {
+        self.numbers.get(&pair).copied()
+    }
+
+    /// Where joint 2 is at `q1`, and the direction of link 1.
+    fn frame(&self, q1: f64) -> (Point, Vector) {
+        let arm = self.scene.arm();
+        let pose = arm.pose(0, Configuration::new(q1, 0.0));
+        (pose * Point::from(arm.offset), pose * Vector::x())
+    }
+
+    fn add_walls(&mut self, number: usize, (elbow, heading): (Point, Vector), walls: &mut Vec<Wall>) {
+        let pair = &self.pairs[number];
+        let Some(eroded) = &pair.eroded else { return };
+        let joint = &self.scene.arm().joints[1];
+        self.scratch.clear();
+        let part = &self.parts[pair.part].carried;
+        let hits = eroded.hits(part, &pair.piece, elbow, heading, &mut self.scratch);
+        let mut add = |[lower, upper]: [f64; 2]| {
+            if lower < upper {
+                walls.push(Wall { pair: number, lower, upper });
+            }
+        };
+        match hits {
+            Hits::Always if joint.axis.is_circle() => add([-PI, PI]),
+            Hits::Within if joint.axis.is_circle() => self.scratch.iter().copied().for_each(add),
+            _ => on_axis(joint, hits, &self.scratch, add),
+        }
+    }
+
+    /// Whether a pair is proven too near all along the straight motion between two configurations. True says so; false
+    /// says nothing.
+    pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
+        self.halved(&self.pairs[pair], [from, to], HALVINGS)
+    }
+
+    fn halved(&self, pair: &Prepared, ends: [Configuration; 2], halvings: usize) -> bool {
+        let middle = (ends[0] + ends[1]) / 2.0;
+        let posture = Posture::new(self.scene, middle);
+        if self.follows(pair, &posture, ends) {
+            return true;
+        }
+        let pose = self.scene.arm().pose(1, middle);
+        halvings > 0
+            && separation(&self.parts[pair.part].carried.shape().at(&pose), pair.piece.shape()).distance
+                < self.clearance
+            && self.halved(pair, [ends[0], middle], halvings - 1)
+            && self.halved(pair, [middle, ends[1]], halvings - 1)
+    }
+
+    /// Whether one point of one shape is in the other all along the motion.
+    ///
+    /// A point of the part moves smoothly, no farther from the straight line between its places at the ends than half the
+    /// bound on its second derivative; and the distance from a convex set, negative inside, is a convex function. So it
+    /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
+    /// as seen from the link. Shapes are too near each other where a point of one core is within `radius` of the other.
+    fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
+        let (PreparedPart { carried, sides: of_part }, of_piece) = (&self.parts[pair.part], &pair.sides);
+        let (part, piece) = (carried.shape(), pair.piece.shape());
+        let poses = ends.map(|q| self.scene.arm().pose(1, q));
+        let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
+        let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
+        let radius = part.radius() + piece.radius() + self.clearance - slack;
+        let of_world = |p: Point| {
+            let allowed = radius - posture.curvature_in_link(1, p, deviation) / 2.0;
+            poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
+        };
+        let of_link = |a: Point| {
+            let allowed = radius - posture.curvature_in_plane(1, a, deviation) / 2.0;
+            poses.iter().all(|pose| within(pose * a, piece.core(), of_piece, allowed))
+        };
+        if piece.core().iter().any(|p| of_world(*p)) || part.core().iter().any(|a| of_link(*a)) {
+            return true;
+        }
+        let pose = self.scene.arm().pose(1, (ends[0] + ends[1]) / 2.0);
+        common_point(part, piece, &pose).is_some_and(|p| of_world(p) || of_link(pose.inverse_transform_point(&p)))
+    }
+}
+
+/// The pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces, and of
+/// pieces of about a size some all over the list.
+fn chosen(scene: &Scene, clearance: f64) -> Vec<Pair> {
+    let arm = scene.arm();
+    let in_reach = |pair: &Pair| {
+        let swept = swept(scene.part(*pair), &arm.joints[1], arm.offset);
+        let piece = scene.piece(*pair);
+        // A joint that slides takes link 2 anywhere along its way.
+        !arm.joints[0].motion.is_revolute()
+            || least_distance(piece, arm.base) <= swept.reach_from(Point::origin()) + clearance
+    };
+    let mut pairs: Vec<Pair> =
+        scene.pairs().iter().filter(|pair| pair.link == 1).filter(|p| in_reach(p)).copied().collect();
+    if pairs.len() > MOST_PAIRS {
+        let bits = usize::BITS - pairs.len().leading_zeros();
+        let mut ranked: Vec<(Reverse<i32>, usize, Pair)> = pairs
+            .into_iter()
+            .enumerate()
+            .map(|(number, pair)| {
+                let core = scene.piece(pair).core();
+                let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
+                // Numbers with their bits reversed ascend all over the list at a time.
+                (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), pair)
+            })
+            .collect();
+        ranked.sort_unstable();
+        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., pair)| pair).collect();
+        pairs.sort_unstable();
+    }
+    pairs
+}
+
+/// A lower bound on the distance of a shape from a point.
+fn least_distance(shape: &Convex, from: Point) -> f64 {
+    let core = shape.core();
+    let extent = core.iter().map(|p| (p - core[0]).norm()).fold(0.0, f64::max);
+    (core[0] - from).norm() - extent - shape.radius()
+}
+
+/// A point in the middle of what the cores have in common with the part at `pose`.
+fn common_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
+    let part: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
+    let piece = piece.core();
+    let both = match (part.as_slice(), piece) {
+        (part, piece) if piece.len() > 2 => common(part, piece),
+        (part, piece) if part.len() > 2 => common(piece, part),
+        (&[a, b], &[c, d]) => {
+            let (along, across) = (b - a, perpendicular(d - c));
+            let share = across.dot(&(c - a)) / across.dot(&along);
+            return share.is_finite().then(|| a + along * share.clamp(0.0, 1.0));
+        }
+        _ => return None,
+    };
+    let sum: Vector = both.iter().map(|p| p.coords).sum();
+    (!both.is_empty()).then(|| Point::from(sum / both.len() as f64))
+}
+
+/// The half-planes `normal . p <= offset` of a convex polygon with area.
+fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
+    let n = if core.len() > 2 { core.len() } else { 0 };
+    (0..n)
+        .map(|i| {
+            let normal = -perpendicular((core[(i + 1) % n] - core[i]).normalize());
+            (normal, normal.dot(&core[i].coords))
+        })
+        .collect()
+}
+
+/// Whether a point's signed distance from a convex polygon (negative inside), segment or point, a convex function of it,
+/// is at most `allowed`.
+fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
+    let outside = sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max);
+    if outside > allowed {
+        return false;
+    }
+    if outside <= 0.0 && !sides.is_empty() {
+        return true;
+    }
+    let n = core.len();
+    allowed >= 0.0 && (0..n).any(|i| to_segment(p, core[i], core[(i + 1) % n]) <= allowed)
+}
+
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (along, to) = (b - a, p - a);
+    let length2 = along.norm_squared();
+    let t = if length2 > 0.0 { (along.dot(&to) / length2).clamp(0.0, 1.0) } else { 0.0 };
+    (to - along * t).norm()
+}

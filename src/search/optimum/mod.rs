@@ -1,0 +1,293 @@
+//! How short a motion may be at best: a proven lower bound.
+
+mod closed;
+mod doors;
+mod jumps;
+mod refine;
+mod search;
+mod strips;
+
+use crate::check::Vicinity;
+use crate::check::{CertifiedPath, Rejection, certify};
+use crate::geometry::{Ordered, Point};
+use crate::model::{Pair, Scene};
+use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology};
+use closed::MOST_PAIRS;
+use refine::{Allowed, passed};
+use search::{Search, Way};
+use std::f64::consts::TAU;
+use strips::Strips;
+
+/// What rounding and the tie-break of travel times may add to a shortest length, as a share of it.
+const ROUNDING: f64 = 1e-9;
+
+/// What rounding makes of the ends of a way, as a share of their coordinates: far from zero doubles lie far apart, and a short
+/// way there is known to fewer digits.
+const COORDINATES: f64 = 1024.0 * f64::EPSILON;
+
+/// Times that strips are halved at most.
+const ROUNDS: usize = 64;
+
+/// Searches for a motion at most: most of them answer a certificate that was refused.
+const TRIES: usize = 128;
+
+/// Pairs times searches at most, a second's worth or some.
+const MOST_TRIED: usize = 80_000;
+
+/// A way is looked at by the certificate once it has grown by no more than this share of its length.
+const SETTLED: f64 = 1e-6;
+
+/// Pairs times certificates that were refused, at most: seconds' worth.
+const MOST_REFUSED: usize = 500_000;
+
+/// So many pairs are looked at about a place where one was met that was not.
+const NEAREST: usize = 256;
+
+/// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
+const PATIENCE: usize = 3;
+
+/// Share of the gap asked for that a single strip may leave open without being halved.
+const WORTH: f64 = 1e-3;
+
+/// Share of the limit below which ways are looked for at first, at least.
+const LEAST_SHARE: f64 = 1.0 / 64.0;
+
+/// The motions that are asked for, and how their lengths are measured.
+#[derive(Debug, Clone, Copy)]
+pub struct Motions<'a> {
+    /// Arm and obstacles.
+    pub scene: &'a Scene,
+    /// Where they begin.
+    pub start: Configuration,
+    /// Where they may end, on whichever turns.
+    pub goals: &'a GoalSet,
+    /// What they keep from every obstacle, metres: more than zero, and at least this.
+    pub clearance: f64,
+    /// What makes one short.
+    pub metric: Metric,
+}
+
+/// A lower bound on the length of every one of the `motions`; at most `limit`, finite, which some motion's length should be. It
+/// is made better until it is within the share `gap` of the limit, or cannot be.
+///
+/// Joint 1's domain is cut into strips by *rows*, at which contact angles say exactly which values of joint 2 are closed:
+/// *walls*. Where a pair makes walls at both rows of a strip, a straight *barrier* between them is proven to be closed all
+/// along. What is free lies beyond neither, so no motion is shorter than the shortest way around walls and barriers. Ways
+/// may bulge into what is closed between two rows, by an amount of second order in the strip's width as far as the boundary
+/// bends. Strips are cut where the way does, so it costs some dozens of rows, most of them where the way touches. Those at
+/// the values `rows` of joint 1 are there from the beginning.
+///
+/// The search for the way is complete up to the rounding of coordinates, for which a share of 1e-9 is taken off: every
+/// passage is some nanometres wider than it is in truth, because walls are made of shapes eroded by that. Two shapes
+/// without area make no walls, which makes the bound lower.
+#[must_use]
+pub fn least_length(motions: &Motions, limit: f64, gap: f64, rows: &[f64]) -> f64 {
+    let mut ways = Ways::new(*motions, limit, rows);
+    let enough = limit / (1.0 + gap);
+    let (mut best, mut idle) = (0.0, 0);
+    for _ in 0..ROUNDS {
+        let (length, corners) = ways.shortest();
+        idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
+        best = f64::max(best, length);
+        if best >= enough || idle >= PATIENCE || !ways.refine(&corners, Allowed::Detour(gap * limit * WORTH)) {
+            break;
+        }
+    }
+    ways.rounded(best.min(limit))
+}
+
+/// About the shortest of the `motions`, shorter than `limit`, certified. It keeps `kept` metres more than the clearance where
+/// that matters, and is longer than the shortest by what that costs.
+///
+/// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
+/// into these than by half of that, and where the certificate says so. None if that does not get there, as where a passage
+/// is narrower than `kept` leaves it.
+#[must_use]
+pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMotion> {
+    let Motions { scene, start, clearance, .. } = *motions;
+    let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
+    let (mut before, mut refused) = (0.0, 0);
+    for _ in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
+        let (length, corners) = ways.shortest();
+        if corners.is_empty() {
+            return None;
+        }
+        // Where thousands of pieces lie side by side there is always one more to go round, and nothing is gained by it.
+        let is_settled = length - before <= SETTLED * length;
+        before = length;
+        if !is_settled && ways.refine(&corners, Allowed::Depth(kept / 2.0)) {
+            continue;
+        }
+        let nearest = match certify(scene, ways.path(start, &corners), clearance) {
+            Ok(path) => {
+                let free = ways.passed(start, &corners);
+                return Some(ShortMotion { path, free, rows: ways.strips.rows() });
+            }
+            Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => nearest.at,
+            Err(Rejection::OutOfLimits { .. }) => return None,
+        };
+        refused += 1;
+        let is_finer = ways.look_about(nearest)
+            || is_settled && ways.refine(&corners, Allowed::Depth(kept / 2.0))
+            || ways.halve_at(nearest[0]);
+        if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
+            return None;
+        }
+    }
+    None
+}
+
+/// A motion that is about the shortest.
+#[derive(Debug, Clone)]
+pub struct ShortMotion {
+    /// Certified.
+    pub path: CertifiedPath,
+    /// The free stretch of each row that it passes, in order: at the least and at the greatest value of joint 2.
+    pub free: Vec<[Configuration; 2]>,
+    /// The values of joint 1 at all rows: near each other where it leads past something.
+    pub rows: Vec<f64>,
+}
+
+/// The search for the shortest way past what is closed, finer and finer.
+struct Ways<'a> {
+    motions: Motions<'a>,
+    vicinity: Vicinity<'a>,
+    strips: Strips<'a>,
+    measure: Measure,
+    start: Point,
+    /// Copies of the goals.
+    goals: Vec<Segment>,
+    limit: f64,
+    /// Goals and doors on far turns cost time, so ways are looked for nearby first: below this length.
+    near: f64,
+    /// Greatest coordinate of start and goals.
+    largest: f64,
+}
+
+impl<'a> Ways<'a> {
+    fn new(motions: Motions<'a>, limit: f64, rows: &[f64]) -> Self {
+        let Motions { scene, start, goals, clearance, metric } = motions;
+        let mut strips = Strips::new(scene, clearance, rows);
+        // Nearest to zero doubles are densest, and all turns are alike.
+        let start = Point::from(strips.topology().wrap(start));
+        let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
+        let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.coords.amax(), f64::max);
+        let measure = Measure::from(metric);
+        let goals: Vec<Segment> = goals.iter().flat_map(|piece| strips.open_goals(piece)).collect();
+        let mut goals = copies(strips.topology(), metric, start, &goals, limit);
+        let straight = |goals: &Segment| goals.distance(measure, start.coords);
+        goals.retain(|copy| straight(copy) < limit);
+        let nearest = goals.iter().map(straight).fold(limit, f64::min);
+        let near = f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit);
+        let vicinity = Vicinity::of(scene, strips.pairs().into());
+        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest }
+    }
+
+    /// The length of the shortest way past what is known to be closed, and its corners; without corners if none is as short as
+    /// the limit.
+    fn shortest(&mut self) -> (f64, Vec<Point>) {
+        let straight = |goals: &Segment| goals.distance(self.measure, self.start.coords);
+        if self.strips.count() == 0 {
+            // Joint 1 cannot move: what closes the way of joint 2 is not looked at.
+            return (self.goals.iter().map(straight).fold(self.limit, f64::min), Vec::new());
+        }
+        loop {
+            let near: Vec<Segment> = self.goals.iter().copied().filter(|goal| straight(goal) < self.near).collect();
+            match Search::new(&mut self.strips, self.measure, &near, self.near).run(self.start) {
+                Way::Shortest(length, corners) => return (length, corners),
+                Way::NoneBelow(length) if length < self.near || self.near >= self.limit => return (length, Vec::new()),
+                Way::NoneBelow(_) => self.near = (2.0 * self.near).min(self.limit),
+            }
+        }
+    }
+
+    /// Halves strips in which a way passes what is closed by more than allowed; whether there were any that can be.
+    fn refine(&mut self, corners: &[Point], allowed: Allowed) -> bool {
+        if self.strips.count() == 0 || self.strips.are_too_many() {
+            return false;
+        }
+        let Motions { scene, clearance, .. } = self.motions;
+        let passed = passed(scene, &self.vicinity, clearance, &mut self.strips, corners, self.measure, allowed);
+        !passed.is_empty() && self.strips.cut(&passed)
+    }
+
+    /// Where not all pairs are looked at: looks at those that are near at a configuration, too. Whether there are any more.
+    fn look_about(&mut self, q: Configuration) -> bool {
+        let scene = self.motions.scene;
+        if scene.pairs().len() <= MOST_PAIRS {
+            return false;
+        }
+        let mut near: Vec<(Ordered, Pair)> = scene
+            .separations(q)
+            .filter(|contact| contact.pair.link == 1)
+            .map(|contact| (Ordered(contact.separation.distance), contact.pair))
+            .collect();
+        near.sort_unstable();
+        let is_new = self.strips.add(near.into_iter().take(NEAREST).map(|(_, pair)| pair).collect());
+        if is_new {
+            self.vicinity = Vicinity::of(scene, self.strips.pairs().into());
+        }
+        is_new
+    }
+
+    /// Halves the strips that hold a value of joint 1.
+    fn halve_at(&mut self, q1: f64) -> bool {
+        let value = self.strips.topology().axes[0].wrap(q1);
+        let mut which: Vec<usize> =
+            self.strips.around(value).into_iter().map(|strip| self.strips.index(strip)).collect();
+        which.sort_unstable();
+        which.dedup();
+        !self.strips.are_too_many() && self.strips.halve(&which)
+    }
+
+    /// A length, less what rounding may have added.
+    fn rounded(&self, length: f64) -> f64 {
+        (length - f64::max(length * ROUNDING, self.largest * COORDINATES)).max(0.0)
+    }
+
+    /// The way with these corners, on the start's own turns.
+    fn path(&self, start: Configuration, corners: &[Point]) -> Path {
+        let lift = start - self.start.coords;
+        Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner.coords + lift)).collect())
+    }
+
+    /// The doors through which a way passes, on the start's own turns.
+    fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
+        let lift = start - self.start.coords;
+        let mut passed = Vec::new();
+        for ends in corners.windows(2) {
+            let (from, to) = (ends[0], ends[1]);
+            let (first, last) = (self.strips.locate(from.x.min(to.x)), self.strips.locate(from.x.max(to.x)));
+            let rows: Vec<i64> = (first + 1..=last).collect();
+            let rows: Vec<i64> = if from.x <= to.x { rows } else { rows.into_iter().rev().collect() };
+            for row in rows {
+                let q1 = self.strips.q1(row);
+                let q2 = from.y + (to.y - from.y) * ((q1 - from.x) / (to.x - from.x));
+                passed.extend(
+                    self.strips.free_about(row, q2).map(|free| free.map(|q2| Configuration::new(q1, q2) + lift)),
+                );
+            }
+        }
+        passed
+    }
+}
+
+/// All copies of the goals that may be nearer than the limit.
+fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
+    let turns = |k: usize, goals: &Segment| {
+        let mut unit = Configuration::zeros();
+        unit[k] = 1.0;
+        let far = limit / metric.norm(unit);
+        let [from, to] = goals.ends().map(|goal| goal[k]);
+        let (least, greatest) = (from.min(to), from.max(to));
+        let window = (start[k] - far - (greatest - least), start[k] + far);
+        let copies = topology.axes[k].copies_within(least, window);
+        copies.map(|copy| ((copy - least) / TAU).round()).collect::<Vec<_>>()
+    };
+    let mut copies = Vec::new();
+    for goals in goals {
+        let (first, second) = (turns(0, goals), turns(1, goals));
+        copies.extend(first.iter().flat_map(|&first| second.iter().map(move |&second| goals.turned([first, second]))));
+    }
+    copies
+}

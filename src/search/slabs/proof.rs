@@ -1,0 +1,97 @@
+//! The proof that slabs leave no connection, as boxes.
+
+use super::{ALIKE, Slab, Slabs, Span, half_of_level, index};
+use crate::check::{Disconnection, StuckBox};
+use crate::geometry::merge_in_place;
+use crate::interrupt::checkpoint;
+use crate::search::chain::{Mosaic, ends};
+use crate::space::{Configuration, GoalSet, Segment};
+
+/// Boxes of a proof at most: with more it is no use to anybody.
+const MOST_BOXES: usize = 200_000;
+
+impl Slabs<'_> {
+    /// What free and mixed spans connect with any of the places, as one flag a span.
+    fn reached(&self, places: &GoalSet) -> Vec<bool> {
+        let mut reached = vec![false; self.spans.len()];
+        let mut waiting: Vec<u32> = ends(self, places).into_iter().map(|end| end.0).collect();
+        waiting.iter().for_each(|&index| reached[index as usize] = true);
+        while let Some(index) = waiting.pop() {
+            self.for_each_neighbor(index, |next| {
+                if !std::mem::replace(&mut reached[next as usize], true) {
+                    waiting.push(next);
+                }
+            });
+        }
+        reached
+    }
+
+    /// The proof that start and goals are not connected, which no open span denies: the stuck boxes around what can be
+    /// reached from the start, or from the goals, whichever are fewer. None if boxes do not bear it out.
+    pub(super) fn disconnection(&mut self, start: Configuration, goals: &GoalSet) -> Option<Disconnection> {
+        let here = self.around(&start.into());
+        let there = self.around(goals);
+        let boxes = match (here, there) {
+            (Some(a), Some(b)) => Some(if b.len() < a.len() { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        boxes.map(Disconnection::new)
+    }
+
+    /// The stuck boxes beside what can be reached from the places, and those that hold places themselves.
+    fn around(&mut self, places: &GoalSet) -> Option<Vec<StuckBox>> {
+        let reached = self.reached(places);
+        let places: Vec<Segment> = places.wrapped(&self.topology).collect();
+        let mut boxes = Vec::new();
+        for number in 0..index(self.slabs.len()) {
+            checkpoint();
+            let slab = self.slabs[number as usize];
+            let own: Vec<u32> = self.spans_of(number).filter(|&s| reached[s as usize]).collect();
+            let beside: Vec<u32> =
+                self.beside(number).flat_map(|b| self.spans_of(b)).filter(|&s| reached[s as usize]).collect();
+            let holds_places =
+                |[lower, upper]: [f64; 2]| places.iter().any(|piece| piece.meets([slab.from, lower], [slab.to, upper]));
+            let axis = self.topology.axes[1];
+            let (bottom, top) = axis.domain();
+            if own.is_empty() && beside.is_empty() && !holds_places([bottom, top]) {
+                continue;
+            }
+            if let Some(wall) = slab.wall {
+                boxes.push(self.walls[wall as usize].clone());
+                continue;
+            }
+            if !slab.judged {
+                continue;
+            }
+            self.judge_again(number);
+            let mut merged: Vec<[f64; 2]> = self.verdicts.inner.iter().map(|i| i.1).collect();
+            merge_in_place(&mut merged);
+            let span = |s: &u32| self.spans[*s as usize];
+            let touches = |&[lower, upper]: &[f64; 2]| {
+                let across_seam = |s: Span| {
+                    axis.is_circle() && (s.lower == bottom && upper == top || s.upper == top && lower == bottom)
+                };
+                own.iter().map(span).any(|s| s.lower <= upper && lower <= s.upper || across_seam(s))
+                    || beside.iter().map(span).any(|s| s.lower < upper && lower < s.upper)
+                    || holds_places([lower, upper])
+            };
+            merged.retain(touches);
+            for (pair, interval) in &self.verdicts.inner {
+                let needed = merged.iter().any(|m| m[0] <= interval[0] && interval[1] <= m[1]);
+                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes)
+                    || boxes.len() > MOST_BOXES
+                {
+                    return None;
+                }
+            }
+        }
+        Some(boxes)
+    }
+
+    /// The verdicts on a slab once more.
+    fn judge_again(&mut self, number: u32) {
+        let Slab { from, to, level, .. } = self.slabs[number as usize];
+        let half = half_of_level(&self.topology, level) * (1.0 + 2.0 * ALIKE);
+        self.second.judge(from, to, level, half, &mut self.verdicts);
+    }
+}
