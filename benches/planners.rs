@@ -6,44 +6,44 @@ mod common;
 
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
 use cplan::input::{self, Overrides};
-use cplan::model::Problem;
-use cplan::planner::{Harmonic, Outcome, Planner, Query, Trapezoid, Visibility, Wavefront};
+use cplan::model::MotionProblem;
+use cplan::planner::{Harmonic, Planner, Proposal, Query, Trapezoid, Visibility, Wavefront};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::path::Path;
 
 /// As the program begins: obstacles grown by a thousandth of the reach, one turn to either side of the start.
-fn polygons(problem: &Problem) -> Regions {
+fn polygons(problem: &MotionProblem) -> Regions {
     regions(problem.scene(), 1e-3 * problem.scene().arm().reach(), problem.start(), 1)
 }
 
-fn cells(problem: &Problem, n: usize) -> Grid {
+fn cells(problem: &MotionProblem, n: usize) -> Grid {
     outer_grid(problem.scene(), [n, n], problem.scene().workspace().clearance)
 }
 
 /// The cells along each axis at which the program finds a path: from 256 on doubled until there is one.
-fn sufficient(problem: &Problem) -> usize {
+fn sufficient(problem: &MotionProblem) -> usize {
     let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let planner = Wavefront::default();
     let finds = |&n: &usize| {
         let space = cells(problem, n);
-        matches!(planner.query(&space, &planner.build(&space), &query).outcome, Outcome::Found(_))
+        matches!(planner.query(&space, &planner.build(&space), &query).outcome, Proposal::Found(_))
     };
     [256, 512, 1024, 2048].into_iter().find(finds).expect("a path at the finest resolution")
 }
 
-fn shelf() -> Problem {
+fn shelf() -> MotionProblem {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"].map(|file| root.join(file));
     input::load(&files[0], &files[1], &Overrides::default()).expect("a shipped workspace").problem
 }
 
-fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &Problem, planner: &P, space: &P::Space) {
+fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &MotionProblem, planner: &P, space: &P::Space) {
     let mut group = c.benchmark_group(format!("{name}/{}", P::NAME));
     group.sample_size(10);
     let query = Query { start: problem.start(), goals: problem.goals().clone() };
     let map = planner.build(space);
-    assert!(matches!(planner.query(space, &map, &query).outcome, Outcome::Found(_)), "{name}: {} fails", P::NAME);
+    assert!(matches!(planner.query(space, &map, &query).outcome, Proposal::Found(_)), "{name}: {} fails", P::NAME);
     group.bench_function("build", |b| b.iter(|| planner.build(black_box(space))));
     group.bench_function("query", |b| b.iter(|| planner.query(space, &map, black_box(&query))));
     group.finish();

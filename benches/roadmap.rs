@@ -7,7 +7,7 @@ mod roadmap;
 
 use cplan::cspace::Regions;
 use cplan::geometry::{Point, segments_cross};
-use cplan::planner::{Outcome, Planner, Query, Trapezoid, Visibility};
+use cplan::planner::{Planner, Proposal, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
 use roadmap::{Random, configuration, sides, star_crowd};
@@ -27,7 +27,7 @@ fn queries(regions: &Regions) -> Vec<Query> {
     let mut queries = Vec::new();
     while queries.len() < 32 {
         let query = Query { start: place(), goals: place().into() };
-        if matches!(planner.query(regions, &map, &query).outcome, Outcome::Found(_)) {
+        if matches!(planner.query(regions, &map, &query).outcome, Proposal::Found(_)) {
             queries.push(query);
         }
     }

@@ -32,7 +32,7 @@ fn tasks(c: &mut Criterion) {
         group.bench_function(world, |b| {
             b.iter(|| {
                 let answer = plan(black_box(&task), &manner, &mut |_| {});
-                assert_eq!(answer.verdict, TaskVerdict::Done);
+                assert_eq!(answer.verdict, TaskVerdict::Found(()));
                 answer.motions
             });
         });

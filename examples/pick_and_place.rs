@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     match &answer.verdict {
-        TaskVerdict::Done => {
+        TaskVerdict::Found(()) => {
             // All motions as one trajectory, with the arm standing still where steps end.
             if let Some(Sequence { trajectory, .. }) = Sequence::of(&answer.legs) {
                 println!("{} samples, {:.3} s in all", trajectory.time.len(), trajectory.duration());

@@ -7,7 +7,7 @@
 //! ```text
 //!  arm.urdf   world.toml
 //!      \        /
-//!      [input]            files -> Problem, or one error with file, line and cure
+//!      [input]            files -> MotionProblem, or one error with file, line and cure
 //!          |
 //!       [model]           Arm + Workspace = Scene; which pairs of shapes can meet
 //!          |
@@ -56,7 +56,15 @@ pub mod motion;
 pub mod engine;
 pub mod draw;
 pub mod report;
+pub mod output;
 pub mod cli;
+pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
+pub use geometry::Point;
+pub use input::InputError;
+pub use model::{Arm, Joint, Link, Obstacle, Outcome, Status, Workspace};
+pub use nalgebra;
+pub use space::Configuration;
+
 #[cfg(test)]
 #[path = "../tests/common/random.rs"]
 mod random;

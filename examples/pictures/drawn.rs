@@ -57,7 +57,7 @@ fn task(robot: &str, world: &str) -> Result<String, Box<dyn Error>> {
     let manner = Manner { method: Method::Shortest, effort: Effort::default(), drive: Drive::default() };
     let answer = plan(&task, &manner, &mut |_| {});
     let status = match &answer.verdict {
-        TaskVerdict::Done => "done, certified",
+        TaskVerdict::Found(()) => "done, certified",
         TaskVerdict::Infeasible(_) => "impossible, proven",
         TaskVerdict::Unknown(_) => "unknown",
     };

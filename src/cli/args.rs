@@ -3,20 +3,17 @@
 use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
 use super::demo::DemoArgs;
-use super::field_args::FieldArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::motion::MotionArgs;
-use super::path_args::PathArgs;
-use super::search_args::SearchArgs;
+use super::planner_args::PlannerArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
-use crate::engine::{Effort, Method};
+use crate::engine::Method;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::motion::SHORTEST_INTERVAL;
-use crate::space::Metric;
-use clap::{Args, Parser, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, Parser, Subcommand, ValueHint};
 use std::path::PathBuf;
 
 /// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
@@ -121,106 +118,11 @@ impl QueryArgs {
     }
 }
 
-/// How hard to try.
-#[derive(Debug, Args)]
-pub struct EffortArgs {
-    /// First number of grid cells along each axis; doubled up to 2048 where needed [default: 256; of fields as many, but
-    /// square in joint space, where a radian is as long as a metre].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=2048))]
-    pub cells: Option<u32>,
-    /// First margin of the polygons, as a share of the arm's reach; quartered where needed.
-    #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
-    pub margin: f64,
-    /// Attempts, each finer than the one before.
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u8).range(1..=12))]
-    pub levels: u8,
-}
-
-impl EffortArgs {
-    /// The same for the solver.
-    pub fn effort(&self) -> Effort {
-        let effort = Effort { levels: self.levels.into(), margin: self.margin, ..Effort::default() };
-        match self.cells {
-            Some(cells) => Effort { cells: cells as usize, square: false, ..effort },
-            None => effort,
-        }
-    }
-}
-
-/// What makes a path short.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum MetricName {
-    /// Square root of the sum of squares, radians and metres as they come.
-    Euclidean,
-    /// The same with the joints' values multiplied by --weights.
-    Weighted,
-    /// Seconds at the joints' top speeds.
-    Time,
-}
-
-/// What to optimise, and how well.
-#[derive(Debug, Args)]
-pub struct OptimumArgs {
-    /// What makes a path short (planners shortest and visibility).
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
-    pub metric: MetricName,
-    /// Weights of the joints, such as 1,0.5, for --metric weighted.
-    #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
-    pub weights: Option<Weights>,
-    /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001
-    /// (planners shortest and visibility).
-    #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
-    pub gap: Option<f64>,
-}
-
-/// Two positive numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights(pub [f64; 2]);
-
-impl OptimumArgs {
-    /// The metric, for an arm whose joints have these top speeds.
-    pub fn metric(&self, speeds: [f64; 2]) -> Metric {
-        match (self.metric, self.weights) {
-            (MetricName::Weighted, Some(Weights(weights))) => Metric::Weighted { weights },
-            (MetricName::Time, _) => Metric::Time { speeds },
-            _ => Metric::Euclidean,
-        }
-    }
-
-    /// What of it the planner cannot do, if there is something.
-    pub fn conflict(&self, planner: Method) -> Option<String> {
-        if self.weights.is_some() && self.metric != MetricName::Weighted {
-            return Some("--weights are for --metric weighted".into());
-        }
-        let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
-        let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
-        (optimises && !planner.optimises()).then(|| {
-            format!("{asked} needs --planner shortest or visibility: {planner} does not look for the shortest path")
-        })
-    }
-}
-
-fn weights(text: &str) -> Result<Weights, String> {
-    let values: Vec<f64> = text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect();
-    match values[..] {
-        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok(Weights([a, b])),
-        _ => Err("must be two positive numbers, such as 1,0.5".into()),
-    }
-}
-
-fn gap(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
-}
-
 pub(super) fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if allowed(value) => Ok(value),
         _ => Err(format!("must be a number {range}")),
     }
-}
-
-fn share(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x > 0.0 && x <= 0.1, "of more than 0 and at most 0.1 (of the arm's reach)")
 }
 
 pub(super) fn seconds(text: &str) -> Result<f64, String> {
@@ -241,15 +143,7 @@ pub struct PlanArgs {
     #[command(flatten)]
     pub query: QueryArgs,
     #[command(flatten)]
-    pub effort: EffortArgs,
-    #[command(flatten)]
-    pub optimum: OptimumArgs,
-    #[command(flatten)]
     pub motion: MotionArgs,
-    #[command(flatten)]
-    pub path: PathArgs,
-    #[command(flatten)]
-    pub search: SearchArgs,
     /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Vec<PathBuf>,
@@ -272,9 +166,9 @@ pub struct PlanArgs {
     /// No summary, no progress.
     #[arg(long)]
     pub quiet: bool,
-    // Last, because its heading is for all that follows.
+    // Last, because its headings are for all that follows.
     #[command(flatten)]
-    pub field: FieldArgs,
+    pub options: PlannerArgs,
 }
 
 /// Arguments of `check`.

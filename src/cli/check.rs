@@ -3,13 +3,13 @@
 use super::DONE;
 use super::args::CheckArgs;
 use super::failure::Failure;
-use super::output::{self, Sink};
-use super::summary::{configuration, range, value};
+use super::sinks::{self, Sink};
 use crate::cspace::{CObstacle, NearestFree, nearest_free};
 use crate::draw::Picture;
 use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use crate::input::{self, LoadedScene};
 use crate::model::{Contact, Scene, plain_line};
+use crate::output::{configuration, contours, range, value};
 use crate::space::Configuration;
 use nalgebra::Vector3;
 use serde::Serialize;
@@ -84,24 +84,24 @@ struct CornerFinding {
 /// # Errors
 /// Bad input and I/O. A configuration that is not free is no error: saying why is the job.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
-    let sinks = output::sinks(&[], &args.picture)?;
+    let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
-    output::spare_inputs(sinks.iter().map(Sink::path))?;
-    loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
     let findings = findings(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            let contours = output::contours(scene);
-            output::save_picture(*format, path, &picture(scene, q, &findings, &contours))?;
+            let contours = contours(scene);
+            sinks::save_picture(*format, path, &picture(scene, q, &findings, &contours))?;
         }
     }
     if args.json {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print_json(&(json + "\n"))?;
+        sinks::print_json(&(json + "\n"))?;
     } else {
-        output::tell(&text(&loaded, q, &findings))?;
+        sinks::tell(&text(&loaded, q, &findings))?;
     }
     Ok(DONE)
 }

@@ -2,7 +2,7 @@
 
 use super::args::Cli;
 use super::failure::Failure;
-use super::{DONE, output};
+use super::{DONE, sinks};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
@@ -32,6 +32,6 @@ pub struct CompletionsArgs {
 pub fn run(args: &CompletionsArgs) -> Result<u8, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "cplan", &mut script);
-    output::print(&String::from_utf8_lossy(&script))?;
+    sinks::print(&String::from_utf8_lossy(&script))?;
     Ok(DONE)
 }

@@ -3,9 +3,9 @@
 use super::args::PlanArgs;
 use super::failure::Failure;
 use super::fresh::{folder, spare, word};
-use super::summary::laid_out;
-use super::{DONE, output, plan};
+use super::{DONE, plan, sinks};
 use crate::input::{Source, scene_from};
+use crate::output::laid_out;
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
         )
     })?;
     if code == DONE && !args.plan.quiet && !args.plan.json {
-        output::tell(&next(&picture))?;
+        sinks::tell(&next(&picture))?;
     }
     Ok(code)
 }

@@ -1,9 +1,10 @@
 //! What ends a job before its result: exit code 1, or 2 for a wrong command line.
 
 use crate::draw::DrawError;
-use crate::engine::task::MessageError;
+use crate::engine::PlanError;
 use crate::input::InputError;
-use crate::motion::{AccelerationJump, FormatError, TimingError, WriteError};
+use crate::motion::{FormatError, TimingError, WriteError};
+use crate::output::PictureFormatError;
 use thiserror::Error;
 
 /// Bad input or I/O, in the user's words.
@@ -12,15 +13,12 @@ pub enum Failure {
     /// One of the input files or an override.
     #[error(transparent)]
     Input(#[from] InputError),
+    /// The motion cannot be planned as asked.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// The trajectory cannot be made as asked.
     #[error(transparent)]
     Trajectory(#[from] TimingError),
-    /// Accelerations that would mislead their readers.
-    #[error(transparent)]
-    Accelerations(#[from] AccelerationJump),
-    /// Joints that messages cannot name as asked.
-    #[error(transparent)]
-    Joints(#[from] MessageError),
     /// An output file.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -46,7 +44,7 @@ impl Failure {
 
     /// The process's exit code.
     pub fn exit_code(&self) -> u8 {
-        if matches!(self, Self::Usage(_)) { super::USAGE } else { super::BAD_INPUT }
+        if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { super::USAGE } else { super::BAD_INPUT }
     }
 }
 
@@ -55,6 +53,15 @@ impl From<FormatError> for Failure {
         match error {
             FormatError::Unknown { .. } => Self::Usage(error.to_string()),
             FormatError::WithoutMcap { .. } => Self::Option(error.to_string()),
+        }
+    }
+}
+
+impl From<PictureFormatError> for Failure {
+    fn from(error: PictureFormatError) -> Self {
+        match error {
+            PictureFormatError::Unknown { .. } => Self::Usage(error.to_string()),
+            PictureFormatError::WithoutPng { .. } => Self::Option(error.to_string()),
         }
     }
 }

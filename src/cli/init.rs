@@ -3,9 +3,9 @@
 use super::demo::{self, in_folder};
 use super::failure::Failure;
 use super::fresh::{folder, spare, word};
-use super::summary::laid_out;
-use super::{DONE, output, schema};
+use super::{DONE, schema, sinks};
 use crate::motion::write_whole_set;
+use crate::output::laid_out;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -208,7 +208,7 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
         (schema_file.clone(), schema::text()),
     ];
     write_whole_set(&files)?;
-    output::tell(&told(&robot, &world, &schema_file))?;
+    sinks::tell(&told(&robot, &world, &schema_file))?;
     Ok(DONE)
 }
 

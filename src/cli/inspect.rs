@@ -4,7 +4,7 @@ use super::DONE;
 use super::args::InspectArgs;
 use super::failure::Failure;
 use super::inspect_text::text;
-use super::output::{self, Sink};
+use super::sinks::{self, Sink};
 use crate::draw::{AxesFrame, Posture};
 use crate::input::{self, Defect, Inspection};
 use crate::space::Configuration;
@@ -35,23 +35,23 @@ struct DefectEntry<'a> {
 /// # Errors
 /// I/O; and, after the report, the first defect of a robot that cannot be planned with.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
-    let sinks = output::sinks(&[], &args.picture)?;
+    let sinks = sinks::sinks(&[], &args.picture)?;
     let inspection = input::inspect(&args.urdf, args.world.as_deref());
-    output::spare_inputs(sinks.iter().map(Sink::path))?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
         match posture(&inspection) {
-            Some(posture) => output::save_posture(*format, path, &posture)?,
-            None => output::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
+            Some(posture) => sinks::save_picture(*format, path, &posture)?,
+            None => sinks::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
         }
     }
     if args.json {
         let defects = inspection.errors.iter().flat_map(|e| e.defects()).map(entry).collect();
         let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, defects };
         let json = serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print_json(&(json + "\n"))?;
+        sinks::print_json(&(json + "\n"))?;
     } else {
-        output::tell(&text(&inspection))?;
+        sinks::tell(&text(&inspection))?;
     }
     match inspection.errors.into_iter().next() {
         None => Ok(DONE),

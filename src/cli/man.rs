@@ -3,7 +3,7 @@
 use super::args::Cli;
 use super::failure::Failure;
 use super::fresh::folder;
-use super::{DONE, output};
+use super::{DONE, sinks};
 use crate::motion::write_whole_set;
 use clap::{Args, Command, CommandFactory, ValueHint};
 use clap_mangen::Man;
@@ -36,7 +36,7 @@ pub fn run(args: &ManArgs) -> Result<u8, Failure> {
     command.build();
     let failed = |error: io::Error| Failure::Option(format!("manual page: {error}"));
     let Some(dir) = &args.dir else {
-        output::print(&String::from_utf8_lossy(&page(&command).map_err(failed)?))?;
+        sinks::print(&String::from_utf8_lossy(&page(&command).map_err(failed)?))?;
         return Ok(DONE);
     };
     folder(dir)?;
@@ -46,7 +46,7 @@ pub fn run(args: &ManArgs) -> Result<u8, Failure> {
     let pages = pages.map_err(failed)?;
     write_whole_set(&pages)?;
     let names: Vec<String> = pages.iter().map(|(path, _)| path.display().to_string() + "\n").collect();
-    output::print(&names.concat())?;
+    sinks::print(&names.concat())?;
     Ok(DONE)
 }
 

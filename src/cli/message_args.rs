@@ -1,10 +1,6 @@
 //! What tables and ROS 2 messages hold, on the command line.
 
-use super::failure::Failure;
-use crate::engine::task::{TaskAnswer, TaskReport};
-use crate::input::LoadedTask;
-use crate::model::RobotJoints;
-use crate::motion::Report;
+use crate::engine;
 use clap::{Args, ValueEnum};
 
 /// Joints that a message names.
@@ -28,35 +24,11 @@ pub struct MessageArgs {
     pub accelerations: bool,
 }
 
-impl MessageArgs {
-    /// Puts what was asked for into a result.
-    ///
-    /// # Errors
-    /// Accelerations that jump.
-    pub fn apply(&self, report: &mut Report, robot: &RobotJoints) -> Result<(), Failure> {
-        if self.joints == NamedJoints::All {
-            report.robot = robot.clone();
+impl From<NamedJoints> for engine::NamedJoints {
+    fn from(joints: NamedJoints) -> Self {
+        match joints {
+            NamedJoints::All => Self::All,
+            NamedJoints::Planned => Self::Planned,
         }
-        report.accelerations = self.accelerations;
-        match &report.trajectory {
-            Some(trajectory) if self.accelerations => Ok(trajectory.check_accelerations()?),
-            _ => Ok(()),
-        }
-    }
-
-    /// The same for a task.
-    ///
-    /// # Errors
-    /// Accelerations that jump, and a wrist that cannot keep up.
-    pub fn apply_to_task(
-        &self,
-        report: &mut TaskReport,
-        loaded: &LoadedTask,
-        answer: &TaskAnswer,
-    ) -> Result<(), Failure> {
-        let task = &loaded.task;
-        let planned = RobotJoints::planned(report.joints());
-        let robot = if self.joints == NamedJoints::All { &loaded.robot.joints } else { &planned };
-        Ok(report.name_joints(robot, task, answer, self.accelerations)?)
     }
 }

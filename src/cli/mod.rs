@@ -8,7 +8,6 @@ mod demo;
 mod error_json;
 mod failure;
 mod field_args;
-mod field_report;
 mod fresh;
 mod init;
 mod inspect;
@@ -18,20 +17,14 @@ mod memory;
 mod message_args;
 mod motion;
 mod names;
-mod output;
-mod path_args;
 mod plan;
-mod planned;
+mod planner_args;
 mod recheck;
 mod schema;
-mod search_args;
 #[cfg(feature = "serve")]
 mod serve;
-mod step_lines;
-mod summary;
-mod task;
+mod sinks;
 mod task_files;
-mod task_summary;
 mod variant;
 mod verify;
 
@@ -88,9 +81,9 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     ExitCode::from(done.unwrap_or_else(|failure: Failure| {
         if in_json && !failure.is_reported() {
             // A stream that is closed cannot be told so.
-            let _ = output::print(&ErrorJson::of_failure(&failure).text());
+            let _ = sinks::print(&ErrorJson::of_failure(&failure).text());
         }
-        output::say(&format!("error: {failure}"));
+        sinks::say(&format!("error: {failure}"));
         failure.exit_code()
     }))
 }
@@ -98,7 +91,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 /// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.
 fn unread(error: &clap::Error, in_json: bool) -> ExitCode {
     if in_json && error.use_stderr() {
-        let _ = output::print(&ErrorJson::of_usage(error).text());
+        let _ = sinks::print(&ErrorJson::of_usage(error).text());
     }
     // As `exit` has it: a stream that is closed is nobody's concern.
     let _ = error.print();

@@ -1,7 +1,6 @@
 //! How to drive along a path, on the command line.
 
 use super::args::{number_in, seconds};
-use crate::model::Joint;
 use crate::motion::Drive;
 use clap::Args;
 
@@ -55,13 +54,9 @@ fn jerk(text: &str) -> Result<Jerk, String> {
 }
 
 impl MotionArgs {
-    /// Puts the limits that the command line gives in place of the joints' own.
-    pub fn override_limits(&self, joints: &mut [Joint; 2]) {
-        if let Some(Jerk(jerk)) = self.jerk {
-            for (joint, jerk) in joints.iter_mut().zip(jerk) {
-                joint.jerk = jerk;
-            }
-        }
+    /// Jerks in place of the joints' own, if any are given.
+    pub fn jerk(&self) -> Option<[Option<f64>; 2]> {
+        self.jerk.map(|Jerk(jerk)| jerk)
     }
 
     /// The same for the trajectory.

@@ -1,20 +1,16 @@
-//! The main job: from two files to a certified trajectory, a proof, or neither.
+//! The main job: from two files to a certified motion, a proof, or neither.
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
-use super::field_report::field_report;
-use super::motion::MotionArgs;
-use super::output::{self, Sink};
-use super::planned::Planned;
-use super::summary::{self, Clock};
-use super::{DONE, INFEASIBLE, UNKNOWN, task};
-use crate::check::{CertifiedCurve, ProofBox};
-use crate::engine::{Answer, Bound, Effort, Method, Verdict, percent, solve};
+use super::sinks::{self, Sink};
+use super::task_files::TaskFiles;
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, InputError, LoadedScene};
-use crate::model::{Problem, Scene};
-use crate::motion::{Optimum, Report, SearchUsed, Timed};
-use crate::planner::{FieldPlanner, Wavefront};
-use crate::space::Metric;
+use crate::model::Status;
+use crate::motion::write_whole;
+use crate::output::FileFormat;
+use std::time::Instant;
 
 /// Plans, writes what was asked for, and returns the exit code.
 ///
@@ -29,151 +25,87 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
 /// # Errors
 /// Bad input and I/O.
 pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
-    let sinks = output::sinks(&args.output, &args.picture)?;
-    let conflict = args.optimum.conflict(args.planner).or_else(|| args.search.conflict(args.planner));
-    if let Some(conflict) = conflict.or_else(|| args.path.conflict(args.planner)) {
-        return Err(Failure::Usage(conflict));
-    }
-    let field = args.field.planner(args.planner).map_err(Failure::Usage)?;
-    let mut clock = Clock::start();
+    let sinks = sinks::sinks(&args.output, &args.picture)?;
+    let options = args.options()?;
+    let begun = Instant::now();
     let loaded = load()?;
-    output::spare_inputs(sinks.iter().map(Sink::path))?;
-    if loaded.has_steps() {
-        return task::run(loaded, args, field, &sinks, clock);
-    }
-    if args.per_step {
+    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
-    let mut loaded = loaded.problem(&args.query.overrides())?;
-    args.motion.override_limits(loaded.problem.joints_mut());
-    clock.stage("load");
+    if loaded.has_steps() && options.planner.gap().is_some() {
+        let message = "--gap is for a single motion; what is proven of a sequence of steps is part of every answer";
+        return Err(Failure::Usage(message.into()));
+    }
+    let problem = Problem::of_scene(loaded, &args.query.overrides())?.read_since(begun);
+    if let Some(lack) = args.options.lack(&problem.scene().workspace().preferences) {
+        return Err(Failure::Usage(lack));
+    }
+    let files = problem.task().map(|task| TaskFiles::new(&sinks, args.per_step, task.steps().count())).transpose()?;
     let say = |text: &str| {
         if !args.quiet {
-            output::say(text);
+            sinks::say(text);
         }
     };
-    loaded.robot.warnings.iter().for_each(|w| say(&format!("warning: {w}")));
-    let problem = &loaded.problem;
-    let effort = effort(problem.scene(), args, field)?;
-    let answer = solve(problem, args.planner, &effort, &mut |text| say(text));
-    clock.stages(&answer.stages);
-    if let (Some(bound), Some(gap)) = (&answer.bound, args.optimum.gap)
-        && bound.gap() > gap
-    {
-        say(&format!(
-            "warning: the gap of {} asked for is not reached: {} is proven at the finest level ({}); more --levels or a \
-             smaller --margin may do",
-            percent(gap),
-            percent(bound.gap()),
-            effort.levels
-        ));
-    }
-    let (mut report, curve) = report(problem, &answer, &args.motion)?;
-    args.message.apply(&mut report, &loaded.robot.joints)?;
-    tell_how(&mut report, &answer, &effort);
-    report.assumed = loaded.robot.assumed.clone();
-    clock.stage("trajectory");
-    if args.timings {
-        report.timings = clock.milliseconds();
-    }
-    let planned = Planned { problem, answer: &answer, curve: curve.as_ref(), report: &report, field: field.as_ref() };
-    for sink in &sinks {
-        match sink {
-            Sink::Result(format, path) => output::write_result(*format, path, &report)?,
-            Sink::Picture(format, path) => planned.save(*format, path)?,
-        }
-    }
-    clock.stage("write");
+    problem.robot().warnings.iter().for_each(|w| say(&format!("warning: {w}")));
+    let plan = plan_with(&problem, &options, &mut |text| say(text))?;
+    let begun = Instant::now();
+    let written = written(&plan, &sinks, files.as_ref())?;
+    let after = [("write", begun.elapsed())];
     if args.json {
-        output::print_json(&report.json())?;
+        sinks::print_json(&plan.to_json())?;
     } else if !args.quiet {
-        output::tell(&summary::text(&loaded, &planned, &sinks, &clock))?;
+        sinks::tell(&plan.summary_with(&written, &after))?;
     }
-    Ok(match answer.verdict {
-        Verdict::Found(_) => DONE,
-        Verdict::Infeasible(_) => INFEASIBLE,
-        Verdict::Unknown(_) => UNKNOWN,
+    Ok(match plan.status() {
+        Status::Found => DONE,
+        Status::Infeasible => INFEASIBLE,
+        Status::Unknown => UNKNOWN,
     })
 }
 
-/// How hard to try, and what for.
+/// Writes the files, and says on stderr which have no room for a result without a trajectory. The names of those that are
+/// written, for people.
 ///
 /// # Errors
-/// A field that follows preferences of the world, which has none.
-pub fn effort(scene: &Scene, args: &PlanArgs, field: Option<FieldPlanner>) -> Result<Effort, Failure> {
-    if let Some(lack) = args.field.lack(&scene.workspace().preferences) {
-        return Err(Failure::Usage(lack));
-    }
-    let metric = args.optimum.metric(scene.arm().joints.each_ref().map(|joint| joint.velocity));
-    let wavefront = args.search.wavefront();
-    Ok(Effort { metric, gap: args.optimum.gap, field, path: args.path.path, wavefront, ..args.effort.effort() })
-}
-
-/// The result file's content, and what the motion follows.
-pub(super) fn report(
-    problem: &Problem,
-    answer: &Answer,
-    motion: &MotionArgs,
-) -> Result<(Report, Option<CertifiedCurve>), Failure> {
-    let joints = &problem.scene().arm().joints;
-    let planner = answer.method.name();
-    let mut followed = None;
-    let mut report = match &answer.verdict {
-        Verdict::Found(certified) => {
-            let Timed { curve, trajectory } = motion.drive().along(problem.scene(), certified, 1.0)?;
-            let mut report = Report::found(planner, joints, &curve, trajectory);
-            report.optimum = answer.bound.map(Optimum::from);
-            report.closest = curve.nearest().map(|n| problem.scene().describe(n.contact.pair));
-            followed = Some(curve);
-            report
-        }
-        Verdict::Infeasible(proof) => {
-            let boxes = proof.stuck().len();
-            let reason = format!("proven: {boxes} boxes of colliding configurations separate start and goal");
-            let mut report = Report::infeasible(planner, joints, reason);
-            report.proof = Some(proof.stuck().iter().map(ProofBox::from).collect());
-            report
-        }
-        Verdict::Unknown(reason) => {
-            let mut report = Report::unknown(planner, joints, reason.clone());
-            report.path_exists = answer.witness.is_some().then_some(true);
-            report
-        }
+/// I/O, or a picture that cannot be made of pixels.
+fn written(plan: &Plan, sinks: &[Sink], files: Option<&TaskFiles>) -> Result<Vec<String>, Failure> {
+    let mut written = match (files, plan.task()) {
+        (Some(files), Some(task)) => files.write(&task.report)?,
+        _ => Vec::new(),
     };
-    report.free_joints = free_joints(problem);
-    report.path_kind = matches!(answer.verdict, Verdict::Found(_)).then(|| answer.path.name());
-    report.name = Some(problem.scene().workspace().name.clone()).filter(|name| !name.is_empty());
-    report.size = answer.run.size.figures().into_iter().collect();
-    Ok((report, followed))
-}
-
-/// Adds which field was followed, and how the grid was searched.
-pub(super) fn tell_how(report: &mut Report, answer: &Answer, effort: &Effort) {
-    report.field = effort.field.map(|field| field_report(&field, answer));
-    report.search = (answer.method == Method::Wavefront).then(|| SearchUsed::from(effort.wavefront));
-}
-
-/// The names of the joints that the goal leaves free.
-fn free_joints(problem: &Problem) -> Vec<String> {
-    let goals = problem.goals().pieces();
-    let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
-    (0..2).filter(is_free).map(|k| problem.scene().arm().joints[k].name.clone()).collect()
-}
-
-impl From<Bound> for Optimum {
-    fn from(bound: Bound) -> Self {
-        let (metric, weights) = match bound.metric {
-            Metric::Euclidean => ("euclidean", None),
-            Metric::Weighted { weights } => ("weighted", Some(weights)),
-            Metric::Time { .. } => ("time", None),
+    for sink in sinks {
+        let format = match *sink {
+            // Those of a task are written as a set.
+            Sink::Result(..) if files.is_some() => continue,
+            Sink::Result(format, _) => FileFormat::Result(format),
+            Sink::Picture(format, _) => FileFormat::Picture(format),
         };
-        let gap = Some(bound.gap()).filter(|gap| gap.is_finite());
-        Self { metric, weights, length: bound.upper, lower_bound: bound.lower, gap }
+        match plan.bytes(format)? {
+            Some(bytes) => {
+                write_whole(sink.path(), &bytes)?;
+                written.push(sink.path().display().to_string());
+            }
+            None => sinks::warn_unwritten(sink.path()),
+        }
     }
+    Ok(written)
 }
 
-impl From<Wavefront> for SearchUsed {
-    fn from(planner: Wavefront) -> Self {
-        Self { search: planner.search.name(), neighbors: planner.neighborhood.count() }
+impl PlanArgs {
+    /// What is asked for.
+    ///
+    /// # Errors
+    /// Options that contradict each other or the planner.
+    fn options(&self) -> Result<Options, Failure> {
+        Ok(Options {
+            planner: self.options.planner(self.planner).map_err(Failure::Usage)?,
+            levels: self.options.levels(),
+            drive: self.motion.drive(),
+            jerk: self.motion.jerk(),
+            joints: self.message.joints.into(),
+            accelerations: self.message.accelerations,
+            timings: self.timings,
+        })
     }
 }

@@ -3,7 +3,7 @@
 use super::DONE;
 use super::args::RecheckArgs;
 use super::failure::Failure;
-use super::output;
+use super::sinks;
 use crate::check::{read_proof, recheck};
 use crate::input::{self, Source};
 
@@ -13,14 +13,14 @@ use crate::input::{self, Source};
 /// Bad input, a file without a proof, and a proof that does not hold.
 pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let loaded = input::load(&args.files.urdf, &args.files.world, &args.query.overrides())?;
-    loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
     let source = Source::read(&args.proof)?;
     let boxes = read_proof(source.text()).map_err(|e| failed(e.to_string()))?;
     let problem = &loaded.problem;
     recheck(&boxes, problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
         .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;
-    output::print(&format!(
+    sinks::print(&format!(
         "the proof holds: {} boxes of collisions separate the start from every goal\n",
         boxes.len()
     ))?;

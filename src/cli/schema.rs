@@ -2,7 +2,7 @@
 
 use super::DONE;
 use super::failure::Failure;
-use super::output;
+use super::sinks;
 use crate::input::world_schema;
 
 /// What the command's help says below.
@@ -21,7 +21,7 @@ Exit codes: 0 printed, 1 I/O, 2 wrong command line.";
 /// # Errors
 /// I/O.
 pub fn run() -> Result<u8, Failure> {
-    output::print(&text())?;
+    sinks::print(&text())?;
     Ok(DONE)
 }
 

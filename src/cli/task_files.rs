@@ -1,7 +1,7 @@
 //! Files for what became of a task.
 
 use super::failure::Failure;
-use super::output::{self, Sink};
+use super::sinks::{self, Sink};
 use crate::engine::task::TaskReport;
 use crate::motion::{Format, check_writable, write_whole_set};
 use std::path::{Path, PathBuf};
@@ -39,8 +39,8 @@ impl TaskFiles {
             parted.iter().flat_map(|path| (1..=steps).map(|number| files.part(path, number))).collect();
         parts.iter().try_for_each(|part| check_writable(part))?;
         let others = sinks.iter().map(Sink::path).filter(|path| !per_step || !parted.contains(path));
-        output::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
-        output::spare_inputs(parts.iter().map(PathBuf::as_path))?;
+        sinks::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
+        sinks::spare_inputs(parts.iter().map(PathBuf::as_path))?;
         Ok(files)
     }
 
@@ -63,7 +63,7 @@ impl TaskFiles {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {
-                output::warn_unwritten(path);
+                sinks::warn_unwritten(path);
             }
         }
         write_whole_set(&files)?;
@@ -97,7 +97,7 @@ impl TaskFiles {
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {
-            output::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
+            sinks::say(&format!("warning: {} is left from another task, and perhaps more files", next.display()));
         }
     }
 }

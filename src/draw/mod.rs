@@ -33,10 +33,8 @@ mod trace;
 mod view;
 mod workspace;
 
-#[cfg(feature = "png")]
-pub use task::task_png;
 pub use task::{TaskPicture, task_svg};
-pub use view::{Ending, View, page, shell};
+pub use view::{View, page, shell};
 
 use crate::check::StuckBox;
 use crate::cspace::CObstacle;
@@ -152,26 +150,17 @@ pub fn svg(picture: &Picture) -> String {
     svg_writer::write(&page::compose(picture))
 }
 
-/// The picture as a PNG file of 1400 x 720 pixels times `scale`.
+/// An SVG document as a PNG file, of its size times `scale`.
 ///
 /// # Errors
 /// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
 #[cfg(feature = "png")]
-pub fn png(picture: &Picture, scale: f64) -> Result<Vec<u8>, DrawError> {
-    png_writer::write(&svg(picture), scale)
+pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
+    png_writer::write(svg, scale)
 }
 
 /// The posture as an SVG document of 1400 x 720 pixels: the workspace alone.
 #[must_use]
 pub fn posture_svg(posture: &Posture) -> String {
     svg_writer::write(&page::compose_posture(posture))
-}
-
-/// The posture as a PNG file of 1400 x 720 pixels times `scale`.
-///
-/// # Errors
-/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
-#[cfg(feature = "png")]
-pub fn posture_png(posture: &Posture, scale: f64) -> Result<Vec<u8>, DrawError> {
-    png_writer::write(&posture_svg(posture), scale)
 }

@@ -6,7 +6,7 @@
 
 use crate::check::certify;
 use crate::cspace::{Grid, Regions, ZonedGrid, free_stretches};
-use crate::model::{Problem, Scene};
+use crate::model::{MotionProblem, Scene};
 use crate::planner::Query;
 use crate::space::{Configuration, Path, Segment, Topology};
 use std::f64::consts::TAU;
@@ -89,7 +89,7 @@ const SAME: f64 = 1e-9;
 impl Ends {
     /// Single goals that the space does not know are replaced; of segments the space knows some part, as a rule, and for each
     /// free stretch of which it knows nothing something stands in for its middle.
-    pub fn new(problem: &Problem, space: &impl Admit) -> Self {
+    pub fn new(problem: &MotionProblem, space: &impl Admit) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
         let mut goals: Vec<Segment> = Vec::new();

@@ -1,6 +1,6 @@
 //! How far a path is from the optimum, at the most.
 
-use crate::model::Problem;
+use crate::model::MotionProblem;
 use crate::search::{Motions, least_length};
 use crate::space::{Metric, Path};
 
@@ -33,13 +33,13 @@ pub fn percent(share: f64) -> String {
 /// A bound for `path`; see [`least_length`]. It is made better until the gap is known to be below `gap` (0.001 for a
 /// thousandth), or cannot be. Milliseconds, as a rule.
 #[must_use]
-pub fn bound(problem: &Problem, path: &Path, metric: Metric, gap: f64) -> Bound {
+pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> Bound {
     let upper = metric.length(path);
     Bound { metric, lower: least_length(&motions(problem, metric), upper, gap, &[]), upper }
 }
 
 /// All motions that answer a problem.
-pub(super) fn motions(problem: &Problem, metric: Metric) -> Motions<'_> {
+pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> Motions<'_> {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
     Motions { scene, start: problem.start(), goals: problem.goals(), clearance, metric }

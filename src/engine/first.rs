@@ -2,12 +2,12 @@
 
 use super::settle::decide;
 use super::{Answer, Effort, Method, Space, Stages, Verdict};
-use crate::model::Problem;
-use crate::planner::{Outcome, PathKind, Run, Size, Trace};
+use crate::model::MotionProblem;
+use crate::planner::{PathKind, Proposal, Run, Size, Trace};
 use std::time::Instant;
 
 /// Answers `problem` by [`decide`].
-pub(super) fn solve(problem: &Problem, effort: &Effort) -> Answer {
+pub(super) fn solve(problem: &MotionProblem, effort: &Effort) -> Answer {
     let clock = Instant::now();
     let verdict = decide(problem, effort.boxes);
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
@@ -17,9 +17,9 @@ pub(super) fn solve(problem: &Problem, effort: &Effort) -> Answer {
 /// An answer of a method that builds no space, from its verdict alone.
 pub(super) fn answer(method: Method, verdict: Verdict, stages: Stages) -> Answer {
     let outcome = match &verdict {
-        Verdict::Found(path) => Outcome::Found(path.path().clone()),
-        Verdict::Infeasible(_) => Outcome::NoPath,
-        Verdict::Unknown(reason) => Outcome::GaveUp(reason.clone()),
+        Verdict::Found(path) => Proposal::Found(path.path().clone()),
+        Verdict::Infeasible(_) => Proposal::NoPath,
+        Verdict::Unknown(reason) => Proposal::GaveUp(reason.clone()),
     };
     let run = Run { outcome, trace: Trace::Rows { free: Vec::new() }, size: Size::Nothing, note: None };
     let (history, witness, bound) = (Vec::new(), None, None);

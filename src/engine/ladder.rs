@@ -6,8 +6,8 @@ use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells
 use super::settle::decide;
 use super::{Answer, Effort, Method, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::check::{CertifiedPath, Rejection, certify};
-use crate::model::{Problem, Scene};
-use crate::planner::{FieldPlanner, Harmonic, Outcome, Planner, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::model::{MotionProblem, Scene};
+use crate::planner::{FieldPlanner, Harmonic, Planner, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
 use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
@@ -27,7 +27,7 @@ const LAST_LOOK: usize = 2;
 
 /// Answers `problem` with `method`. `progress` hears about attempts that failed.
 #[must_use]
-pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+pub fn solve(problem: &MotionProblem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     let path = effort.path.unwrap_or(method.path_kind());
     match method {
         Method::Shortest => shortest::solve(problem, effort, progress),
@@ -45,7 +45,7 @@ pub fn solve(problem: &Problem, method: Method, effort: &Effort, progress: &mut 
 
 /// By a visibility graph, on behalf of `method`.
 pub(super) fn climb_polygons(
-    problem: &Problem,
+    problem: &MotionProblem,
     method: Method,
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
@@ -55,7 +55,7 @@ pub(super) fn climb_polygons(
 
 /// Level after level, until a path is good enough or a proof is found.
 fn climb<P: Planner>(
-    problem: &Problem,
+    problem: &MotionProblem,
     method: Method,
     effort: &Effort,
     progress: &mut dyn FnMut(&str),
@@ -120,7 +120,7 @@ where
 
 /// What is known on the way up the ladder.
 struct Climb<'a> {
-    problem: &'a Problem,
+    problem: &'a MotionProblem,
     method: Method,
     effort: &'a Effort,
     level: usize,
@@ -133,11 +133,11 @@ struct Climb<'a> {
 
 impl Climb<'_> {
     /// What a level's outcome is worth. Why to go on, in words; none if there is no reason to.
-    fn judge(&mut self, ends: &Ends, outcome: &Outcome) -> Option<String> {
+    fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
         let proposal = match outcome {
-            Outcome::Found(path) => path,
-            Outcome::NoPath => return self.unless_content("no path in it".into()),
-            Outcome::GaveUp(reason) => return self.unless_content(reason.clone()),
+            Proposal::Found(path) => path,
+            Proposal::NoPath => return self.unless_content("no path in it".into()),
+            Proposal::GaveUp(reason) => return self.unless_content(reason.clone()),
         };
         match self.certified(ends, proposal) {
             Ok(path) => {
@@ -198,8 +198,8 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
         return query(&ends.query);
     }
     let length = |run: &Run| match &run.outcome {
-        Outcome::Found(path) => metric.length(&ends.past_stand_ins(path).unwrap_or_else(|| ends.complete(path))),
-        Outcome::NoPath | Outcome::GaveUp(_) => f64::INFINITY,
+        Proposal::Found(path) => metric.length(&ends.past_stand_ins(path).unwrap_or_else(|| ends.complete(path))),
+        Proposal::NoPath | Proposal::GaveUp(_) => f64::INFINITY,
     };
     let one = |piece: &Segment| query(&Query { start: ends.query.start, goals: (*piece).into() });
     let each = ends.query.goals.pieces().iter().map(one);
@@ -208,7 +208,7 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
 }
 
 /// Whether there is a path at all, whatever a planner's space shows; none if that is not known.
-fn settle(problem: &Problem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
+fn settle(problem: &MotionProblem, boxes: usize, stages: &mut Stages) -> Option<Verdict> {
     let clock = Instant::now();
     let verdict = decide(problem, boxes);
     stages.prove += clock.elapsed();

@@ -6,11 +6,17 @@
 
 mod admission;
 mod bound;
+mod clock;
 mod corners;
 mod effort;
+mod field_report;
 mod first;
 mod ladder;
 mod method;
+mod motion_plan;
+mod options;
+mod plan;
+mod problem;
 mod rungs;
 mod settle;
 mod shortest;
@@ -22,27 +28,25 @@ pub use bound::{Bound, bound, percent};
 pub use effort::Effort;
 pub use ladder::solve;
 pub use method::Method;
+pub use motion_plan::MotionPlan;
+pub use options::{CELLS, Criterion, LEVELS, MOST_MARGIN, NamedJoints, Options, Planner};
+pub(crate) use plan::Made;
+pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
+pub use problem::{Problem, ProblemError};
 pub use settle::decide;
 
 use crate::check::{CertifiedPath, Disconnection, StuckBox};
 use crate::cspace::{Grid, Regions};
-use crate::planner::{PathKind, Planner, Run, Trace, Visibility};
+use crate::model::Outcome;
+use crate::planner::{PathKind, Planner as _, Run, Trace, Visibility};
 use crate::space::Configuration;
 use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::ops::Add;
 use std::time::Duration;
 
-/// The answer to a problem.
-#[derive(Debug, Clone)]
-pub enum Verdict {
-    /// A motion that is proven free.
-    Found(CertifiedPath),
-    /// There is none: proven.
-    Infeasible(Disconnection),
-    /// Neither within the effort: why, in words.
-    Unknown(String),
-}
+/// The answer to a problem: a motion that is proven free, a proof that there is none, or why neither is known within the effort.
+pub type Verdict = Outcome<CertifiedPath, Disconnection>;
 
 impl Verdict {
     /// The boxes that prove that there is no path; none where that is not proven.

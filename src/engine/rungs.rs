@@ -2,7 +2,7 @@
 
 use super::{Effort, Space};
 use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_rows, outer_grid, regions, traced_pairs};
-use crate::model::Problem;
+use crate::model::MotionProblem;
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
 const MOST_CELLS: usize = 2048;
@@ -14,7 +14,7 @@ const STROKE: f64 = 0.1;
 const PERIODS: usize = 1;
 
 /// Builds the space of one level; none when there is no finer one.
-pub(super) type Builder<S> = fn(&Problem, &Effort, usize) -> Option<S>;
+pub(super) type Builder<S> = fn(&MotionProblem, &Effort, usize) -> Option<S>;
 
 /// Pairs of shapes that polygons are made of on the first level: a second's worth, or two. With more, the margin is greater,
 /// ...
@@ -27,7 +27,7 @@ const WIDER: (f64, usize) = (2.0, 6);
 const MOST_PAIRS: usize = 16_384;
 
 /// Polygons grown by the level's margin, a quarter of that of the level before.
-pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Option<Regions> {
+pub(super) fn polygons(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
     let (mut margin, (factor, times)) = (margin(problem, effort, level), WIDER);
@@ -42,7 +42,7 @@ pub(super) fn polygons(problem: &Problem, effort: &Effort, level: usize) -> Opti
 }
 
 /// The level's margin, metres.
-fn margin(problem: &Problem, effort: &Effort, level: usize) -> f64 {
+fn margin(problem: &MotionProblem, effort: &Effort, level: usize) -> f64 {
     let arm = problem.scene().arm();
     let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
     let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
@@ -56,13 +56,13 @@ const MOST_OBLONG: f64 = 16.0;
 /// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
 /// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
 /// the time that wholly free cells of the same passage take.
-pub(super) fn cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
+pub(super) fn cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Grid> {
     let n = side(effort, level)?;
     Some(grid(problem, level, [n, n]))
 }
 
 /// As many cells for a field, square ones if wanted.
-pub(super) fn field_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<Grid> {
+pub(super) fn field_cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Grid> {
     if !effort.square {
         return cells(problem, effort, level);
     }
@@ -74,7 +74,7 @@ pub(super) fn field_cells(problem: &Problem, effort: &Effort, level: usize) -> O
 }
 
 /// The same with the workspace's preferences.
-pub(super) fn zoned_cells(problem: &Problem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
+pub(super) fn zoned_cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
     field_cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
@@ -84,7 +84,7 @@ fn side(effort: &Effort, level: usize) -> Option<usize> {
     (level < 2 || n <= MOST_CELLS).then_some(n)
 }
 
-fn grid(problem: &Problem, level: usize, shape: [usize; 2]) -> Grid {
+fn grid(problem: &MotionProblem, level: usize, shape: [usize; 2]) -> Grid {
     let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_rows };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }

@@ -5,7 +5,7 @@ use super::ladder::explain;
 use super::subdivision::certified;
 use super::thinned::Thinned;
 use crate::check::Disconnection;
-use crate::model::{Pair, Problem};
+use crate::model::{MotionProblem, Pair};
 use crate::search::{Connectivity, connectivity, slab_connectivity};
 
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
@@ -39,13 +39,13 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 /// Unknown is no last word: [`super::solve`] knows other ways, and more boxes may tell, but among thousands of pieces: there no more
 /// than a second's worth of each are looked at.
 #[must_use]
-pub fn decide(problem: &Problem, boxes: usize) -> Verdict {
-    let pairs = |problem: &Problem| problem.scene().pairs().len();
+pub fn decide(problem: &MotionProblem, boxes: usize) -> Verdict {
+    let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {
         let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller: BOXES_FOR_SMALLER.max(boxes) };
         return asked(problem, problem, &|pair| pair, limits);
     }
-    let limited = |asked: &Problem| {
+    let limited = |asked: &MotionProblem| {
         let [slabs, boxes] = LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
         Limits { slabs, boxes, for_smaller: BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1)) }
     };
@@ -69,7 +69,7 @@ struct Limits {
 }
 
 /// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
-fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, limits: Limits) -> Verdict {
+fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, limits: Limits) -> Verdict {
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
@@ -87,7 +87,7 @@ fn asked(problem: &Problem, some: &Problem, in_truth: &dyn Fn(Pair) -> Pair, lim
 }
 
 /// A large proof by slabs with fewer boxes: the largest of its own, or what `by_boxes` takes.
-fn small(problem: &Problem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
+fn small(problem: &MotionProblem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
     let proof = match proof.slimmed_to(LARGE_PROOF, |proof| holds(problem, proof)) {
         Ok(smaller) => return Verdict::Infeasible(smaller),
         Err(proof) => proof,
@@ -106,7 +106,7 @@ fn small(problem: &Problem, proof: Disconnection, by_boxes: impl Fn() -> Verdict
 }
 
 /// What a search's answer is worth.
-fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivity) -> Verdict {
+fn judged(problem: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivity) -> Verdict {
     match answer {
         Connectivity::Connected(channel) => certified(problem, &channel).map_or_else(
             |rejection| Verdict::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
@@ -121,12 +121,12 @@ fn judged(problem: &Problem, in_truth: &dyn Fn(Pair) -> Pair, answer: Connectivi
 }
 
 /// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
-pub(super) fn checked(problem: &Problem, proof: Disconnection) -> Option<Disconnection> {
+pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<Disconnection> {
     holds(problem, &proof).then(|| proof.slimmed(|some| holds(problem, some)))
 }
 
 /// Whether it passes the independent check.
-fn holds(problem: &Problem, proof: &Disconnection) -> bool {
+fn holds(problem: &MotionProblem, proof: &Disconnection) -> bool {
     let clearance = problem.scene().workspace().clearance;
     proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok()
 }

@@ -11,7 +11,7 @@ use super::ladder::{CLOSE, FIRST_BOXES, climb_polygons};
 use super::settle::decide;
 use super::{Answer, Effort, Method, Stages, Verdict};
 use crate::check::CertifiedPath;
-use crate::model::Problem;
+use crate::model::MotionProblem;
 use crate::planner::{Size, Trace};
 use crate::search::{least_length, short_motion};
 use std::time::Instant;
@@ -36,7 +36,7 @@ const SPENT: f64 = 0.9;
 
 /// Answers `problem` with about the shortest path. Where slabs do not tell whether there is one, or it is not proven to be within
 /// the gap, a visibility graph has its turn, and the better of both paths is the answer.
-pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+pub(super) fn solve(problem: &MotionProblem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     let clock = Instant::now();
     let first = decide(problem, effort.boxes.min(FIRST_BOXES));
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
@@ -82,7 +82,7 @@ fn is_content(answer: &Answer, effort: &Effort) -> bool {
 }
 
 /// The answer that begins with a first path.
-fn shorter(problem: &Problem, effort: &Effort, first: CertifiedPath, mut stages: Stages) -> Answer {
+fn shorter(problem: &MotionProblem, effort: &Effort, first: CertifiedPath, mut stages: Stages) -> Answer {
     let gap = effort.gap.unwrap_or(CLOSE);
     let motions = motions(problem, effort.metric);
     let length = |path: &CertifiedPath| effort.metric.length(path.path());

@@ -6,15 +6,15 @@ use super::{Answer, Effort, Method, Space, Stages, Verdict};
 use crate::check::CertifiedPath;
 use crate::check::{Rejection, certify};
 use crate::geometry::Point;
-use crate::model::Problem;
-use crate::planner::{Outcome, Passage, PathKind, Run, Size, Trace, nearest_end, taut_string};
+use crate::model::MotionProblem;
+use crate::planner::{Passage, PathKind, Proposal, Run, Size, Trace, nearest_end, taut_string};
 use crate::search::{Channel, Connectivity, Exploration, Occupancy, explore};
 use crate::space::{Configuration, Path};
 use std::time::Instant;
 
 /// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
 /// [`Effort::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
-pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+pub(super) fn solve(problem: &MotionProblem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
     let mut stages = Stages::default();
@@ -32,10 +32,10 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
             };
             stages.certify = clock.elapsed();
             match certified {
-                Ok(path) => (Outcome::Found(path.path().clone()), Verdict::Found(path)),
+                Ok(path) => (Proposal::Found(path.path().clone()), Verdict::Found(path)),
                 Err(rejection) => {
                     let reason = format!("its path is not certified: {}", explain(scene, rejection));
-                    (Outcome::Found(channel.path()), Verdict::Unknown(reason))
+                    (Proposal::Found(channel.path()), Verdict::Unknown(reason))
                 }
             }
         }
@@ -44,11 +44,11 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
             stages.prove = clock.elapsed();
             let refused = || Verdict::Unknown("its proof does not hold".into());
             let verdict = proof.map_or_else(refused, Verdict::Infeasible);
-            (Outcome::NoPath, verdict)
+            (Proposal::NoPath, verdict)
         }
         Connectivity::Undecided { boxes, .. } => {
             let reason = format!("{boxes} boxes do not tell whether there is a path");
-            (Outcome::GaveUp(reason.clone()), Verdict::Unknown(reason))
+            (Proposal::GaveUp(reason.clone()), Verdict::Unknown(reason))
         }
     };
     if let Verdict::Unknown(reason) = &verdict {
@@ -70,7 +70,7 @@ pub(super) fn solve(problem: &Problem, effort: &Effort, progress: &mut dyn FnMut
 
 /// The shortest path through the channel, or, should rounding spoil it where it touches the sides, the one through the
 /// middles.
-pub(super) fn certified(problem: &Problem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
+pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<CertifiedPath, Rejection> {
     let clearance = problem.scene().workspace().clearance;
     certify(problem.scene(), taut(channel), clearance).or_else(|_| certify(problem.scene(), channel.path(), clearance))
 }

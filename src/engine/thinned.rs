@@ -1,13 +1,13 @@
 //! Problems with fewer pieces of obstacles: what is closed there is closed in truth.
 
 use crate::geometry::{Convex, Point};
-use crate::model::{Obstacle, Pair, Problem};
+use crate::model::{MotionProblem, Obstacle, Pair};
 use std::collections::HashMap;
 
 /// A problem with some of the pieces of its obstacles.
 pub(super) struct Thinned {
     /// The problem.
-    pub problem: Problem,
+    pub problem: MotionProblem,
     /// For each obstacle the numbers that its pieces have in truth, and how many these are in all.
     kept: Vec<(Vec<usize>, usize)>,
 }
@@ -16,7 +16,7 @@ impl Thinned {
     /// Of pieces whose bounds are the same on a lattice of so many metres, and that lean the same way, only the largest.
     ///
     /// What is left out lies about where something else lies, which is not needed: fewer obstacles close less. `O(n)`.
-    pub fn new(problem: &Problem, lattice: f64) -> Self {
+    pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
         let kept: Vec<(Vec<usize>, usize)> = problem
             .scene()
             .workspace()
@@ -30,7 +30,7 @@ impl Thinned {
             kept.iter().map(|&k| obstacle.pieces[k].clone()).collect()
         };
         let scene = problem.scene().reshaped(Convex::clone, some);
-        Self { problem: Problem::trusted(scene, problem.start(), problem.goals().clone()), kept }
+        Self { problem: MotionProblem::trusted(scene, problem.start(), problem.goals().clone()), kept }
     }
 
     /// The pair that a pair of the thinned scene is in truth.

@@ -5,7 +5,7 @@
 //!       |
 //! world.toml --+-> World ------------------+            +--> Task (of a world with steps)
 //!              |                           +--> Scene --+
-//! arm.urdf ----+-> Arm (planar reduction) -+            +--> Problem (of any other)
+//! arm.urdf ----+-> Arm (planar reduction) -+            +--> MotionProblem (of any other)
 //!                                                       |
 //! --start, --goal, --goal-tip, --clearance -------------+
 //!
@@ -65,7 +65,7 @@ pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 pub use world::World;
 
-use crate::model::{AssumedLimits, Goal, Problem, RobotJoints, Scene};
+use crate::model::{AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
 use std::path::Path;
 
 /// What the user should know of how the robot was read.
@@ -99,7 +99,7 @@ pub struct LoadedScene {
 #[derive(Debug, Clone)]
 pub struct Loaded {
     /// Scene, start and goals; start and goals are within the limits and free.
-    pub problem: Problem,
+    pub problem: MotionProblem,
     /// How the robot was read.
     pub robot: RobotReport,
     /// What the user should know of the goal: branches that are blocked, joints whose value does not matter.

@@ -7,7 +7,7 @@ use super::posture::{
 };
 use super::{Loaded, LoadedScene, Overrides};
 use crate::geometry::Point;
-use crate::model::{BlockedStretch, Freedom, Goal, Problem, Scene, inverse};
+use crate::model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
 use std::ops::Range;
 
@@ -51,7 +51,7 @@ impl LoadedScene {
             }
             Goal::Tip(tip) => loaded.postures(tip, start, &place, &mut notes).map_err(about)?,
         };
-        Ok(Loaded { problem: Problem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
+        Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
 
     fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {

@@ -2,9 +2,9 @@
 
 use super::error::Defect;
 use super::schema::Positive;
-use super::urdf::{DEFAULT_TIME_TO_TOP_SPEED, assumed_acceleration};
 use super::world::{Number, Reader};
 use crate::model::Wrist;
+use crate::model::{TIME_TO_TOP_SPEED, assumed_acceleration};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::Spanned;
@@ -40,7 +40,7 @@ impl WristTable {
     pub fn note(&self, wrist: &Wrist) -> Option<String> {
         self.acceleration.is_none().then(|| {
             format!(
-                "wrist: no acceleration limit given; taken as {:.3} rad/s^2 (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)",
+                "wrist: no acceleration limit given; taken as {:.3} rad/s^2 (top speed in {TIME_TO_TOP_SPEED} s)",
                 wrist.acceleration
             )
         })

@@ -1,7 +1,7 @@
 //! The planar two-joint arm and its kinematics.
 
 use super::{Joint, Link, Motion};
-use crate::geometry::{Point, Pose, Vector, perpendicular};
+use crate::geometry::{ConvexDefect, Point, Pose, Vector, perpendicular};
 use crate::space::{Configuration, Topology};
 use nalgebra::{Isometry2, Translation2, Vector3};
 
@@ -49,6 +49,38 @@ pub struct Arm {
 }
 
 impl Arm {
+    /// An arm whose joint 2 and tip lie on the x axis of the links at zero, joint 1 at the origin: joint 2 at `reaches[0]` from
+    /// joint 1, the tip at `reaches[1]` from joint 2, metres.
+    #[must_use]
+    pub fn new(joints: [Joint; 2], links: [Link; 2], reaches: [f64; 2]) -> Self {
+        let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
+        let [offset, tip] = reaches;
+        Self {
+            name: "arm".into(),
+            joints,
+            links,
+            base: Point::origin(),
+            offset: Vector::new(offset, 0.0),
+            tip: Point::new(tip, 0.0),
+            tip_name: "tip".into(),
+            plane,
+        }
+    }
+
+    /// Two bars of these lengths and this width with round ends, metres, on joints that turn without end.
+    ///
+    /// ```
+    /// let arm = cplan::Arm::rr([1.0, 0.8], 0.06).expect("an arm");
+    /// assert_eq!((arm.kind(), arm.reach()), ("RR", 1.83));
+    /// ```
+    ///
+    /// # Errors
+    /// Sizes that are not finite and positive.
+    pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexDefect> {
+        let links = [Link::bar("link 1", lengths[0], width)?, Link::bar("link 2", lengths[1], width)?];
+        Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
+    }
+
     /// The space of configurations.
     #[must_use]
     pub fn topology(&self) -> Topology {

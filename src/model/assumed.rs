@@ -3,6 +3,20 @@
 use serde::Serialize;
 use std::collections::BTreeMap;
 
+/// Top speed of a joint that turns, without one of its own; rad/s.
+pub(crate) const TURNING_SPEED: f64 = 1.0;
+
+/// The same of one that slides; m/s.
+pub(crate) const SLIDING_SPEED: f64 = 0.25;
+
+/// Seconds to top speed, without a limit on the acceleration.
+pub(crate) const TIME_TO_TOP_SPEED: f64 = 0.25;
+
+/// The greatest acceleration of a joint that has none, of its top speed.
+pub(crate) fn assumed_acceleration(velocity: f64) -> f64 {
+    (velocity / TIME_TO_TOP_SPEED).min(f64::MAX)
+}
+
 /// Defaults that were taken for want of limits, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
 /// certificate and proof do not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]

@@ -1,5 +1,6 @@
 //! One joint of the planar arm.
 
+use super::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::geometry::Vector;
 use crate::space::Axis;
 
@@ -44,6 +45,42 @@ pub struct Joint {
 }
 
 impl Joint {
+    /// A joint that turns counter-clockwise from `lower` to `upper`, radians; at 1 rad/s, which [`Joint::at_most`] changes.
+    #[must_use]
+    pub fn turning(name: &str, lower: f64, upper: f64) -> Self {
+        Self::moving(name, Motion::Revolute { sign: 1.0 }, Axis::Interval { lower, upper }, TURNING_SPEED)
+    }
+
+    /// A joint that turns counter-clockwise without end.
+    #[must_use]
+    pub fn continuous(name: &str) -> Self {
+        Self::moving(name, Motion::Revolute { sign: 1.0 }, Axis::Circle, TURNING_SPEED)
+    }
+
+    /// A joint that slides along a direction of length 1, from `lower` to `upper`, metres; at 0.25 m/s.
+    #[must_use]
+    pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
+        Self::moving(name, Motion::Prismatic { direction }, Axis::Interval { lower, upper }, SLIDING_SPEED)
+    }
+
+    fn moving(name: &str, motion: Motion, axis: Axis, velocity: f64) -> Self {
+        let acceleration = assumed_acceleration(velocity);
+        Self { name: name.into(), motion, axis, velocity, acceleration, jerk: None }
+    }
+
+    /// The same joint with this top speed and greatest acceleration, radians or metres and seconds.
+    #[must_use]
+    pub fn at_most(self, velocity: f64, acceleration: f64) -> Self {
+        Self { velocity, acceleration, ..self }
+    }
+
+    /// Gives joints other limits on their jerk, if any are given.
+    pub(crate) fn override_jerks(joints: &mut [Joint; 2], jerks: Option<[Option<f64>; 2]>) {
+        for (joint, jerk) in joints.iter_mut().zip(jerks.into_iter().flatten()) {
+            joint.jerk = jerk;
+        }
+    }
+
     /// Unit of the joint's value: `rad` or `m`.
     #[must_use]
     pub fn unit(&self) -> &'static str {

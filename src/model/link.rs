@@ -1,7 +1,7 @@
 //! The outline of a link.
 
 use super::Heights;
-use crate::geometry::Convex;
+use crate::geometry::{Convex, ConvexDefect, Point};
 
 /// Where a link's outline comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,4 +37,23 @@ pub struct Link {
     pub parts: Vec<Part>,
     /// Where the outline comes from.
     pub source: OutlineSource,
+}
+
+impl Link {
+    /// A link of these shapes, at all heights; no shapes for one that cannot collide.
+    #[must_use]
+    pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
+        let part = |shape| Part { shape, heights: Heights::ALL, body: name.into() };
+        let parts: Vec<Part> = shapes.into_iter().map(part).collect();
+        let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
+        Self { name: name.into(), parts, source }
+    }
+
+    /// A bar with round ends along x from the joint, metres.
+    ///
+    /// # Errors
+    /// A width or length that is not finite and positive.
+    pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexDefect> {
+        Ok(Self::of(name, [Convex::new(vec![Point::origin(), Point::new(length, 0.0)], width / 2.0)?]))
+    }
 }

@@ -58,13 +58,13 @@ pub enum ProblemDefect {
 /// The start lies within the joint limits and is free. There is at least one goal; goals lie within the limits. Single
 /// configurations among them are free; of a segment only a part may be.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Problem {
+pub struct MotionProblem {
     scene: Scene,
     start: Configuration,
     goals: GoalSet,
 }
 
-impl Problem {
+impl MotionProblem {
     /// From a start to any of the goals: a configuration, a segment of them, or a set. `O(n)` distances in the scene's pairs
     /// for the start and for each goal.
     ///

@@ -1,7 +1,7 @@
 //! Obstacles in the plane.
 
 use super::Preference;
-use crate::geometry::{Convex, Point, Pose};
+use crate::geometry::{Convex, ConvexDefect, Point, PolygonDefect, Pose, SimplePolygon};
 
 /// Extent along the plane's normal, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,4 +79,52 @@ pub struct Workspace {
     pub clearance: f64,
     /// Regions that field planners may prefer or avoid, in the order of the file; of several that hold the last counts.
     pub preferences: Vec<Preference>,
+}
+
+impl Obstacle {
+    /// A simple polygon, either orientation, at all heights. Corners in metres, in order round the shape.
+    ///
+    /// # Errors
+    /// Corners of no simple polygon.
+    pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonDefect> {
+        let polygon = SimplePolygon::new(points(corners))?;
+        let (shape, pieces) = (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces());
+        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
+    }
+
+    /// A disc, metres.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, and a negative radius.
+    pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexDefect> {
+        let center = Point::from(center);
+        let pieces = vec![Convex::disc(center, radius)?];
+        Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
+    }
+
+    /// A thin wall through these points, metres: no area, still solid; a point if there is only one.
+    ///
+    /// # Errors
+    /// No point at all, and numbers that are not finite.
+    pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexDefect> {
+        let points = points(through);
+        let pieces = match points[..] {
+            [] | [_] => vec![Convex::new(points.clone(), 0.0)?],
+            _ => points.windows(2).map(|ends| Convex::segment(ends[0], ends[1])).collect::<Result<_, _>>()?,
+        };
+        Ok(Self { name: name.into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL })
+    }
+}
+
+fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
+    coordinates.into_iter().map(Point::from).collect()
+}
+
+impl Workspace {
+    /// These obstacles, without a clearance to keep.
+    #[must_use]
+    pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
+        let obstacles = obstacles.into_iter().collect();
+        Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
+    }
 }

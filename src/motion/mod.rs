@@ -56,7 +56,7 @@ pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
 pub use message::{AccelerationJump, JointMotion};
 pub(crate) use result::interpolation;
-pub use result::{Blends, Optimum, Report, SearchUsed, Status};
+pub use result::{Blends, Optimum, Report, SearchUsed};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;

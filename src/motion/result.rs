@@ -3,7 +3,7 @@
 use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
 use crate::check::{CertifiedCurve, ProofBox};
-use crate::model::{AssumedLimits, Joint, RobotJoints};
+use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
 use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -11,18 +11,6 @@ use std::collections::BTreeMap;
 /// How to read trajectories of these joints.
 pub(crate) fn interpolation(joints: &[Joint; 2]) -> &'static str {
     if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
-}
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// A path was found, and it is certified.
-    Found,
-    /// There is no path: proven.
-    Infeasible,
-    /// No path found and none ruled out.
-    Unknown,
 }
 
 /// A path's place between a proven lower bound on the length of every free motion and its own length.

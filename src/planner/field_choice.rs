@@ -63,7 +63,7 @@ pub enum FieldChoice {
 ///
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
 /// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
-/// [`Outcome::NoPath`](super::Outcome::NoPath) says that the cells hold none.
+/// [`Proposal::NoPath`](super::Proposal::NoPath) says that the cells hold none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldPlanner {
     /// The field.

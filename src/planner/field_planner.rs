@@ -2,7 +2,7 @@
 
 use super::attach::Joined;
 use super::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
-use super::{Note, Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
+use super::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::{Grid, ZonedGrid};
 use crate::field::{
     Cell, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation, Relaxed, Slope,
@@ -34,7 +34,7 @@ impl Planner for FieldPlanner {
             |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
         let joined = match Joined::new(grid, query) {
             Ok(joined) => joined,
-            Err(reason) => return ended(Outcome::GaveUp(reason), 0),
+            Err(reason) => return ended(Proposal::GaveUp(reason), 0),
         };
         let goals = joined.sources();
         let domain = Domain::of_grid(grid, &goals, self.limits, Levels::PROBABILITY);
@@ -42,7 +42,7 @@ impl Planner for FieldPlanner {
         let cells = domain.kinds().iter().filter(|&&kind| kind != Cell::Obstacle).count();
         // The nearest cell of the start that is connected with a goal.
         let Some(start) = joined.start.cells.iter().copied().find(reached) else {
-            return ended(Outcome::NoPath, cells);
+            return ended(Proposal::NoPath, cells);
         };
         let task = Task { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
@@ -51,11 +51,11 @@ impl Planner for FieldPlanner {
                 let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
                 match task.follow_relaxed(&domain, equation, &relaxation, &stopping) {
                     Ok(followed) => followed,
-                    Err(reason) => return ended(Outcome::GaveUp(reason), cells),
+                    Err(reason) => return ended(Proposal::GaveUp(reason), cells),
                 }
             }
         };
-        let outcome = followed.path.map_or_else(Outcome::GaveUp, Outcome::Found);
+        let outcome = followed.path.map_or_else(Proposal::GaveUp, Proposal::Found);
         let size = Size::Grid { cells, sweeps: followed.sweeps };
         Run { outcome, trace: followed.trace, size, note: followed.note }
     }

@@ -1,7 +1,7 @@
 //! The harmonic field planner.
 
 use super::attach::Joined;
-use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::field::{Component, Field, Lattice, Place, Uphill, harmonic};
 use crate::interrupt::checkpoint;
@@ -36,7 +36,7 @@ impl Planner for Harmonic {
 
     fn query(&self, space: &Grid, map: &Lattice, query: &Query) -> Run {
         let gave_up = |reason: String| Run {
-            outcome: Outcome::GaveUp(reason),
+            outcome: Proposal::GaveUp(reason),
             trace: Trace::Field { cells: space.cells, potential: vec![f64::NEG_INFINITY; space.blocked.len()] },
             size: Size::Windows { cells: 0, windows: 0 },
             note: None,
@@ -54,7 +54,7 @@ impl Planner for Harmonic {
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             let size = size(0);
             return Run {
-                outcome: Outcome::NoPath,
+                outcome: Proposal::NoPath,
                 trace: Trace::Harmonic { component, potential: None },
                 size,
                 note: None,
@@ -64,8 +64,8 @@ impl Planner for Harmonic {
         let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
         let mut guide = Uphill::new(&component, &potential, at);
         let outcome = match grid_path::along(space, query, &joined, &mut guide, component.cell(start), self.path) {
-            Ok(path) => Outcome::Found(path),
-            Err(_) => Outcome::GaveUp("the field has a local maximum".into()),
+            Ok(path) => Proposal::Found(path),
+            Err(_) => Proposal::GaveUp("the field has a local maximum".into()),
         };
         let size = size(windows);
         Run { outcome, trace: Trace::Harmonic { component, potential: Some(potential) }, size, note: None }

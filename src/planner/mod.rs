@@ -43,7 +43,7 @@ pub struct Query {
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
+pub enum Proposal {
     /// A path in the free space of the representation, starting at the start exactly and ending at a goal (or a copy of
     /// it) exactly.
     Found(Path),
@@ -238,7 +238,7 @@ impl std::fmt::Display for Note {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: Proposal,
     /// For pictures.
     pub trace: Trace,
     /// How much was built.

@@ -4,7 +4,7 @@ use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};
 use super::funnel::{Passage, Turn, nearest_end, turns};
 use super::terminals::Terminals;
-use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace};
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::planar::Boundary;
 use crate::geometry::{Orientation, Point, orientation};
@@ -59,19 +59,19 @@ impl Planner for Trapezoid {
     fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
         let parts_of = |segment: &Segment| map.decomposition.parts_of(&map.boundary, segment);
         let (outcome, channel) = match Terminals::new(space, query, parts_of) {
-            Err(reason) => (Outcome::GaveUp(reason), Vec::new()),
+            Err(reason) => (Proposal::GaveUp(reason), Vec::new()),
             Ok(terminals) => {
                 let start_cells: Vec<usize> = map.decomposition.cells_at(&map.boundary, terminals.start).collect();
                 let doors = &map.decomposition.doors;
                 match map.adjacency.channel(doors, &terminals, &start_cells) {
-                    None => (Outcome::NoPath, Vec::new()),
+                    None => (Proposal::NoPath, Vec::new()),
                     Some(channel) => {
                         let waypoints = match self.path {
                             PathKind::Taut => map.taut_path(&channel),
                             PathKind::Own => map.middle_path(&channel),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
-                        (Outcome::Found(path), channel.cells)
+                        (Proposal::Found(path), channel.cells)
                     }
                 }
             }

@@ -3,7 +3,7 @@
 use super::mesh::{Mesh, Tangency};
 use super::taut_search::TautSearch;
 use super::terminals::Terminals;
-use super::{Outcome, Planner, Query, Run, Size, Trace};
+use super::{Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::planar::Boundary;
 use crate::space::{Configuration, Measure, Metric, Path};
@@ -46,7 +46,7 @@ impl Planner for Visibility {
             Ok(terminals) => terminals,
             Err(reason) => {
                 return Run {
-                    outcome: Outcome::GaveUp(reason),
+                    outcome: Proposal::GaveUp(reason),
                     trace: Trace::Roadmap { edges: Vec::new(), whole: false },
                     size: Size::Graph { nodes: 0, edges: 0 },
                     note: None,
@@ -55,8 +55,8 @@ impl Planner for Visibility {
         };
         let mut search = TautSearch::new(&map.mesh, Measure::from(self.metric), &terminals);
         let outcome = match search.path() {
-            Some(waypoints) => Outcome::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
-            None => Outcome::NoPath,
+            Some(waypoints) => Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
+            None => Proposal::NoPath,
         };
         let edges: Vec<_> = search.arcs.iter().map(|ends| ends.map(|p| p.coords)).collect();
         let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };

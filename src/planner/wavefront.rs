@@ -1,7 +1,7 @@
 //! Searches of a grid: the wavefront, whose labels are the distances from the goal, and the textbook searches beside it.
 
 use super::attach::Joined;
-use super::{Outcome, PathKind, Planner, Query, Run, Size, Trace, grid_path};
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::field::search::{Order, Search, Ties};
 use crate::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
@@ -107,7 +107,7 @@ impl Planner for Wavefront {
             Err(reason) => {
                 let labels = vec![UNREACHED; space.blocked.len()];
                 return Run {
-                    outcome: Outcome::GaveUp(reason),
+                    outcome: Proposal::GaveUp(reason),
                     trace: Trace::Wavefront { cells: space.cells, labels },
                     size: Size::Grid { cells: 0, sweeps: 0 },
                     note: None,
@@ -117,7 +117,7 @@ impl Planner for Wavefront {
         let (cells, labels, size) = self.cells(map, &joined);
         let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
         Run {
-            outcome: path.map_or(Outcome::NoPath, Outcome::Found),
+            outcome: path.map_or(Proposal::NoPath, Proposal::Found),
             trace: Trace::Wavefront { cells: space.cells, labels },
             size,
             note: None,

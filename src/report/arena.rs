@@ -4,9 +4,10 @@
 //! documentation ("How to benchmark planners"). A log holds one experiment; ours is the study, and its runs are the
 //! problems, whose names stand in the experiment's setup.
 
-use super::row::{Outcome, Row};
+use super::row::Row;
 use super::study::Study;
 use super::{Comparison, Family};
+use crate::model::Status;
 
 /// OMPL's words for the state of a planner, in the order of its `PlannerStatus`.
 const STATUS: [&str; 10] = [
@@ -31,16 +32,16 @@ const PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),
     ("status ENUM", |_, _, row| Some(status(row.outcome).to_string())),
-    ("solved BOOLEAN", |_, _, row| flag(row.outcome == Outcome::Found)),
+    ("solved BOOLEAN", |_, _, row| flag(row.outcome == Status::Found)),
     ("approximate solution BOOLEAN", |_, _, _| flag(false)),
-    ("correct solution BOOLEAN", |_, _, row| (row.outcome == Outcome::Found).then(|| "1".to_owned())),
+    ("correct solution BOOLEAN", |_, _, row| (row.outcome == Status::Found).then(|| "1".to_owned())),
     ("solution length REAL", |_, _, row| real(row.length)),
     ("solution clearance REAL", |_, _, row| real(row.clearance)),
     ("solution segments INTEGER", |_, _, row| row.pieces.map(|n| n.to_string())),
     ("graph states INTEGER", |_, _, row| row.counts()[0].map(|n| n.to_string())),
     ("graph motions INTEGER", |_, _, row| row.counts()[1].map(|n| n.to_string())),
     ("problem INTEGER", |number, _, _| Some(number.to_string())),
-    ("proven infeasible BOOLEAN", |_, _, row| flag(row.outcome == Outcome::Infeasible)),
+    ("proven infeasible BOOLEAN", |_, _, row| flag(row.outcome == Status::Infeasible)),
     ("length over proven optimum REAL", |_, comparison, row| real(comparison.over_optimum(row))),
     ("motion time REAL", |_, _, row| real(row.duration)),
     ("build time REAL", |_, _, row| real(row.build)),
@@ -56,11 +57,11 @@ fn flag(value: bool) -> Option<String> {
     Some(u8::from(value).to_string())
 }
 
-fn status(outcome: Outcome) -> usize {
+fn status(outcome: Status) -> usize {
     match outcome {
-        Outcome::Found => 6,
-        Outcome::Infeasible => 9,
-        Outcome::Unknown => 0,
+        Status::Found => 6,
+        Status::Infeasible => 9,
+        Status::Unknown => 0,
     }
 }
 
@@ -215,9 +216,9 @@ mod tests {
             pieces: Some(3),
             total: Some(0.25),
             memory: Some(2_000_000),
-            ..Row::new(planner, Family::Roadmap, Outcome::Found)
+            ..Row::new(planner, Family::Roadmap, Status::Found)
         };
-        let stuck = Row { length: Some(f64::NAN), ..Row::new(planner, Family::Roadmap, Outcome::Infeasible) };
+        let stuck = Row { length: Some(f64::NAN), ..Row::new(planner, Family::Roadmap, Status::Infeasible) };
         let comparison = |row| Comparison {
             problem: problem.to_owned(),
             length_unit: "rad".to_owned(),

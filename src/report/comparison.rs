@@ -1,7 +1,8 @@
 //! Several planners on one problem.
 
-use super::row::{Outcome, Row};
+use super::row::Row;
 use super::table::{Align, Column, Table, fixed, quoted};
+use crate::model::Status;
 use crate::planner::{PathKind, Size};
 use crate::space::Configuration;
 use serde_json::{Value, json};
@@ -46,7 +47,7 @@ impl Comparison {
     #[must_use]
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
-        has(Outcome::Found) && has(Outcome::Infeasible)
+        has(Status::Found) && has(Status::Infeasible)
     }
 
     /// The contradiction in words, if there is one.
@@ -61,8 +62,8 @@ impl Comparison {
                 "the planners contradict each other on {}: {} found a certified path, {} proved that there is none; one \
                  of them is wrong, and that is a defect of cplan: please report it with the robot and the world",
                 self.problem,
-                named(Outcome::Found),
-                named(Outcome::Infeasible)
+                named(Status::Found),
+                named(Status::Infeasible)
             )
         })
     }
@@ -224,7 +225,7 @@ mod tests {
             certify: Some(0.001),
             total: Some(0.0036),
             memory: Some(3 << 19),
-            ..Row::new("visibility", Family::Roadmap, Outcome::Found)
+            ..Row::new("visibility", Family::Roadmap, Status::Found)
         };
         let harmonic = Row {
             length: Some(5.0),
@@ -234,13 +235,13 @@ mod tests {
             build: Some(0.0),
             query: Some(1.5),
             note: Some(Note::Unconverged { sweeps: 40, change: 2.5e-4 }),
-            ..Row::new("harmonic", Family::Field, Outcome::Found)
+            ..Row::new("harmonic", Family::Field, Status::Found)
         };
         let odd = Row {
             query: Some(f64::NAN),
             prove: Some(0.25),
             reason: Some("too coarse, or \"so\"".to_owned()),
-            ..Row::new("a, \"b\" | c", Family::Field, Outcome::Unknown)
+            ..Row::new("a, \"b\" | c", Family::Field, Status::Unknown)
         };
         Comparison {
             problem: "shelf".to_owned(),
@@ -316,7 +317,7 @@ mod tests {
     fn a_path_and_a_proof_are_a_contradiction() {
         let mut all = example();
         assert!(!all.is_contradictory() && all.alarm().is_none());
-        all.rows[2].outcome = Outcome::Infeasible;
+        all.rows[2].outcome = Status::Infeasible;
         let alarm = all.alarm().unwrap();
         assert!(alarm.contains("on shelf: visibility, harmonic found") && alarm.contains("| c proved"), "{alarm}");
         all.rows.remove(0);

@@ -22,7 +22,7 @@ mod words;
 pub use comparison::Comparison;
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};
-pub use row::{Family, OtherPath, Outcome, Row};
+pub use row::{Family, OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};

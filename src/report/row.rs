@@ -1,40 +1,8 @@
 //! What one planner did on one problem.
 
 use crate::engine::Method;
+use crate::model::Status;
 use crate::planner::{Note, PathKind, Size};
-use std::fmt;
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Outcome {
-    /// With a certified path.
-    Found,
-    /// With a proof that there is none.
-    Infeasible,
-    /// With neither.
-    Unknown,
-}
-
-impl Outcome {
-    /// All, in the order in which they are counted.
-    pub const ALL: [Outcome; 3] = [Outcome::Found, Outcome::Infeasible, Outcome::Unknown];
-
-    /// The word for it in tables and files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Outcome::Found => "found",
-            Outcome::Infeasible => "infeasible",
-            Outcome::Unknown => "unknown",
-        }
-    }
-}
-
-impl fmt::Display for Outcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
 
 /// Planners that work alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,7 +59,7 @@ pub struct Row {
     /// Which of its paths.
     pub path_kind: PathKind,
     /// How it ended.
-    pub outcome: Outcome,
+    pub outcome: Status,
     /// Euclidean length in joint space (rad and m as they come).
     pub length: Option<f64>,
     /// Its path of the other kind, if it has one.
@@ -125,7 +93,7 @@ pub struct Row {
 impl Row {
     /// A row that knows nothing yet but who it is about.
     #[must_use]
-    pub fn new(planner: impl Into<String>, family: Family, outcome: Outcome) -> Self {
+    pub fn new(planner: impl Into<String>, family: Family, outcome: Status) -> Self {
         Self {
             planner: planner.into(),
             family,

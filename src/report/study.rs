@@ -2,8 +2,9 @@
 
 use super::comparison::Comparison;
 use super::measure::Measure;
-use super::row::{Outcome, Row};
+use super::row::Row;
 use super::spread::Spread;
+use crate::model::Status;
 
 /// Random start-goal pairs in place of the worlds' own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,10 +53,10 @@ impl Study {
         self.comparisons.iter().filter_map(move |c| c.rows.get(planner).map(|row| (c, row)))
     }
 
-    /// How many of a planner's runs ended in each way, in the order of [`Outcome::ALL`].
+    /// How many of a planner's runs ended in each way, in the order of [`Status::ALL`].
     #[must_use]
     pub fn tally(&self, planner: usize) -> [usize; 3] {
-        Outcome::ALL.map(|outcome| self.runs(planner).filter(|(_, row)| row.outcome == outcome).count())
+        Status::ALL.map(|outcome| self.runs(planner).filter(|(_, row)| row.outcome == outcome).count())
     }
 
     /// How a planner's values are distributed over the problems for which it has one; none if there are none.
@@ -64,13 +65,13 @@ impl Study {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
-    /// What all planners together know of each problem, in the order of [`Outcome::ALL`]: problems with a path, problems
+    /// What all planners together know of each problem, in the order of [`Status::ALL`]: problems with a path, problems
     /// proven to have none, problems that none of them settled. Contradictory ones count as solved.
     #[must_use]
     pub fn settled(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for comparison in &self.comparisons {
-            let best = Outcome::ALL.iter().position(|o| comparison.rows.iter().any(|row| row.outcome == *o));
+            let best = Status::ALL.iter().position(|o| comparison.rows.iter().any(|row| row.outcome == *o));
             if let Some(best) = best {
                 counts[best] += 1;
             }

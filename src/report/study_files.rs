@@ -2,10 +2,11 @@
 
 use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
-use super::row::{Outcome, Row};
+use super::row::Row;
 use super::study::{Refusal, Study};
 use super::table::{Align, Column, Table, quoted};
 use super::words::words;
+use crate::model::Status;
 use crate::model::plain_line;
 use serde_json::{Value, json};
 
@@ -147,7 +148,7 @@ impl Study {
         let mut columns = vec![Column::new("problem", Align::Left)];
         columns.extend(self.planners().iter().map(|name| Column::new(name, Align::Right)));
         let cell = |c: &Comparison, row: &Row| match (row.outcome, c.over_optimum(row)) {
-            (Outcome::Found, Some(ratio)) => Measure::OverOptimum.shown(ratio),
+            (Status::Found, Some(ratio)) => Measure::OverOptimum.shown(ratio),
             (outcome, _) => outcome.to_string(),
         };
         let row = |c: &Comparison| {

@@ -1,11 +1,12 @@
 //! A study in words: only what its figures bear out.
 
 use super::measure::Measure;
-use super::row::{Family, Outcome};
+use super::row::Family;
 use super::sign::sign_test;
 use super::spread::Spread;
 use super::study::Study;
 use crate::engine::percent;
+use crate::model::Status;
 use crate::planner::PathKind;
 
 /// A side is said to be better if a fair coin would favour it as clearly as this seldom.
@@ -147,7 +148,7 @@ fn aspect(
         .filter_map(|c| {
             let of = |side: &Side| {
                 let rows = side.planners.iter().filter_map(|&i| c.rows.get(i));
-                let settled = rows.filter(|row| row.outcome != Outcome::Unknown);
+                let settled = rows.filter(|row| row.outcome != Status::Unknown);
                 best(&mut settled.filter_map(|row| measure.of(c, row)))
             };
             sides.iter().map(of).collect::<Option<Vec<f64>>>()
@@ -213,7 +214,7 @@ mod tests {
         let row = |i: usize, name: &str, family| Row {
             length: lengths[i],
             total: Some(totals[i]),
-            ..Row::new(name, family, if lengths[i].is_some() { Outcome::Found } else { Outcome::Unknown })
+            ..Row::new(name, family, if lengths[i].is_some() { Status::Found } else { Status::Unknown })
         };
         Comparison {
             problem: "p".to_owned(),

@@ -63,6 +63,12 @@ impl From<Configuration> for GoalSet {
     }
 }
 
+impl From<[f64; 2]> for GoalSet {
+    fn from(values: [f64; 2]) -> Self {
+        Configuration::from(values).into()
+    }
+}
+
 impl From<Segment> for GoalSet {
     fn from(piece: Segment) -> Self {
         Self { pieces: vec![piece] }

@@ -10,7 +10,7 @@ pub mod slips;
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
@@ -122,8 +122,8 @@ pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
 }
 
 /// A problem that must be valid.
-pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Problem {
-    Problem::new(scene, start, goals).expect("a problem")
+pub fn asked(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
+    MotionProblem::new(scene, start, goals).expect("a problem")
 }
 
 pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
@@ -187,7 +187,7 @@ pub fn w20() -> Scene {
 }
 
 /// A benchmark problem as the solver takes it.
-pub fn problem(which: Benchmark) -> Problem {
+pub fn problem(which: Benchmark) -> MotionProblem {
     let (scene, start, goal) = benchmark(which);
     asked(scene, start, goal)
 }
@@ -202,7 +202,7 @@ pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
 }
 
 /// The shipped workspaces that say that there is a path, with their robots; by name.
-pub fn shipped_feasible() -> Vec<(String, Problem)> {
+pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut files: Vec<_> =
         std::fs::read_dir(root.join("workspaces")).unwrap().map(|entry| entry.unwrap().path()).collect();

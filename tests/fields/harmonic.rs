@@ -4,7 +4,7 @@
 use crate::common::mazes;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
-use cplan::planner::{Harmonic, Outcome, PathKind, Planner, Query};
+use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query};
 use cplan::space::{Axis, Topology};
 use num_rational::BigRational;
 use proptest::prelude::*;
@@ -206,9 +206,9 @@ proptest! {
         let planner = Harmonic { path: PathKind::Own };
         let run = planner.query(&grid, &planner.build(&grid), &Query { start: from, goals: grid.center(goal).into() });
         let path = match &run.outcome {
-            Outcome::Found(path) => path,
-            Outcome::NoPath => return Ok(()),
-            Outcome::GaveUp(reason) => panic!("{reason}"),
+            Proposal::Found(path) => path,
+            Proposal::NoPath => return Ok(()),
+            Proposal::GaveUp(reason) => panic!("{reason}"),
         };
         prop_assert_eq!(path.start(), from);
         prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-9);

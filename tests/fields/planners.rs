@@ -2,7 +2,7 @@
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
-use cplan::planner::{Harmonic, Outcome, PathKind, Planner, Query, Run, Size, Trace, Wavefront};
+use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront};
 use cplan::space::{Axis, Configuration, GoalSet, Path, Topology};
 use proptest::prelude::*;
 
@@ -109,7 +109,7 @@ fn query(grid: &Grid, start: usize, goal: usize) -> Query {
 
 fn found(run: &Run) -> Path {
     match &run.outcome {
-        Outcome::Found(path) => path.clone(),
+        Proposal::Found(path) => path.clone(),
         other => panic!("no path: {other:?}"),
     }
 }
@@ -143,7 +143,7 @@ fn goes_from_cell_to_cell(grid: &Grid, start: usize, goal: usize) -> Result<(), 
     for planner in BOTH {
         let run = run(planner, grid, &query(grid, start, goal), PathKind::Own);
         if reached == u32::MAX {
-            prop_assert_eq!(run.outcome, Outcome::NoPath);
+            prop_assert_eq!(run.outcome, Proposal::NoPath);
             continue;
         }
         let path = found(&run);
@@ -222,8 +222,8 @@ proptest! {
         for planner in BOTH {
             let plain = run(planner, &grid, &query, PathKind::Own);
             let short = run(planner, &grid, &query, PathKind::Taut);
-            if plain.outcome == Outcome::NoPath {
-                prop_assert_eq!(short.outcome, Outcome::NoPath);
+            if plain.outcome == Proposal::NoPath {
+                prop_assert_eq!(short.outcome, Proposal::NoPath);
                 continue;
             }
             let (plain, short) = (found(&plain), found(&short));
@@ -287,7 +287,7 @@ fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
     let grid = drawn("..#.. ..#.. ..#..");
     for planner in BOTH {
         let run = run(planner, &grid, &query(&grid, 0, 4), PathKind::Taut);
-        assert_eq!(run.outcome, Outcome::NoPath);
+        assert_eq!(run.outcome, Proposal::NoPath);
         assert!(matches!(run.size, Size::Grid { cells: 6, .. } | Size::Windows { cells: 6, .. }));
         let reached = match run.trace {
             trace @ Trace::Harmonic { .. } => {
@@ -334,7 +334,7 @@ fn a_blocked_start_is_joined_to_a_free_cell_nearby() {
 fn hopeless_queries_are_given_up_with_the_reason() {
     let full = grid([9, 9], [false, false], (0..81).map(|cell| cell != 80).collect());
     let reason = |planner, query: &Query| match run(planner, &full, query, PathKind::Taut).outcome {
-        Outcome::GaveUp(reason) => reason,
+        Proposal::GaveUp(reason) => reason,
         other => panic!("not given up: {other:?}"),
     };
     for planner in BOTH {

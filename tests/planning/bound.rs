@@ -3,18 +3,18 @@
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
 use cplan::engine::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
 use cplan::geometry::{Convex, Point};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path};
 use std::f64::consts::TAU;
 
 /// Those that are after the optimum.
 const PLANNERS: [Method; 2] = [Method::Shortest, Method::Visibility];
 
-fn answer(problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
+fn answer(problem: &MotionProblem, metric: Metric, gap: Option<f64>) -> Answer {
     answer_by(Method::Visibility, problem, metric, gap)
 }
 
-fn answer_by(method: Method, problem: &Problem, metric: Metric, gap: Option<f64>) -> Answer {
+fn answer_by(method: Method, problem: &MotionProblem, metric: Metric, gap: Option<f64>) -> Answer {
     solve(problem, method, &Effort { metric, gap, ..Effort::default() }, &mut |_| {})
 }
 
@@ -88,7 +88,7 @@ fn published_optima_lie_within_the_bounds() {
     }
 }
 
-fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> Problem {
+fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
     let obstacles = pieces.into_iter().map(|piece| obstacle("block", piece)).collect::<Vec<_>>();
     let pieces = obstacles.into_iter().flat_map(|o| o.pieces).collect();
     asked(scene(rr(axes), pieces), start, goals.iter().copied().collect::<GoalSet>())

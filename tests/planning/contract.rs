@@ -9,7 +9,7 @@ use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Re
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::planner::{
-    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, Outcome, PathKind, Planner, Query, Run, Size,
+    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, PathKind, Planner, Proposal, Query, Run, Size,
     Trace, Trapezoid, Visibility, Wavefront,
 };
 use cplan::space::{Axis, Configuration, Metric, Path};
@@ -84,7 +84,7 @@ fn answered<P: Planner>(planner: &P, space: &P::Space, query: &Query) -> Run {
 
 /// The path of a run that must have one, after the checks that hold for every path.
 fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
-    let Outcome::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
+    let Proposal::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
     let topology = scene.arm().topology();
     assert_eq!(path.start(), query.start, "{name}");
     let is_copy = |axis: Axis, goal: f64, end: f64| {
@@ -215,7 +215,7 @@ fn a_wall_from_limit_to_limit_is_no_path() {
     let scene = gantry(vec![rectangle(-0.1, 0.1, -1.1, 1.1)]);
     let query = query(q(-0.8, 0.0), &[q(0.8, 0.1), q(0.7, -0.5)]);
     for (name, plan) in PLANNERS {
-        assert_eq!(plan(&scene, &query).outcome, Outcome::NoPath, "{name}");
+        assert_eq!(plan(&scene, &query).outcome, Proposal::NoPath, "{name}");
     }
 }
 
@@ -254,7 +254,7 @@ fn queries_without_a_free_end_are_given_up_with_the_reason() {
     ];
     for (query, word) in &hopeless {
         for (name, plan) in PLANNERS {
-            let Outcome::GaveUp(reason) = plan(&scene, query).outcome else {
+            let Proposal::GaveUp(reason) = plan(&scene, query).outcome else {
                 panic!("{name}: not given up: {query:?}")
             };
             assert!(reason.contains(word), "{name}: {reason}");
@@ -273,7 +273,7 @@ fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
         assert!((end - q(TAU - 2.5, 0.8)).norm() < 1e-12 && end[1] == 0.8, "{name} ends at {end}");
         // Limits at pi shut that way, the wall the other one.
         let interval = polar(range(-3.1, 3.1));
-        assert_eq!(plan(&interval, &query).outcome, Outcome::NoPath, "{name}");
+        assert_eq!(plan(&interval, &query).outcome, Proposal::NoPath, "{name}");
     }
 }
 

@@ -5,14 +5,14 @@ use cplan::check::{certify, recheck};
 use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
-use cplan::model::{Heights, Obstacle, Problem, Shape, Workspace};
+use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
 use cplan::space::Axis;
 use std::f64::consts::TAU;
 use std::path::Path;
 
 /// So many short walls on a circle through which the outstretched arm reaches in two places, and is to go from one to the
 /// other: which it can if it can fold.
-fn ring(count: usize, folding: f64) -> Problem {
+fn ring(count: usize, folding: f64) -> MotionProblem {
     let at = |k: usize| {
         let angle = TAU * k as f64 / count as f64;
         // Some noise, so that neighbours are not in a row.

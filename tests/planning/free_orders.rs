@@ -203,11 +203,11 @@ fn free_orders_agree_with_trying_all() {
         let by_order = ORDERS.map(|order| {
             let items = order.iter().flat_map(|&pair| pairs[pair].clone().map(Item::Step)).collect();
             let answer = planned(&Task { items, ..free.clone() });
-            (answer.verdict == TaskVerdict::Done).then(|| answer.duration())
+            (answer.verdict == TaskVerdict::Found(())).then(|| answer.duration())
         });
         let best = by_order.iter().flatten().copied().fold(f64::INFINITY, f64::min);
         let answer = planned(&free);
-        let done = answer.verdict == TaskVerdict::Done;
+        let done = answer.verdict == TaskVerdict::Found(());
         assert_eq!(done, best.is_finite(), "seed {seed}: {:?} for {by_order:?}", answer.verdict);
         if let Err(violation) = replay::replay(&free, &answer, done) {
             panic!("seed {seed}: {violation}");
@@ -217,7 +217,7 @@ fn free_orders_agree_with_trying_all() {
         let many = among_many(&free, pairs);
         let answer = planned(&many);
         match &answer.verdict {
-            TaskVerdict::Done => assert!(done, "seed {seed}: done, but no order can be"),
+            TaskVerdict::Found(()) => assert!(done, "seed {seed}: done, but no order can be"),
             TaskVerdict::Infeasible(_) => assert!(!done, "seed {seed}: infeasible, but {by_order:?}"),
             TaskVerdict::Unknown(why) => assert!(!done, "seed {seed}: {by_order:?}, but {why:?}"),
         }

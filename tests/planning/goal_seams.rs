@@ -6,7 +6,7 @@ use crate::common::{asked, disc, rr, scene, wall};
 use crate::random_worlds::world::Dice;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Problem, Scene};
+use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Axis, Configuration, GoalSet, Path, Segment};
 use std::f64::consts::PI;
 
@@ -47,7 +47,7 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
 }
 
 /// The same set in other words: the other way along, some turns on, and in pieces that end at each seam.
-fn in_other_words(problem: &Problem, goals: Segment) -> Vec<GoalSet> {
+fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
     let axes = problem.scene().arm().topology().axes;
     let [from, to] = goals.ends();
     let turns = [0, 1].map(|k| if axes[k].is_circle() { 1.0 - 3.0 * k as f64 } else { 0.0 });
@@ -62,7 +62,7 @@ fn in_other_words(problem: &Problem, goals: Segment) -> Vec<GoalSet> {
     vec![goals.into(), Segment::new(to, from).into(), goals.turned(turns).into(), pieces.collect()]
 }
 
-fn world(seed: u64) -> Option<(Problem, Segment)> {
+fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     let mut dice = Dice::new(seed.wrapping_mul(0x9E6C_63D0_876A_68DE));
     let limited = Axis::Interval { lower: -dice.range(1.0, 4.0), upper: dice.range(1.0, 4.0) };
     let axes = match dice.below(4) {
@@ -91,7 +91,7 @@ fn world(seed: u64) -> Option<(Problem, Segment)> {
     scene.blocked_along(&goals).is_none().then(|| (asked(scene, start, goals), goals))
 }
 
-fn found(problem: &Problem, method: Method, effort: &Effort) -> Option<Path> {
+fn found(problem: &MotionProblem, method: Method, effort: &Effort) -> Option<Path> {
     match solve(problem, method, effort, &mut |_| {}).verdict {
         Verdict::Found(path) => Some(path.path().clone()),
         Verdict::Infeasible(_) | Verdict::Unknown(_) => None,

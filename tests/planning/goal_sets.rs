@@ -6,7 +6,7 @@ use crate::random_worlds::world::Dice;
 use cplan::check::recheck;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Arm, Motion, Problem, Scene, inverse};
+use cplan::model::{Arm, Motion, MotionProblem, Scene, inverse};
 use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -62,7 +62,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
 }
 
 /// A random world with a free start and the tip's goals; none if no start is free, or all goals are blocked.
-fn world(seed: u64) -> Option<Problem> {
+fn world(seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let (arm, tip) = drawn(&mut dice);
     let count = 2 + dice.below(6);
@@ -93,7 +93,7 @@ fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
 }
 
 /// Free goals at several values of the free joint.
-fn tried(problem: &Problem) -> Vec<Configuration> {
+fn tried(problem: &MotionProblem) -> Vec<Configuration> {
     let along = |goals: &Segment| (0..TRIED).map(|k| goals.at((k as f64 + 0.5) / TRIED as f64)).collect::<Vec<_>>();
     let mut tried: Vec<Configuration> = problem.goals().pieces().iter().flat_map(along).collect();
     tried.retain(|&goal| problem.scene().clearance(goal) > 1e-6);

@@ -4,13 +4,13 @@ use cplan::engine::task::{Manner, plan};
 use cplan::engine::{Answer, Effort, Method, Verdict, solve};
 use cplan::input::{Overrides, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
-use cplan::model::Problem;
-use cplan::planner::Outcome;
+use cplan::model::MotionProblem;
+use cplan::planner::Proposal;
 use cplan::search::{connectivity, slab_connectivity};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-fn problem(world: &str) -> Problem {
+fn problem(world: &str) -> MotionProblem {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let world = root.join("workspaces").join(world);
     load(&root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
@@ -21,7 +21,7 @@ fn effort() -> Effort {
 }
 
 /// What an answer says, without the times it took.
-fn said(answer: &Answer) -> (Outcome, String) {
+fn said(answer: &Answer) -> (Proposal, String) {
     let verdict = match &answer.verdict {
         Verdict::Found(path) => format!("{:?}", path.path().waypoints()),
         Verdict::Infeasible(proof) => format!("{:?}", proof.stuck()),

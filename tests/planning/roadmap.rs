@@ -3,7 +3,7 @@
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
-use cplan::planner::{Outcome, PathKind, Planner, Query, Run, Size, Trace, Trapezoid, Visibility};
+use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Trapezoid, Visibility};
 use cplan::space::{Axis, Configuration, GoalSet, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -26,15 +26,15 @@ fn run<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Quer
 /// The path of a run, if any, after checks that hold for every path.
 fn checked_path<P: Planner<Space = Regions>>(planner: &P, regions: &Regions, query: &Query) -> Option<Path> {
     match run(planner, regions, query).outcome {
-        Outcome::Found(path) => {
+        Proposal::Found(path) => {
             assert_eq!(path.start(), query.start);
             let to_goal = |g: &_| regions.topology.distance(path.goal(), *g);
             assert!(query.goals.points().any(|g| path.goal() == g || to_goal(&g) < 1e-12));
             assert_free(regions, &path);
             Some(path)
         }
-        Outcome::NoPath => None,
-        Outcome::GaveUp(reason) => panic!("gave up: {reason}"),
+        Proposal::NoPath => None,
+        Proposal::GaveUp(reason) => panic!("gave up: {reason}"),
     }
 }
 
@@ -233,7 +233,7 @@ proptest! {
             let query = query((s.x, s.y), (g.x, g.y));
             if from.is_empty() || to.is_empty() {
                 for outcome in [run(&VISIBILITY, &regions, &query).outcome, run(&TAUT, &regions, &query).outcome] {
-                    prop_assert!(matches!(outcome, Outcome::GaveUp(_)));
+                    prop_assert!(matches!(outcome, Proposal::GaveUp(_)));
                 }
             } else {
                 let connected = p == q || from.iter().any(|c| to.contains(c));
@@ -268,7 +268,7 @@ fn blocks(random: &mut Random, size: usize, density: f64) -> Vec<(usize, usize, 
 mod contract {
     use super::*;
 
-    fn both(test: impl Fn(&dyn Fn(&Regions, &Query) -> Outcome)) {
+    fn both(test: impl Fn(&dyn Fn(&Regions, &Query) -> Proposal)) {
         test(&|regions, query| run(&VISIBILITY, regions, query).outcome);
         test(&|regions, query| run(&TAUT, regions, query).outcome);
         test(&|regions, query| run(&MIDDLES, regions, query).outcome);
@@ -282,7 +282,7 @@ mod contract {
     fn start_at_the_goal_is_a_path_of_length_zero() {
         for at in [(0.5, 0.5), (1.0, 1.0), (1.0, 2.0), (0.0, 0.0), (1.0, 0.5)] {
             both(|plan| {
-                let Outcome::Found(path) = plan(&square(), &query(at, at)) else { panic!("{at:?}") };
+                let Proposal::Found(path) = plan(&square(), &query(at, at)) else { panic!("{at:?}") };
                 assert_eq!(path.waypoints(), [configuration(at.0, at.1)]);
             });
         }
@@ -292,16 +292,16 @@ mod contract {
     fn ends_in_obstacles_or_outside_are_given_up_with_the_reason() {
         both(|plan| {
             for outside in [(2.0, 2.0), (5.0, 1.0), (1.0 + 1e-15, 2.0)] {
-                let Outcome::GaveUp(reason) = plan(&square(), &query(outside, (0.5, 0.5))) else { panic!() };
+                let Proposal::GaveUp(reason) = plan(&square(), &query(outside, (0.5, 0.5))) else { panic!() };
                 assert!(reason.contains("start"), "{reason}");
-                let Outcome::GaveUp(reason) = plan(&square(), &query((0.5, 0.5), outside)) else { panic!() };
+                let Proposal::GaveUp(reason) = plan(&square(), &query((0.5, 0.5), outside)) else { panic!() };
                 assert!(reason.contains("goal"), "{reason}");
             }
             let nowhere = Query { goals: GoalSet::default(), ..query((0.5, 0.5), (0.5, 0.5)) };
-            assert!(matches!(plan(&square(), &nowhere), Outcome::GaveUp(_)));
+            assert!(matches!(plan(&square(), &nowhere), Proposal::GaveUp(_)));
             assert!(matches!(
                 plan(&regions([(0.0, 1.0); 2], vec![]), &query((0.5, 0.5), (0.5, 0.6))),
-                Outcome::GaveUp(_)
+                Proposal::GaveUp(_)
             ));
         });
     }
@@ -312,9 +312,9 @@ mod contract {
         let apart = vec![polygon(rectangle((0.0, 1.0), (0.0, 1.0))), polygon(rectangle((1.0, 2.0), (1.0, 2.0)))];
         let regions = regions([(0.0, 2.0); 2], apart);
         both(|plan| {
-            assert_eq!(plan(&regions, &query((0.5, 0.5), (1.5, 1.5))), Outcome::NoPath);
-            assert!(matches!(plan(&regions, &query((1.0, 1.0), (1.5, 1.5))), Outcome::Found(_)));
-            assert!(matches!(plan(&regions, &query((0.5, 0.5), (1.0, 1.0))), Outcome::Found(_)));
+            assert_eq!(plan(&regions, &query((0.5, 0.5), (1.5, 1.5))), Proposal::NoPath);
+            assert!(matches!(plan(&regions, &query((1.0, 1.0), (1.5, 1.5))), Proposal::Found(_)));
+            assert!(matches!(plan(&regions, &query((0.5, 0.5), (1.0, 1.0))), Proposal::Found(_)));
         });
     }
 
@@ -323,7 +323,7 @@ mod contract {
         both(|plan| {
             let goals = [configuration(3.5, 3.5), configuration(2.0, 2.0), configuration(0.5, 1.5)];
             let goals = goals.into_iter().collect();
-            let Outcome::Found(path) = plan(&square(), &Query { start: configuration(0.5, 0.5), goals }) else {
+            let Proposal::Found(path) = plan(&square(), &Query { start: configuration(0.5, 0.5), goals }) else {
                 panic!()
             };
             assert_eq!(path.goal(), configuration(0.5, 1.5));
@@ -341,7 +341,7 @@ mod contract {
         let window = [(-TAU, TAU), (-1.0, 1.0)];
         let regions = Regions { topology: Topology { axes }, window, ..regions(window, free) };
         both(|plan| {
-            let Outcome::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
+            let Proposal::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
             let [from, to] = path.waypoints() else { panic!("{:?}", path.waypoints()) };
             assert_eq!(*from, configuration(0.0, 0.0));
             assert!((to - configuration(PI - TAU, 0.0)).norm() < 1e-14, "{to}");

@@ -254,7 +254,7 @@ fn shipped_workspaces_are_answered_as_they_say() {
     assert_eq!(undecided, ["slot_closed"], "of {}", files.len());
 }
 
-fn shortest(problem: &cplan::model::Problem) -> Verdict {
+fn shortest(problem: &cplan::model::MotionProblem) -> Verdict {
     solve(problem, Method::Shortest, &Effort::default(), &mut |_| {}).verdict
 }
 

@@ -162,16 +162,16 @@ fn the_fastest_of_all_postures_and_orders_is_found() {
                         return f64::INFINITY;
                     }
                     let single = planned(&Task { start: from, items: vec![Item::Step(there)], ..task.clone() });
-                    if single.verdict == TaskVerdict::Done { single.duration() } else { f64::INFINITY }
+                    if single.verdict == TaskVerdict::Found(()) { single.duration() } else { f64::INFINITY }
                 })
             };
             let expected = least(task.start, &layers, &orders, alone);
             if expected.is_infinite() {
-                assert_ne!(answer.verdict, TaskVerdict::Done, "seed {seed}");
+                assert_ne!(answer.verdict, TaskVerdict::Found(()), "seed {seed}");
                 continue;
             }
             compared += 1;
-            assert_eq!(answer.verdict, TaskVerdict::Done, "seed {seed}");
+            assert_eq!(answer.verdict, TaskVerdict::Found(()), "seed {seed}");
             assert!(answer.exact, "seed {seed}");
             assert!((answer.duration() - expected).abs() < 1e-9, "seed {seed}: {} for {expected}", answer.duration());
             durations.push(answer.duration());
@@ -205,7 +205,7 @@ fn a_large_group_gets_a_good_order() {
     let spots: Vec<[Point; 2]> = spots(3, 30, &arm).into_iter().filter(|pair| pair.iter().all(free)).take(12).collect();
     assert_eq!(spots.len(), 12);
     let ours = planned(&task(limits, &spots, true));
-    assert_eq!(ours.verdict, TaskVerdict::Done);
+    assert_eq!(ours.verdict, TaskVerdict::Found(()));
     assert!(!ours.exact && ours.lower_bound < ours.duration());
     let some = planned(&task(limits, &spots[..4], true));
     assert!(some.exact && some.lower_bound < ours.lower_bound, "more to do takes longer");
@@ -216,7 +216,7 @@ fn a_large_group_gets_a_good_order() {
         }
         let drawn: Vec<[Point; 2]> = order.iter().map(|&i| spots[i]).collect();
         let theirs = planned(&task(limits, &drawn, false));
-        assert_eq!(theirs.verdict, TaskVerdict::Done);
+        assert_eq!(theirs.verdict, TaskVerdict::Found(()));
         assert!(ours.duration() < theirs.duration(), "{} and {}", ours.duration(), theirs.duration());
     }
 }

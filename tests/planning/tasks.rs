@@ -54,7 +54,7 @@ fn every_task_gives_its_stated_outcome() {
         let name = file.file_stem().unwrap().display().to_string();
         let answer = planned(&task);
         let outcome = match &answer.verdict {
-            TaskVerdict::Done => "done",
+            TaskVerdict::Found(()) => "done",
             TaskVerdict::Infeasible(_) => "infeasible",
             TaskVerdict::Unknown(_) => "unknown",
         };
@@ -80,7 +80,7 @@ fn holding_level_or_rigid_makes_the_difference() {
     };
     assert_eq!(differ(&level), differ(&rigid));
     assert!(level.objects.iter().all(|o| o.holding == Holding::Level));
-    assert_eq!(planned(&level).verdict, TaskVerdict::Done);
+    assert_eq!(planned(&level).verdict, TaskVerdict::Found(()));
     assert!(matches!(planned(&rigid).verdict, TaskVerdict::Infeasible(_)));
 }
 
@@ -145,7 +145,7 @@ fn the_greedy_choice_of_postures_is_slower() {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
             let answer = planned(&Task { items, ..task.clone() });
-            (answer.verdict == TaskVerdict::Done).then(|| (answer.duration(), *q))
+            (answer.verdict == TaskVerdict::Found(())).then(|| (answer.duration(), *q))
         };
         let all = postures(&task, step);
         let (seconds, q) =
@@ -170,7 +170,7 @@ fn identical_cycles_are_planned_once() {
     let cycle = |cycle| first.iter().chain([&home]).map(move |step| Item::Step(Step { cycle, ..step.clone() }));
     task.items = (1..=50).flat_map(cycle).collect();
     let answer = planned(&task);
-    assert_eq!(answer.verdict, TaskVerdict::Done);
+    assert_eq!(answer.verdict, TaskVerdict::Found(()));
     assert_eq!(answer.legs.len(), 150);
     assert!(answer.motions < 60, "{} motions", answer.motions);
 }

@@ -5,7 +5,7 @@ use cplan::check::{ProofBox, read_proof, recheck};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
-use cplan::model::{Problem, Scene};
+use cplan::model::{MotionProblem, Scene};
 use cplan::search::{Connectivity, connectivity};
 use cplan::space::{Configuration, Path};
 use parry2d_f64::math::{Pose, Rotation, Vector};
@@ -28,7 +28,7 @@ const BOXES: usize = 200_000;
 /// Greatest change of a joint between two samples.
 const STEP: f64 = 1e-4;
 
-fn load(name: &str, robot: &str) -> Problem {
+fn load(name: &str, robot: &str) -> MotionProblem {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     let (urdf, world) = (format!("robots/{robot}.urdf"), format!("workspaces/{name}.toml"));
     let loaded = input::load(&root.join(urdf), &root.join(world), &Overrides::default());

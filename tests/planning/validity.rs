@@ -9,7 +9,8 @@ use cplan::geometry::{
     Convex, ConvexDefect, Orientation, Point, Polygon, PolygonDefect, RingDefect, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
-    Arm, Grip, Heights, Motion, Payload, Preference, Problem, ProblemDefect, Region, Scene, SceneDefect, Workspace,
+    Arm, Grip, Heights, Motion, MotionProblem, Payload, Preference, ProblemDefect, Region, Scene, SceneDefect,
+    Workspace,
 };
 use cplan::space::{Axis, GoalSet, Segment};
 use std::f64::consts::PI;
@@ -166,7 +167,7 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     let scene = || placed(arm(|_| ()), workspace(|_| ()));
     let (free, blocked) = (q(-1.0, 0.5), q(PI / 4.0, 0.3));
     let elbow = |value| ("elbow".to_owned(), value);
-    let refused = |start, goals: GoalSet| Problem::new(scene(), start, goals).expect_err("it is refused");
+    let refused = |start, goals: GoalSet| MotionProblem::new(scene(), start, goals).expect_err("it is refused");
     let (joint, value) = elbow(2.5);
     assert_eq!(refused(q(0.0, 2.5), free.into()), ProblemDefect::StartOutside { joint, value });
     assert!(matches!(refused(q(NAN, 0.0), free.into()), ProblemDefect::StartOutside { .. }));
@@ -181,11 +182,11 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     assert!(hit.starts_with("goal 1 is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
     // Of a segment some may be blocked.
     let through = GoalSet::from(Segment::new(free, q(PI / 4.0, 0.3)));
-    let problem = Problem::new(scene(), free, through).expect("some of it is free");
+    let problem = MotionProblem::new(scene(), free, through).expect("some of it is free");
     assert!(matches!(solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {}).verdict, Verdict::Found(_)));
     // What keeps less than the clearance is not free either.
     let near = scene().with_clearance(0.7).expect("a clearance");
-    let touched = Problem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();
+    let touched = MotionProblem::new(near, q(0.0, 0.5), free).expect_err("it is too near").to_string();
     assert!(touched.contains("nearer than the clearance of 0.7 m"), "{touched}");
 }
 

@@ -6,12 +6,12 @@
 
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, Overrides};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use std::path::{Path, PathBuf};
 
 struct Shipped {
     name: String,
-    problem: Problem,
+    problem: MotionProblem,
     expect: String,
     /// Names of the planners that may not know.
     unknown: Vec<String>,
@@ -42,7 +42,7 @@ fn shipped() -> Vec<Shipped> {
 }
 
 /// Least distance at configurations no farther apart than `step` in joint space.
-fn sampled_clearance(problem: &Problem, path: &cplan::space::Path, step: f64) -> f64 {
+fn sampled_clearance(problem: &MotionProblem, path: &cplan::space::Path, step: f64) -> f64 {
     let mut least = f64::INFINITY;
     for (a, b) in path.segments() {
         let n = ((b - a).norm() / step).ceil().max(1.0);

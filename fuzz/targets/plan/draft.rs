@@ -3,7 +3,7 @@
 use arbitrary::Arbitrary;
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, MotionProblem, Scene, Shape, Workspace,
 };
 use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
@@ -85,7 +85,7 @@ impl JointDraft {
 
 impl Draft {
     /// The problem, if its start and a goal are free.
-    pub fn problem(&self) -> Option<Problem> {
+    pub fn problem(&self) -> Option<MotionProblem> {
         let [a, b] = &self.joints;
         let joints = [a.joint("one")?, b.joint("two")?];
         let link = |(count, shapes): &(u8, [ShapeDraft; 2]), name: &str| {
@@ -130,6 +130,6 @@ impl Draft {
         if goals.is_empty() {
             return None;
         }
-        Some(Problem::new(scene, start, goals.into_iter().collect::<GoalSet>()).expect("its ends are free"))
+        Some(MotionProblem::new(scene, start, goals.into_iter().collect::<GoalSet>()).expect("its ends are free"))
     }
 }

@@ -6,7 +6,7 @@ mod draft;
 
 use cplan::check::{CertifiedPath, certify};
 use cplan::geometry::Convex;
-use cplan::model::{Motion, Problem, Scene};
+use cplan::model::{Motion, MotionProblem, Scene};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::space::{Configuration, Path};
 use draft::Draft;
@@ -83,7 +83,7 @@ fn check_sample(scene: &Scene, q: Configuration, promised: f64) {
     }
 }
 
-fn check_path(problem: &Problem, found: &CertifiedPath) {
+fn check_path(problem: &MotionProblem, found: &CertifiedPath) {
     let (scene, path) = (problem.scene(), found.path());
     let topology = scene.arm().topology();
     assert!(found.clearance() > 0.0 && found.clearance() >= scene.workspace().clearance);

@@ -1,7 +1,8 @@
 //! Arguments of `compare`.
 
-use crate::cli::args::{EffortArgs, QueryArgs};
+use crate::cli::args::QueryArgs;
 use crate::cli::motion::MotionArgs;
+use crate::cli::planner_args::EffortArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
 use clap::{ArgGroup, Args, ValueHint};

@@ -3,9 +3,9 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
-use crate::cli::output;
 use crate::input::{self, DefectKind, Overrides, Refused, Suite};
-use crate::model::Problem;
+use crate::model::{Joint, MotionProblem};
+use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
@@ -35,14 +35,14 @@ pub struct Case {
     /// Which of the worlds it is in, from 0.
     pub world: usize,
     /// With the world's own start and goal, or with any where they are drawn.
-    base: Arc<Problem>,
+    base: Arc<MotionProblem>,
     /// Start and goal that were drawn.
     pub query: Option<[Configuration; 2]>,
 }
 
 impl Case {
     /// The problem itself. A copy of the scene where start and goal are drawn: there may be a million of them.
-    pub fn problem(&self) -> Cow<'_, Problem> {
+    pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
             Some([start, goal]) => Cow::Owned(asked(&self.base, start, goal)),
@@ -50,13 +50,13 @@ impl Case {
     }
 
     /// The problem before start and goal are drawn: its scene is the case's.
-    pub fn base(&self) -> &Problem {
+    pub fn base(&self) -> &MotionProblem {
         &self.base
     }
 }
 
-fn asked(base: &Problem, start: Configuration, goal: Configuration) -> Problem {
-    Problem::trusted(base.scene().clone(), start, goal)
+fn asked(base: &MotionProblem, start: Configuration, goal: Configuration) -> MotionProblem {
+    MotionProblem::trusted(base.scene().clone(), start, goal)
 }
 
 impl Cases {
@@ -87,19 +87,19 @@ impl Cases {
             if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
         let mut refused: Vec<Refusal> = refused.iter().map(refusal).collect();
         for (_, problem) in &mut bases {
-            args.motion.override_limits(problem.joints_mut());
+            Joint::override_jerks(problem.joints_mut(), args.motion.jerk());
         }
         if let [(_, only)] = &bases[..]
             && args.suite.is_none()
         {
-            name = output::title(only);
+            name = title_of(only.scene());
         }
         let sampling = args.queries.map(|queries| Sampling { queries: queries as usize, seed: args.seed });
         let mut cases = Vec::new();
         // Worlds are numbered without gaps.
         let mut world = 0;
         for (name, problem) in bases {
-            let name = if args.is_single() { output::title(&problem) } else { name };
+            let name = if args.is_single() { title_of(problem.scene()) } else { name };
             match drawn(&name, world, Arc::new(problem), sampling) {
                 Ok(drawn) => {
                     cases.extend(drawn);
@@ -136,7 +136,7 @@ fn one(urdf: &Path, world: &Path) -> Result<Suite, Failure> {
 }
 
 /// Problems with their names, and those that cannot be run.
-type Bases = (Vec<(String, Problem)>, Vec<Refused>);
+type Bases = (Vec<(String, MotionProblem)>, Vec<Refused>);
 
 /// With the worlds' own start and goal, or those of the command line.
 fn problems(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
@@ -165,7 +165,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
         }
         let scene = member.scene.keeping(overrides.clearance)?.scene;
         let nowhere = Configuration::zeros();
-        Ok((member.name, Problem::trusted(scene, nowhere, nowhere)))
+        Ok((member.name, MotionProblem::trusted(scene, nowhere, nowhere)))
     };
     let scenes: Result<Vec<_>, Failure> = suite.members.into_iter().map(scene).collect();
     Ok((scenes?, suite.refused))
@@ -175,7 +175,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
 ///
 /// # Errors
 /// In words, when hardly anything is free.
-fn drawn(name: &str, world: usize, base: Arc<Problem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
+fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
     let Some(Sampling { queries, seed }) = sampling else {
         return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);
     };

@@ -3,11 +3,13 @@
 use super::cases::{Case, Cases};
 use super::runner::Compared;
 use crate::cli::failure::Failure;
-use crate::cli::output;
+use crate::cli::sinks;
 use crate::cspace::CObstacle;
 use crate::draw::{self, Picture};
-use crate::model::{Problem, Scene};
-use crate::report::{self, Comparison, Outcome, Overlay, Study};
+use crate::model::Status;
+use crate::model::{MotionProblem, Scene};
+use crate::output::{self, PictureFormat};
+use crate::report::{self, Comparison, Overlay, Study};
 use crate::space::Path;
 
 /// Problems that a page draws one by one where start and goal are random.
@@ -30,12 +32,12 @@ pub fn save(
     case: &Case,
     comparison: &Comparison,
     paths: &[Option<Path>],
-    format: output::PictureFormat,
+    format: PictureFormat,
     file: &std::path::Path,
 ) -> Result<(), Failure> {
     let problem = case.problem();
     let contours = output::contours(problem.scene());
-    output::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
+    sinks::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
 }
 
 /// The page's pictures: workspace and configuration space of each problem; of random queries, those on which the planners'
@@ -96,16 +98,16 @@ fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
 }
 
 fn picture<'a>(
-    problem: &'a Problem,
+    problem: &'a MotionProblem,
     comparison: &Comparison,
     paths: &'a [Option<Path>],
     contours: &'a [CObstacle],
 ) -> Picture<'a> {
     let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
     let paths: Vec<_> = named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect();
-    let found = comparison.rows.iter().filter(|row| row.outcome == Outcome::Found).count();
+    let found = comparison.rows.iter().filter(|row| row.outcome == Status::Found).count();
     Picture {
-        title: vec![output::title(problem), format!("lengths in {}", comparison.length_unit)],
+        title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
         status: format!("{found} of {} found a certified path", comparison.rows.len()),
         scene: problem.scene(),
         start: problem.start(),

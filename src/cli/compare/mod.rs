@@ -13,9 +13,9 @@ pub use args::CompareArgs;
 
 use super::failure::Failure;
 use super::memory::MemoryMeter;
-use super::output::{self, Sink};
+use super::sinks::{self, Sink};
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
-use crate::engine::{Effort, Method};
+use crate::engine::{Method, Planner};
 use crate::motion::write_whole_set;
 use crate::report::{Comparison, Page, Refusal, Study};
 use cases::{Case, Cases};
@@ -30,17 +30,17 @@ use sink::{ReportFormat, report_sinks};
 /// Bad input and I/O.
 pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
     let sinks = report_sinks(&args.output)?;
-    let pictures = output::sinks(&[], &args.picture)?;
-    output::distinct(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
+    let pictures = sinks::sinks(&[], &args.picture)?;
+    sinks::distinct(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
     let cases = Cases::load(args)?;
-    output::spare_inputs(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
+    sinks::spare_inputs(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
     let entries = entries(args, &cases)?;
-    cases.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+    cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
-        output::say(&format!("warning: {problem} is not run: {reason}"));
+        sinks::say(&format!("warning: {problem} is not run: {reason}"));
     }
     if !args.quiet {
-        cases.left_out.iter().for_each(|line| output::say(&format!("note: {line}")));
+        cases.left_out.iter().for_each(|line| sinks::say(&format!("note: {line}")));
     }
     let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
     let progress = Progress::new(total, args.is_single(), args.quiet);
@@ -69,13 +69,13 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
         sinks.iter().map(|sink| Ok((sink.path.clone(), results.content(sink.format)?))).collect();
     write_whole_set(&written?)?;
     match (args.json, args.csv, args.markdown) {
-        (true, ..) => output::print_json(&results.content(ReportFormat::Json)?)?,
-        (_, true, _) => output::print(&results.content(ReportFormat::Csv)?)?,
-        (.., true) => output::tell(&results.content(ReportFormat::Markdown)?)?,
-        _ => output::tell(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
+        (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,
+        (_, true, _) => sinks::print(&results.content(ReportFormat::Csv)?)?,
+        (.., true) => sinks::tell(&results.content(ReportFormat::Markdown)?)?,
+        _ => sinks::tell(&results.single().map_or_else(|| study.to_text(), Comparison::to_text))?,
     }
     let alarms = study.alarms();
-    alarms.iter().for_each(|alarm| output::say(&format!("error: {alarm}")));
+    alarms.iter().for_each(|alarm| sinks::say(&format!("error: {alarm}")));
     Ok(exit_code(&study, args.is_single()))
 }
 
@@ -95,22 +95,21 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
 /// # Errors
 /// Options of a planner that need something of a world which it lacks.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
-    // Bounds are measured by themselves, for all planners alike.
-    let effort = Effort { bounded: false, ..args.effort.effort() };
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
+    let plain = methods.iter().map(|&method| {
+        let planner = args.effort.put_into(Planner::named(method));
+        Entry { label: method.to_string(), planner, levels: args.effort.levels() }
+    });
+    let plain: Vec<Entry> = plain.collect();
     let of = |case: &Case| {
-        let plain = methods.iter().map(|&method| {
-            let (label, path_kind) = (method.to_string(), method.path_kind());
-            Entry { label, method, path_kind, effort: Effort { path: Some(path_kind), ..effort } }
-        });
-        let mut entries: Vec<Entry> = plain.collect();
+        let mut entries = plain.clone();
         for variant in &args.with {
             let preferences = &case.base().scene().workspace().preferences;
-            let effort = variant.effort(effort, preferences).map_err(|lack| {
-                Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) })
-            })?;
-            let (label, path_kind) = (variant.label.clone(), variant.path_kind());
-            entries.push(Entry { label, method: variant.method, path_kind, effort });
+            if let Some(lack) = variant.lack(preferences) {
+                return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
+            }
+            let (planner, levels) = variant.over(&args.effort);
+            entries.push(Entry { label: variant.label.clone(), planner, levels });
         }
         Ok(entries)
     };
@@ -155,10 +154,11 @@ impl Results<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Family, Outcome, Row};
+    use crate::model::Status;
+    use crate::report::{Family, Row};
 
-    fn study(outcomes: &[&[Outcome]]) -> Study {
-        let comparison = |outcomes: &&[Outcome]| Comparison {
+    fn study(outcomes: &[&[Status]]) -> Study {
+        let comparison = |outcomes: &&[Status]| Comparison {
             problem: "p".to_owned(),
             length_unit: "rad".to_owned(),
             query: None,
@@ -171,8 +171,8 @@ mod tests {
 
     #[test]
     fn the_exit_code_is_the_best_answers_and_1_for_contradictions() {
-        use Outcome::{Found, Infeasible, Unknown};
-        let single = |outcomes: &[Outcome]| exit_code(&study(&[outcomes]), true);
+        use Status::{Found, Infeasible, Unknown};
+        let single = |outcomes: &[Status]| exit_code(&study(&[outcomes]), true);
         assert_eq!([single(&[Unknown, Found]), single(&[Found])], [DONE; 2]);
         assert_eq!([single(&[Unknown, Infeasible]), single(&[Unknown])], [INFEASIBLE, UNKNOWN]);
         assert_eq!(single(&[Found, Unknown, Infeasible]), BAD_INPUT);

@@ -1,6 +1,6 @@
 //! Progress of many runs, on stderr.
 
-use crate::cli::output;
+use crate::cli::sinks;
 use std::io::{IsTerminal, Write};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -62,7 +62,7 @@ impl Progress {
     pub fn begin(&self, problem: &str, planner: &str) {
         match self.manner {
             Manner::Silent | Manner::Lines => {}
-            Manner::Told => output::say(&format!("{planner} ...")),
+            Manner::Told => sinks::say(&format!("{planner} ...")),
             Manner::Bar => {
                 let mut state = self.state();
                 state.now = format!("{planner} on {problem}");
@@ -74,7 +74,7 @@ impl Progress {
     /// What a planner has to say on its way.
     pub fn say(&self, text: &str) {
         if self.manner == Manner::Told {
-            output::say(text);
+            sinks::say(text);
         }
     }
 
@@ -87,7 +87,7 @@ impl Progress {
             Manner::Silent | Manner::Told | Manner::Bar => {}
             Manner::Lines if state.shown.elapsed() >= INTERVAL => {
                 state.shown = Instant::now();
-                output::say(&line(state.done, self.total, self.started.elapsed()));
+                sinks::say(&line(state.done, self.total, self.started.elapsed()));
             }
             Manner::Lines => {}
         }
@@ -98,7 +98,7 @@ impl Progress {
         match self.manner {
             Manner::Silent | Manner::Told => {}
             Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
-            Manner::Lines => output::say(&line(self.state().done, self.total, self.started.elapsed())),
+            Manner::Lines => sinks::say(&line(self.state().done, self.total, self.started.elapsed())),
         }
     }
 

@@ -4,12 +4,13 @@ use super::cases::{Case, Cases};
 use super::progress::Progress;
 use crate::cli::memory::MemoryMeter;
 use crate::cli::motion::MotionArgs;
-use crate::cli::output;
-use crate::engine::{Effort, Method, Verdict, bound, solve};
-use crate::model::Problem;
+use crate::cli::sinks;
+use crate::engine::{Effort, Planner, Verdict, bound, solve};
+use crate::model::MotionProblem;
+use crate::model::Status;
 use crate::motion::{Timed, TimingError};
 use crate::planner::PathKind;
-use crate::report::{Comparison, Family, OtherPath, Outcome, Row};
+use crate::report::{Comparison, Family, OtherPath, Row};
 use crate::space::{Metric, Path};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -21,11 +22,16 @@ pub struct Entry {
     /// For tables.
     pub label: String,
     /// The planner.
-    pub method: Method,
-    /// Which of its paths.
-    pub path_kind: PathKind,
-    /// How hard to try.
-    pub effort: Effort,
+    pub planner: Planner,
+    /// Its attempts.
+    pub levels: usize,
+}
+
+impl Entry {
+    /// How hard it tries; bounds are measured by themselves, for all planners alike.
+    fn effort(&self, problem: &MotionProblem) -> Effort {
+        Effort { bounded: false, ..self.planner.effort(problem.scene().arm(), self.levels) }
+    }
 }
 
 /// What is there when all is done.
@@ -130,13 +136,14 @@ impl Runner<'_> {
     fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> Ran {
         self.progress.begin(&case.name, &entry.label);
         let problem = case.problem();
+        let (method, effort) = (entry.planner.method(), entry.effort(&problem));
         if is_first {
-            let _ = solve(&problem, entry.method, &Effort { levels: 1, boxes: WARMING, ..entry.effort }, &mut |_| {});
+            let _ = solve(&problem, method, &Effort { levels: 1, boxes: WARMING, ..effort }, &mut |_| {});
         }
         let mut said = |text: &str| self.progress.say(text);
         let mut work = || {
             let clock = Instant::now();
-            let answer = solve(&problem, entry.method, &entry.effort, &mut said);
+            let answer = solve(&problem, method, &effort, &mut said);
             (answer, clock.elapsed())
         };
         let ((answer, elapsed), memory) = match self.meter {
@@ -157,14 +164,14 @@ impl Runner<'_> {
             total: seconds(elapsed),
             memory,
             note: answer.run.note,
-            path_kind: entry.path_kind,
-            ..Row::new(entry.label.clone(), Family::from(entry.method), Outcome::Unknown)
+            path_kind: entry.planner.path_kind(),
+            ..Row::new(entry.label.clone(), Family::from(method), Status::Unknown)
         };
         let mut path = None;
         match answer.verdict {
             Verdict::Found(certified) => {
                 let Timed { curve, trajectory } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
-                row.outcome = Outcome::Found;
+                row.outcome = Status::Found;
                 row.length = Some(certified.path().length());
                 row.pieces = Some(certified.path().segments().count());
                 row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
@@ -172,7 +179,7 @@ impl Runner<'_> {
                 row.other_path = self.other_path(&problem, entry)?;
                 path = Some(certified.path().clone());
             }
-            Verdict::Infeasible(_) => row.outcome = Outcome::Infeasible,
+            Verdict::Infeasible(_) => row.outcome = Status::Infeasible,
             Verdict::Unknown(reason) => row.reason = Some(reason),
         }
         self.progress.done();
@@ -180,13 +187,14 @@ impl Runner<'_> {
     }
 
     /// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
-    fn other_path(&self, problem: &Problem, entry: &Entry) -> Result<Option<OtherPath>, TimingError> {
-        if !entry.method.has_own_path() {
+    fn other_path(&self, problem: &MotionProblem, entry: &Entry) -> Result<Option<OtherPath>, TimingError> {
+        let method = entry.planner.method();
+        if !method.has_own_path() {
             return Ok(None);
         }
-        let kind = if entry.path_kind == PathKind::Own { PathKind::Taut } else { PathKind::Own };
-        let effort = Effort { path: Some(kind), ..entry.effort };
-        let Verdict::Found(certified) = solve(problem, entry.method, &effort, &mut |_| {}).verdict else {
+        let kind = if entry.planner.path_kind() == PathKind::Own { PathKind::Taut } else { PathKind::Own };
+        let effort = Effort { path: Some(kind), ..entry.effort(problem) };
+        let Verdict::Found(certified) = solve(problem, method, &effort, &mut |_| {}).verdict else {
             return Ok(None);
         };
         let Timed { curve, .. } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
@@ -198,13 +206,13 @@ impl Runner<'_> {
 }
 
 /// What no motion is shorter than; none without a path.
-fn lower_bound<'a>(problem: &Problem, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
+fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
     Some(bound(problem, shortest, Metric::Euclidean, BOUND_GAP).lower)
 }
 
 /// The unit of lengths in joint space.
-pub fn length_unit(problem: &Problem) -> String {
+pub fn length_unit(problem: &MotionProblem) -> String {
     let units = problem.scene().arm().joints.each_ref().map(|j| j.unit());
     if units[0] == units[1] { units[0].into() } else { units.join(", ") }
 }
@@ -212,9 +220,7 @@ pub fn length_unit(problem: &Problem) -> String {
 /// Says why there is no memory to tell, if there is none.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
-        output::say(
-            "note: memory is told for --jobs 1 only: what several runs allocate at a time cannot be told apart",
-        );
+        sinks::say("note: memory is told for --jobs 1 only: what several runs allocate at a time cannot be told apart");
     }
     meter.filter(|_| jobs == 1)
 }

@@ -1,9 +1,9 @@
 //! Contours of C-obstacles, kept from one answer to the next: of all obstacles one or two have changed.
 
-use crate::cli::output;
 use crate::cspace::CObstacle;
 use crate::geometry::Convex;
 use crate::model::{Arm, Heights, Obstacle, Scene, Workspace};
+use crate::output;
 use std::cell::RefCell;
 
 /// What a page's worker remembers. The contours of an obstacle depend on nothing but the arm, the clearance and its pieces.

@@ -8,8 +8,8 @@ use super::files;
 use super::menus;
 use super::options::Options;
 use super::protocol::{About, AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
-use super::result::{self, Found};
-use crate::engine::Method;
+use super::result;
+use crate::engine::{Method, Problem};
 use crate::geometry::Point;
 use crate::input::{LoadedScene, Overrides};
 use crate::interrupt::{Interrupt, Interrupted};
@@ -163,28 +163,28 @@ impl<'a> Desk<'a> {
             Err(stopped) => return or_late(stopped, late),
         };
         let toml = ask.is_final.then_some(text);
-        let effort = match options.effort(&loaded.scene) {
-            Ok(effort) => effort,
+        let options = match options.within(&loaded.scene) {
+            Ok(options) => options,
             Err(error) => return refused(About::Options, error),
         };
         if loaded.has_steps() {
-            let mut loaded = match loaded.task(&Overrides::default()) {
-                Ok(loaded) => loaded,
+            let problem = match Problem::of_scene(loaded, &Overrides::default()) {
+                Ok(problem) => problem,
                 Err(error) => return refused(About::World, error.to_string()),
             };
-            options.override_limits(&mut loaded.task.arm.joints);
-            let answer = limited.run(|| result::of_task(&loaded, &options, effort));
-            return Ok(AnswerReply { toml, ..answer.or_else(|stopped| or_late(stopped, late))? });
+            return match limited.run(|| result::in_full(&problem, options, &self.contours)) {
+                Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
+                Ok(Err(error)) => refused(About::Options, error),
+                Err(stopped) => Ok(AnswerReply { toml, ..or_late(stopped, late)? }),
+            };
         }
         let bare = |scene: &Scene, ends: (Configuration, &[Segment]), status: &str| {
             let shown = showing.run(|| result::bare(scene, ends, status, &self.contours));
             shown.or_else(|stopped| or_late(stopped, || Ok(AnswerReply::default())))
         };
-        let problem = match loaded.clone().problem(&Overrides::default()) {
-            Ok(mut read) => {
-                options.override_limits(read.problem.joints_mut());
-                read.problem
-            }
+        let asked = loaded.clone().problem(&Overrides::default());
+        let problem = match asked.map(Problem::from) {
+            Ok(problem) => problem,
             Err(error) => {
                 let start =
                     ask.state.as_ref().and_then(|state| self.begin(state.start)).or_else(|| self.document.start());
@@ -198,7 +198,8 @@ impl<'a> Desk<'a> {
                 return Ok(AnswerReply { toml, start, view: shown.view, ..refusal });
             }
         };
-        let (start, goals) = (problem.start(), problem.goals().pieces());
+        let Some(motion) = problem.motion() else { return refused(About::World, "this world has steps".into()) };
+        let (start, goals) = (motion.start(), motion.goals().pieces());
         let places = |answer: AnswerReply| {
             let goals = goals.iter().map(|goal| goal.nearest(Measure::from(Metric::Euclidean), start).into()).collect();
             AnswerReply { start: Some(start.into()), goals, ..answer }
@@ -206,7 +207,7 @@ impl<'a> Desk<'a> {
         let (scene, ends) = (problem.scene(), (start, goals));
         if !ask.is_final {
             let planning = interrupt.clone().by(begun + DRAG_TIME);
-            let plan = || result::quick(&problem, options.method(), &effort, &self.contours);
+            let plan = || result::quick(motion, options, &self.contours);
             return match self.pace.tries(|| planning.run(plan)) {
                 Some(Ok(answer)) => Ok(places(answer)),
                 Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
@@ -221,7 +222,7 @@ impl<'a> Desk<'a> {
             Err(Interrupted::TimeUp) => {}
             Err(Interrupted::Set) => return Err(Interrupted::Set),
         }
-        match limited.run(|| Found::in_full(&problem, &options, &effort).answer(&self.contours)) {
+        match limited.run(|| result::in_full(&problem, options, &self.contours)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..places(answer) }),
             Ok(Err(error)) => refused(About::Options, error),
             Err(stopped) => {

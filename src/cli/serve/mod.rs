@@ -22,7 +22,7 @@ mod result;
 mod socket;
 
 use super::failure::Failure;
-use super::{DONE, demo, output};
+use super::{DONE, demo, sinks};
 use crate::input::{LoadedScene, Source, scene_from};
 use clap::Args;
 use document::Document;
@@ -137,12 +137,10 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         Failure::Option(format!("cannot listen at {wanted}: {error}\n  cure: --port 0 takes any port that is free"))
     })?;
     for warning in &scene.robot.warnings {
-        output::say(&format!("warning: {warning}"));
+        sinks::say(&format!("warning: {warning}"));
     }
     if !args.bind.is_loopback() {
-        output::say(
-            "warning: other machines can open this page, and have this one plan for them: there is no password",
-        );
+        sinks::say("warning: other machines can open this page, and have this one plan for them: there is no password");
     }
     let host = Host {
         address,
@@ -155,8 +153,8 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         options: args.with.clone(),
         time: args.time_limit,
     };
-    output::print(&format!("http://{address}/\n"))?;
-    output::say("open it in a browser; Ctrl-C ends");
+    sinks::print(&format!("http://{address}/\n"))?;
+    sinks::say("open it in a browser; Ctrl-C ends");
     let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
     let runtime = runtime.map_err(|error| Failure::Option(format!("cannot wait for connections: {error}")))?;
     let served = runtime.block_on(async {

@@ -1,14 +1,9 @@
 //! Planner and options of the page, in the grammar of the command line.
 
-use crate::cli::args::{EffortArgs, OptimumArgs};
-use crate::cli::field_args::FieldArgs;
 use crate::cli::motion::MotionArgs;
-use crate::cli::path_args::PathArgs;
-use crate::cli::search_args::SearchArgs;
-use crate::engine::{Effort, Method};
-use crate::model::{Joint, Scene};
-use crate::motion::Drive;
-use crate::planner::FieldPlanner;
+use crate::cli::planner_args::PlannerArgs;
+use crate::engine::{self, Method};
+use crate::model::Scene;
 use clap::{Command, CommandFactory, Parser};
 
 /// The finest trajectory that a page asks for, seconds: it is drawn, and sent to a browser.
@@ -18,7 +13,7 @@ const SHORTEST_PERIOD: f64 = 1e-3;
 #[derive(Debug)]
 pub struct Options {
     grammar: Grammar,
-    field: Option<FieldPlanner>,
+    options: engine::Options,
 }
 
 #[derive(Debug, Parser)]
@@ -26,17 +21,9 @@ pub struct Options {
 struct Grammar {
     planner: Method,
     #[command(flatten)]
-    effort: EffortArgs,
-    #[command(flatten)]
-    optimum: OptimumArgs,
-    #[command(flatten)]
     motion: MotionArgs,
     #[command(flatten)]
-    path: PathArgs,
-    #[command(flatten)]
-    search: SearchArgs,
-    #[command(flatten)]
-    field: FieldArgs,
+    options: PlannerArgs,
 }
 
 impl Options {
@@ -57,67 +44,38 @@ impl Options {
             let line = lines.join(" ");
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()
         })?;
-        let planner = grammar.planner;
-        let conflict = grammar.optimum.conflict(planner).or_else(|| grammar.search.conflict(planner));
-        if let Some(conflict) = conflict.or_else(|| grammar.path.conflict(planner)) {
-            return Err(conflict);
-        }
         if grammar.motion.period < SHORTEST_PERIOD {
             return Err(format!("--period: the live page takes at least {SHORTEST_PERIOD} s"));
         }
-        let field = grammar.field.planner(planner)?;
-        Ok(Self { grammar, field })
+        let options = engine::Options {
+            planner: grammar.options.planner(grammar.planner)?,
+            levels: grammar.options.levels(),
+            drive: grammar.motion.drive(),
+            jerk: grammar.motion.jerk(),
+            ..engine::Options::default()
+        };
+        Ok(Self { grammar, options })
     }
 
-    /// The planner.
-    pub fn method(&self) -> Method {
-        self.grammar.planner
-    }
-
-    /// The field that is asked for, if one is.
-    pub fn field(&self) -> Option<&FieldPlanner> {
-        self.field.as_ref()
-    }
-
-    /// How to drive along the path.
-    pub fn motion(&self) -> &MotionArgs {
-        &self.grammar.motion
-    }
-
-    /// The same for tasks.
-    pub fn drive(&self) -> Drive {
-        self.grammar.motion.drive()
-    }
-
-    /// Puts the limits that the options give in place of the joints' own.
-    pub fn override_limits(&self, joints: &mut [Joint; 2]) {
-        self.grammar.motion.override_limits(joints);
-    }
-
-    /// How hard to try in a scene, and what for.
+    /// For planning in a scene.
     ///
     /// # Errors
     /// A field that follows preferences of the world, which has none.
-    pub fn effort(&self, scene: &Scene) -> Result<Effort, String> {
-        let Grammar { effort, optimum, path, search, field, .. } = &self.grammar;
-        if let Some(lack) = field.lack(&scene.workspace().preferences) {
-            return Err(lack);
-        }
-        let metric = optimum.metric(scene.arm().joints.each_ref().map(|joint| joint.velocity));
-        let (field, wavefront) = (self.field, search.wavefront());
-        Ok(Effort { metric, gap: optimum.gap, field, path: path.path, wavefront, ..effort.effort() })
+    pub fn within(&self, scene: &Scene) -> Result<&engine::Options, String> {
+        self.grammar.options.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::engine::{Criterion, Planner};
 
     #[test]
     fn options_are_those_of_the_command_line() {
         let options = Options::parse("visibility --gap 0.01 --margin 1e-4").unwrap();
-        assert_eq!(options.method(), Method::Visibility);
-        assert_eq!((options.grammar.optimum.gap, options.grammar.effort.margin), (Some(0.01), 1e-4));
+        let expected = Planner::Visibility { criterion: Criterion::Euclidean, gap: Some(0.01), margin: 1e-4 };
+        assert_eq!(options.options.planner, expected);
     }
 
     #[test]

@@ -7,13 +7,13 @@ mod text;
 
 use super::args::VerifyArgs;
 use super::failure::Failure;
-use super::output::{self, Sink};
-use super::summary::value;
+use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
 use crate::check::{ENDS_WITHIN, claims_kept, ends_kept, limits_kept, passage, replay};
 use crate::draw::Picture;
 use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 use crate::model::{Claims, RecordedStep, Scene};
+use crate::output::{PictureFormat, contours, title_of, value};
 use crate::space::Recording;
 use findings::{Findings, Verdict};
 
@@ -23,15 +23,15 @@ use findings::{Findings, Verdict};
 /// Bad input and I/O, and options that do not go with what is judged. A motion that collides is no error: finding that out
 /// is the job.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
-    let sinks = output::sinks(&[], &args.picture)?;
+    let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
     if !args.quiet {
-        loaded.robot.warnings.iter().for_each(|w| output::say(&format!("warning: {w}")));
+        loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     }
     let LoadedRecording { mut recording, steps, claims, notes: read } =
         input::load_recording(&args.trajectory, &loaded)?;
     let mut notes = [loaded.world.notes.clone(), read].concat();
-    output::spare_inputs(sinks.iter().map(Sink::path))?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     if args.unwrap {
         recording = recording.unwrapped(&loaded.scene.arm().topology());
     }
@@ -48,9 +48,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     }
     if args.json {
         let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        output::print_json(&(json + "\n"))?;
+        sinks::print_json(&(json + "\n"))?;
     } else if !args.quiet {
-        output::tell(&text::summary(scene.arm(), &recording, &findings))?;
+        sinks::tell(&text::summary(scene.arm(), &recording, &findings))?;
     }
     Ok(match findings.verdict {
         Verdict::Free => DONE,
@@ -146,16 +146,16 @@ fn draw(
     scene: &Scene,
     recording: &Recording,
     findings: &Findings,
-    format: output::PictureFormat,
+    format: PictureFormat,
     file: &std::path::Path,
 ) -> Result<(), Failure> {
-    let contours = output::contours(scene);
+    let contours = contours(scene);
     let path = recording.outline();
     // The arm is shown where it hits.
     let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
     let goals = [shown.unwrap_or(path.goal()).into()];
     let picture = Picture {
-        title: vec![output::title_of(scene), format!("{} samples", findings.samples)],
+        title: vec![title_of(scene), format!("{} samples", findings.samples)],
         status: findings.verdict.word().into(),
         scene,
         start: path.start(),
@@ -165,5 +165,5 @@ fn draw(
         c_obstacles: &contours,
         proof: &[],
     };
-    output::save_picture(format, file, &picture)
+    sinks::save_picture(format, file, &picture)
 }

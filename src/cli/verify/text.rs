@@ -3,9 +3,9 @@
 use super::findings::{EncounterFinding, Findings, LimitFinding, MomentFinding, Verdict, WayFinding};
 use super::task::StepFinding;
 use crate::check::Limit;
-use crate::cli::step_lines::{StepLine, step_lines};
-use crate::cli::summary::{Line, configuration, counted, laid_out, value};
 use crate::model::Arm;
+use crate::output::{Line, configuration, counted, laid_out, value};
+use crate::output::{StepLine, step_lines};
 use crate::space::Recording;
 
 /// The findings for people.

@@ -11,8 +11,6 @@ mod workspace;
 pub(super) use states::describe;
 pub(super) use steps::words;
 
-#[cfg(feature = "png")]
-use super::{DrawError, png_writer};
 use super::{color, svg_writer};
 use crate::cspace::CObstacle;
 use crate::engine::task::{Leg, TaskAnswer};
@@ -39,15 +37,6 @@ pub struct TaskPicture<'a> {
 #[must_use]
 pub fn task_svg(picture: &TaskPicture) -> String {
     svg_writer::write(&page::compose(picture))
-}
-
-/// The task as a PNG file, 1400 pixels wide times `scale`.
-///
-/// # Errors
-/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
-#[cfg(feature = "png")]
-pub fn task_png(picture: &TaskPicture, scale: f64) -> Result<Vec<u8>, DrawError> {
-    png_writer::write(&task_svg(picture), scale)
 }
 
 /// The colour of an object, the same as an obstacle's.

@@ -2,7 +2,7 @@
 
 use crate::engine::task::Leg;
 use crate::space::{Configuration, Topology};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Configurations nearer than this, radians and metres, look the same; rounding of those that are.
 const SAME: f64 = 1e-6;
@@ -44,7 +44,7 @@ pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadSt
 
 fn same_world(a: &Leg, b: &Leg) -> bool {
     let same = || a.scene.payload() == b.scene.payload() && a.scene.workspace() == b.scene.workspace();
-    Rc::ptr_eq(&a.scene, &b.scene) || same()
+    Arc::ptr_eq(&a.scene, &b.scene) || same()
 }
 
 /// Whether the same step moves the joints in the same way.
@@ -54,7 +54,7 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
         let near = |(a, b): (&Configuration, &Configuration)| topology.distance(*a, *b) <= SAME;
         paths[0].len() == paths[1].len() && paths[0].iter().zip(paths[1]).all(near)
     };
-    a.step.number == b.step.number && (Rc::ptr_eq(&a.timed, &b.timed) || same())
+    a.step.number == b.step.number && (Arc::ptr_eq(&a.timed, &b.timed) || same())
 }
 
 impl PayloadState<'_> {

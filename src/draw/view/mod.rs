@@ -21,26 +21,18 @@ mod world;
 pub use html::{page, shell};
 
 use super::{Picture, Posture, TaskPicture, extent};
+use crate::model::Status;
 use crate::motion::Trajectory;
 use crate::space::Segment;
 use arm::ArmView;
 use motion::{Clock, MotionView, PathView};
 use round::Grain;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use world::WorldView;
 
-/// How what is shown ended, for colours and symbols.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Ending {
-    /// A certified motion.
-    Found,
-    /// Proven that there is none.
-    Infeasible,
-    /// Neither.
-    Unknown,
-    /// Nothing was asked for: a comparison, a posture.
-    Shown,
+/// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a posture.
+fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
 /// What a page shows. Lengths in metres, angles in radians, times in seconds, rounded to what can be seen.
@@ -51,7 +43,8 @@ pub struct View {
     /// How it ended, in a word or two.
     pub status: String,
     /// The same for colours and symbols.
-    pub ending: Ending,
+    #[serde(serialize_with = "ending")]
+    pub ending: Option<Status>,
     /// What is to be said of the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
     arm: ArmView,
@@ -79,7 +72,12 @@ struct FrameView {
 impl View {
     /// The view of a picture; with a trajectory, that of the motion along its only path.
     #[must_use]
-    pub fn of_picture(picture: &Picture, ending: Ending, facts: Vec<[String; 2]>, motion: Option<&Trajectory>) -> Self {
+    pub fn of_picture(
+        picture: &Picture,
+        ending: Option<Status>,
+        facts: Vec<[String; 2]>,
+        motion: Option<&Trajectory>,
+    ) -> Self {
         let arm = picture.scene.arm();
         let grain = Grain::of(arm);
         let world = WorldView::new(picture.scene, String::new(), picture.c_obstacles, grain);
@@ -119,12 +117,12 @@ impl View {
             at: grain.point(frame.at),
             axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(|x| grain.number(x))),
         });
-        Self { frames: frames.collect(), ..Self::of_picture(&posture.picture(), Ending::Shown, Vec::new(), None) }
+        Self { frames: frames.collect(), ..Self::of_picture(&posture.picture(), None, Vec::new(), None) }
     }
 
     /// The view of a task: a world for each set of motions that share one.
     #[must_use]
-    pub fn of_task(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> Self {
+    pub fn of_task(picture: &TaskPicture, ending: Option<Status>, facts: Vec<[String; 2]>) -> Self {
         task::view(picture, ending, facts)
     }
 

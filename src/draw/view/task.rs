@@ -1,19 +1,19 @@
 //! The view of a task: its worlds, and what happens when.
 
+use super::View;
 use super::arm::ArmView;
 use super::motion::{Clock, MotionView, PathView};
 use super::round::Grain;
 use super::world::WorldView;
-use super::{Ending, View};
 use crate::draw::task::{describe, motion_pen, words};
 use crate::draw::{TaskPicture, extent};
 use crate::engine::task::{Event, Impossible, Leg, Sequence};
 use crate::geometry::Pose;
-use crate::model::{Scene, Task};
-use std::rc::Rc;
+use crate::model::{Scene, Status, Task};
+use std::sync::Arc;
 
 /// See [`View::of_task`].
-pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> View {
+pub fn view(picture: &TaskPicture, ending: Option<Status>, facts: Vec<[String; 2]>) -> View {
     let (task, legs) = (picture.task, &picture.answer.legs);
     let grain = Grain::of(&task.arm);
     let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
@@ -33,7 +33,7 @@ pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> V
         }
         None => {
             let scene = Scene::trusted(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
-            MotionView { world: worlds.of(&Rc::new(scene)), path: None, from, label: "done".to_owned() }
+            MotionView { world: worlds.of(&Arc::new(scene)), path: None, from, label: "done".to_owned() }
         }
     };
     motions.push(last);
@@ -64,18 +64,18 @@ pub fn view(picture: &TaskPicture, ending: Ending, facts: Vec<[String; 2]>) -> V
 struct Worlds<'a> {
     picture: &'a TaskPicture<'a>,
     grain: Grain,
-    scenes: Vec<Rc<Scene>>,
+    scenes: Vec<Arc<Scene>>,
     views: Vec<WorldView>,
 }
 
 impl Worlds<'_> {
     /// The number of a scene's world. Scenes of repetitions are often one, or else alike.
-    fn of(&mut self, scene: &Rc<Scene>) -> usize {
-        let known = |other: &Rc<Scene>| Rc::ptr_eq(other, scene) || other == scene;
+    fn of(&mut self, scene: &Arc<Scene>) -> usize {
+        let known = |other: &Arc<Scene>| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene))
     }
 
-    fn add(&mut self, scene: &Rc<Scene>) -> usize {
+    fn add(&mut self, scene: &Arc<Scene>) -> usize {
         let contours = (self.picture.c_obstacles)(scene);
         let label = describe(scene.payload().map(|payload| payload.object.as_str()));
         self.views.push(WorldView::new(scene, label, &contours, self.grain));

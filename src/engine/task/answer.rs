@@ -4,9 +4,9 @@ use super::impossible::Impossible;
 use super::stroke::ToolStroke;
 use crate::check::WristTurn;
 use crate::geometry::Pose;
-use crate::model::{Scene, Step};
+use crate::model::{Outcome, Scene, Step};
 use crate::motion::Timed;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// What happens at the end of a step's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,11 +44,11 @@ pub struct Leg {
     /// The step.
     pub step: Step,
     /// The world during the motion, and what is carried.
-    pub scene: Rc<Scene>,
+    pub scene: Arc<Scene>,
     /// The object that is carried during the motion.
     pub carried: Option<usize>,
     /// The motion, on a clock of its own.
-    pub timed: Rc<Timed>,
+    pub timed: Arc<Timed>,
     /// Turn of the wrist, and the seconds that it takes.
     pub turn: Option<(WristTurn, f64)>,
     /// How the tool is lowered and raised, if it is.
@@ -115,16 +115,9 @@ impl Leg {
     }
 }
 
-/// The answer to a task.
-#[derive(Debug, Clone, PartialEq)]
-pub enum TaskVerdict {
-    /// All steps can be done, as planned.
-    Done,
-    /// It cannot be done, whatever the postures and the order: proven.
-    Infeasible(Impossible),
-    /// Neither within the effort.
-    Unknown(Impossible),
-}
+/// What became of a task: all steps can be done as planned; it cannot be done, whatever the postures and the order: proven; or
+/// neither is known within the effort. Both name the step that fails.
+pub type TaskVerdict = Outcome<(), Impossible, Impossible>;
 
 /// The answer to a task and how it came about.
 #[derive(Debug, Clone)]
@@ -148,7 +141,7 @@ impl TaskAnswer {
     #[must_use]
     pub fn impossible(&self) -> Option<&Impossible> {
         match &self.verdict {
-            TaskVerdict::Done => None,
+            TaskVerdict::Found(()) => None,
             TaskVerdict::Infeasible(impossible) | TaskVerdict::Unknown(impossible) => Some(impossible),
         }
     }

@@ -4,7 +4,7 @@ use super::legs::Refusal;
 use crate::check::StuckBox;
 use crate::model::{Arm, Joint, Scene, Step};
 use crate::space::Configuration;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Beginnings of motions beyond these are not named for one reason.
 const NAMED: usize = 4;
@@ -20,7 +20,7 @@ pub struct Unreached {
     /// Why, in words.
     pub reason: String,
     /// Boxes of colliding configurations that separate it from where the arm stands; none where that is not the reason.
-    pub proof: Rc<[StuckBox]>,
+    pub proof: Arc<[StuckBox]>,
 }
 
 /// Why a task cannot be done, or is not known to be possible.
@@ -32,7 +32,7 @@ pub struct Impossible {
     /// steps before end with in the answer.
     pub reasons: Vec<String>,
     /// The world after the steps before, as it is for the motion that fails, and what is carried.
-    pub scene: Rc<Scene>,
+    pub scene: Arc<Scene>,
     /// Where the arm stands then.
     pub from: Configuration,
     /// The postures that were tried from there; none if no posture within the joint limits reaches the target.

@@ -7,12 +7,12 @@ use super::stroke::{ToolStroke, stroke};
 use crate::check::{CertifiedPath, StuckBox, WristTurn, certify, wrist_turn};
 use crate::engine::{Effort, Verdict, solve};
 use crate::geometry::Pose;
-use crate::model::{Grip, Problem, Scene, Step, Task};
+use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, single};
 use crate::search::{Connectivity, slab_connectivity};
 use crate::space::{Configuration, Path};
 use std::collections::{BTreeMap, BTreeSet};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Why a motion is not possible.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +22,7 @@ pub(super) struct Refusal {
     /// Whether that is proven, or just what came of trying.
     pub proven: bool,
     /// Boxes of colliding configurations that bar the way, where that is the reason.
-    pub proof: Rc<[StuckBox]>,
+    pub proof: Arc<[StuckBox]>,
     /// What would have to be elsewhere.
     pub blockers: Blockers,
 }
@@ -41,7 +41,7 @@ pub(super) enum Blockers {
 impl Refusal {
     /// A reason without boxes, from which nothing is learned.
     pub fn new(reason: impl Into<String>, proven: bool) -> Self {
-        Self { reason: reason.into(), proven, proof: Rc::new([]), blockers: Blockers::Unknown }
+        Self { reason: reason.into(), proven, proof: Arc::new([]), blockers: Blockers::Unknown }
     }
 
     /// There is no way, as these boxes prove.
@@ -59,7 +59,7 @@ fn distinct(numbers: impl Iterator<Item = usize>) -> Vec<usize> {
 /// A motion with the turn and the stroke that follow it.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
-    pub timed: Rc<Timed>,
+    pub timed: Arc<Timed>,
     pub turn: Option<(WristTurn, f64)>,
     pub stroke: Option<ToolStroke>,
 }
@@ -110,9 +110,9 @@ pub(super) struct Legs {
     /// Paths among the workspace's own obstacles and some of the objects.
     fewer: BTreeMap<(SceneKey, [u64; 4]), Result<CertifiedPath, Refusal>>,
     /// By way and speed.
-    motions: BTreeMap<(WayKey, u64), Result<Rc<Timed>, Refusal>>,
+    motions: BTreeMap<(WayKey, u64), Result<Arc<Timed>, Refusal>>,
     /// Whole scenes, for answers.
-    scenes: BTreeMap<SceneKey, Rc<Scene>>,
+    scenes: BTreeMap<SceneKey, Arc<Scene>>,
 }
 
 impl Legs {
@@ -140,9 +140,9 @@ impl Legs {
     }
 
     /// The scene of a motion; the same one for the same state of the world.
-    pub fn scene(&mut self, task: &Task, from: &State, step: &Step) -> Rc<Scene> {
+    pub fn scene(&mut self, task: &Task, from: &State, step: &Step) -> Arc<Scene> {
         let key = scene_key(from, step, |_| true);
-        self.scenes.entry(key).or_insert_with(|| Rc::new(from.scene(task, step.action.picked()))).clone()
+        self.scenes.entry(key).or_insert_with(|| Arc::new(from.scene(task, step.action.picked()))).clone()
     }
 
     /// The motion to a candidate's target and the turn there.
@@ -166,7 +166,7 @@ impl Legs {
         from: &State,
         candidate: &Candidate,
         key: WayKey,
-    ) -> Result<Rc<Timed>, Refusal> {
+    ) -> Result<Arc<Timed>, Refusal> {
         let scene = from.scene(task, candidate.step.action.picked());
         let path = match &self.ways[&key] {
             _ if !self.manner.method.optimises() => path(&scene, from.q, candidate.to, &self.manner)?,
@@ -174,7 +174,7 @@ impl Legs {
             Way::Open | Way::Barred(_) => self.shortest(task, from, candidate, &scene)?,
         };
         let timed = self.manner.drive.along(&scene, &path, candidate.step.speed);
-        timed.map(Rc::new).map_err(|error| Refusal::new(error.to_string(), false))
+        timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
     }
 
     /// The planner's path among all objects: the one among fewer, if it is free among all, as none is shorter then. Objects that
@@ -322,7 +322,7 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
 
 /// The planner's path from one configuration to another.
 fn path(scene: &Scene, from: Configuration, to: Configuration, manner: &Manner) -> Result<CertifiedPath, Refusal> {
-    let problem = Problem::trusted(scene.clone(), from, to);
+    let problem = MotionProblem::trusted(scene.clone(), from, to);
     match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
         Verdict::Found(path) => Ok(path),
         Verdict::Infeasible(proof) => Err(Refusal::barred(proof.stuck())),

@@ -196,7 +196,7 @@ impl Found {
     pub fn of(search: &mut Search, ending: Ending, exact: bool) -> Self {
         if let Ending::Done(node) = ending {
             let (legs, seconds) = (search.legs(node), search.seconds(node));
-            return Self { verdict: TaskVerdict::Done, legs, exact, seconds };
+            return Self { verdict: TaskVerdict::Found(()), legs, exact, seconds };
         }
         if ending == Ending::Spent {
             search.give_up();
@@ -210,7 +210,7 @@ impl Found {
     }
 
     fn is_done(&self) -> bool {
-        self.verdict == TaskVerdict::Done
+        self.verdict == TaskVerdict::Found(())
     }
 }
 

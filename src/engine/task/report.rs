@@ -6,10 +6,11 @@ use super::impossible::Impossible;
 use super::joints::{MessageError, Messages};
 use super::sequence::Sequence;
 use super::step_report::{EventReport, StepReport, finite};
+use crate::model::Status;
 use crate::model::{AssumedLimits, Joint, RobotJoints, Task};
-use crate::motion::{JointMotion, SearchUsed, Status, Timed, Trajectory, as_map, interpolation, line_a_field};
+use crate::motion::{JointMotion, SearchUsed, Timed, Trajectory, as_map, interpolation, line_a_field};
 use serde::Serialize;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// How good the choice of postures, turns and order is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -98,7 +99,7 @@ pub struct TaskReport {
     trajectory: Option<SteppedTrajectory>,
     /// The motions of the steps, for files of their own.
     #[serde(skip)]
-    timed: Vec<Rc<Timed>>,
+    timed: Vec<Arc<Timed>>,
     /// The same as messages have it: at first of the two planned joints.
     #[serde(skip)]
     messages: Option<Messages>,
@@ -112,7 +113,7 @@ impl TaskReport {
     #[must_use]
     pub fn new(planner: &str, task: &Task, answer: &TaskAnswer) -> Self {
         let (status, failed) = match &answer.verdict {
-            TaskVerdict::Done => (Status::Found, None),
+            TaskVerdict::Found(()) => (Status::Found, None),
             TaskVerdict::Infeasible(why) => (Status::Infeasible, Some(why)),
             TaskVerdict::Unknown(why) => (Status::Unknown, Some(why)),
         };

@@ -7,7 +7,7 @@ use crate::model::{Action, Grip, Holding, Item, Payload, Scene, Step, Task};
 use crate::space::Configuration;
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// How much of the items is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,7 +35,7 @@ pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
     /// Of each object, where it lies; none while it is carried.
-    pub poses: Rc<[Option<Pose>]>,
+    pub poses: Arc<[Option<Pose>]>,
     pub held: Option<Held>,
     /// The object just let go of.
     pub released: Option<usize>,
@@ -216,12 +216,12 @@ impl State {
         let mut after = Self { progress: candidate.progress, q, released: None, ..self.clone() };
         match candidate.event {
             Some(Event::Grasp { object }) => {
-                Rc::make_mut(&mut poses)[object] = None;
+                Arc::make_mut(&mut poses)[object] = None;
                 let supports = supports(candidate.step, self.progress.place(task, candidate));
                 after.held = candidate.grip.map(|grip| Held { object, grip, supports });
             }
             Some(Event::Release { object, pose }) => {
-                Rc::make_mut(&mut poses)[object] = Some(pose);
+                Arc::make_mut(&mut poses)[object] = Some(pose);
                 (after.held, after.released) = (None, Some(object));
             }
             None => {}
@@ -232,7 +232,7 @@ impl State {
     /// Supplies what is to be renewed before the next step.
     fn settled(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
-            let poses = Rc::make_mut(&mut self.poses);
+            let poses = Arc::make_mut(&mut self.poses);
             objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
             self.progress.item += 1;
         }

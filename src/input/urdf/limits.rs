@@ -4,6 +4,7 @@ use super::document::Document;
 use crate::input::error::Defect;
 use crate::input::quantity::Written;
 use crate::input::world::{LARGEST, World};
+use crate::model::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::space::Axis;
 use toml::Spanned;
 use urdf_rs::JointType;
@@ -17,20 +18,6 @@ const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
 /// Both limits of a revolute joint beyond this many radians are none: simulators write 1e16, exporters 1e9 or infinity. No
 /// start that a world may give is so far out.
 const UNLIMITED: f64 = LARGEST;
-
-/// Top speed of a joint that turns and has none, radians a second.
-const DEFAULT_TURNING_SPEED: f64 = 1.0;
-
-/// Top speed of a joint that slides and has none, metres a second.
-const DEFAULT_SLIDING_SPEED: f64 = 0.25;
-
-/// Seconds in which a joint of unknown acceleration limit reaches its top speed.
-pub(in crate::input) const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
-
-/// The acceleration that is taken where none is given: finite, however great the speed.
-pub(in crate::input) fn assumed_acceleration(velocity: f64) -> f64 {
-    (velocity / DEFAULT_TIME_TO_TOP_SPEED).min(f64::MAX)
-}
 
 /// What is known of a joint's range.
 #[derive(Debug, Clone, PartialEq)]
@@ -174,7 +161,7 @@ impl Limits<'_> {
         let unit = if slides { "m" } else { "rad" };
         let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
         let velocity = self.positive(&self.world.robot.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
-            let default = if slides { DEFAULT_SLIDING_SPEED } else { DEFAULT_TURNING_SPEED };
+            let default = if slides { SLIDING_SPEED } else { TURNING_SPEED };
             assumed.velocity = true;
             notes.push(format!(
                 "joint \"{name}\": no top speed given; assumed {default} {unit}/s, for the timing alone"
@@ -189,7 +176,7 @@ impl Limits<'_> {
         let acceleration = assumed_acceleration(velocity);
         assumed.acceleration = true;
         notes.push(format!(
-            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit}/s^2 (top speed in {DEFAULT_TIME_TO_TOP_SPEED} s)"
+            "joint \"{name}\": no acceleration limit given; taken as {acceleration:.3} {unit}/s^2 (top speed in {TIME_TO_TOP_SPEED} s)"
         ));
         Ok(Rates { velocity, acceleration, jerk, assumed, notes })
     }

@@ -27,7 +27,6 @@ mod survey;
 mod tool;
 mod tree;
 
-pub(super) use limits::{DEFAULT_TIME_TO_TOP_SPEED, assumed_acceleration};
 pub(super) use survey::survey;
 
 use super::RobotReport;

@@ -1,6 +1,5 @@
 //! The joints of the tool: one that lowers it, and a wrist.
 
-use super::assumed_acceleration;
 use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
 use super::reduction::Reduction;
@@ -8,6 +7,7 @@ use super::tree;
 use crate::input::error::Defect;
 use crate::input::stroke::StrokeTable;
 use crate::input::world::{Number, Reader};
+use crate::model::assumed_acceleration;
 use crate::model::{Driver, Plane, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use toml::Spanned;
 use urdf_rs::JointType;

@@ -90,7 +90,8 @@ fn described(name: &str, spread: &Spread) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{Comparison, Family, Outcome, Row};
+    use crate::model::Status;
+    use crate::report::{Comparison, Family, Row};
 
     /// A study of one planner with these durations.
     fn study(durations: &[f64]) -> Study {
@@ -99,7 +100,7 @@ mod tests {
             length_unit: "rad".to_owned(),
             query: None,
             bound: None,
-            rows: vec![Row { duration: Some(*duration), ..Row::new("<planner>", Family::Field, Outcome::Found) }],
+            rows: vec![Row { duration: Some(*duration), ..Row::new("<planner>", Family::Field, Status::Found) }],
         };
         let comparisons = durations.iter().map(comparison).collect();
         Study { title: String::new(), sampling: None, comparisons, left_out: Vec::new(), refused: Vec::new() }

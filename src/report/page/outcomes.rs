@@ -1,7 +1,8 @@
 //! What became of each problem: bars, and a matrix.
 
 use super::markup::{escaped, margin, number, shortened};
-use crate::report::{Comparison, Measure, Outcome, Row, Study};
+use crate::model::Status;
+use crate::report::{Comparison, Measure, Row, Study};
 
 /// Width of the bars, pixels.
 const WIDTH: f64 = 460.0;
@@ -31,7 +32,7 @@ pub fn bars(study: &Study) -> String {
             escaped(&shortened(name))
         );
         let mut left = from;
-        for (outcome, count) in Outcome::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
+        for (outcome, count) in Status::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
             let width = (WIDTH - from) * count as f64 / all;
             svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", escaped(name));
             svg += &format!(
@@ -56,20 +57,20 @@ pub fn bars(study: &Study) -> String {
 /// The signs of outcomes, with what they mean.
 pub fn key() -> String {
     let meaning = |outcome| match outcome {
-        Outcome::Found => "a certified path; the number is its length over the proven optimum",
-        Outcome::Infeasible => "no path, proven",
-        Outcome::Unknown => "neither, at the finest resolution tried",
+        Status::Found => "a certified path; the number is its length over the proven optimum",
+        Status::Infeasible => "no path, proven",
+        Status::Unknown => "neither, at the finest resolution tried",
     };
     let entry =
         |outcome| format!("<li><span class=\"o-{outcome} sign\">{}</span> {}</li>", sign(outcome), meaning(outcome));
-    format!("<ul class=\"key\">{}</ul>\n", Outcome::ALL.map(entry).concat())
+    format!("<ul class=\"key\">{}</ul>\n", Status::ALL.map(entry).concat())
 }
 
-fn sign(outcome: Outcome) -> char {
+fn sign(outcome: Status) -> char {
     match outcome {
-        Outcome::Found => '\u{2713}',
-        Outcome::Infeasible => '\u{2205}',
-        Outcome::Unknown => '?',
+        Status::Found => '\u{2713}',
+        Status::Infeasible => '\u{2205}',
+        Status::Unknown => '?',
     }
 }
 

@@ -5,7 +5,7 @@ use crate::common::placed;
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
 use cplan::model::Workspace;
-use cplan::planner::{FieldChoice, FieldPlanner, Outcome, PathKind, Planner, Query};
+use cplan::planner::{FieldChoice, FieldPlanner, PathKind, Planner, Proposal, Query};
 use cplan::space::{Axis, Configuration, Topology};
 use proptest::prelude::*;
 
@@ -97,7 +97,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     (ZonedGrid::new(grid, &scene), query)
 }
 
-fn outcome(charge: f64, gap: &str) -> Outcome {
+fn outcome(charge: f64, gap: &str) -> Proposal {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
     let planner = FieldPlanner { field: FieldChoice::Khatib(laws), limits: Limits::High, path: PathKind::Own };
     let (space, query) = room(gap);
@@ -109,8 +109,8 @@ fn is_in_trap([i, j]: [f64; 2]) -> bool {
     (8.0..16.0).contains(&i) && (20.0..24.0).contains(&j)
 }
 
-fn trapped_at(outcome: &Outcome) -> [f64; 2] {
-    let Outcome::GaveUp(reason) = outcome else { panic!("{outcome:?}") };
+fn trapped_at(outcome: &Proposal) -> [f64; 2] {
+    let Proposal::GaveUp(reason) = outcome else { panic!("{outcome:?}") };
     let (_, rest) = reason.split_once("local minimum at (").unwrap_or_else(|| panic!("{reason}"));
     let (at, _) = rest.split_once(')').unwrap();
     let numbers: Vec<f64> = at.split(", ").map(|x| x.parse().unwrap()).collect();
@@ -126,7 +126,7 @@ fn four_times_the_charge_cures_the_trap_and_then_keeps_the_robot_from_the_goal()
     let [i, j] = trapped_at(&outcome(q, OPEN));
     assert!(is_in_trap([i, j]), "({i}, {j}) is not in the trap");
     // Four times as strong, its walls keep the robot out.
-    let Outcome::Found(path) = outcome(4.0 * q, OPEN) else { panic!("{:?}", outcome(4.0 * q, OPEN)) };
+    let Proposal::Found(path) = outcome(4.0 * q, OPEN) else { panic!("{:?}", outcome(4.0 * q, OPEN)) };
     assert!(!path.waypoints().iter().any(|q| is_in_trap([q[0], q[1]])));
     // But where the goal lies between obstacles, they hide it.
     let [i, j] = trapped_at(&outcome(4.0 * q, NARROW));

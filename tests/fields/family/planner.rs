@@ -6,7 +6,7 @@ use cplan::field::{Attraction, Difference, Direction, Factor, Khatib, Limits, Li
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{
-    EquationChoice, FieldChoice, FieldPlanner, Note, Outcome, PathKind, Planner, Query, Run, Size, Trace, Wavefront,
+    EquationChoice, FieldChoice, FieldPlanner, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront,
 };
 use cplan::space::{Axis, Configuration, Path, Topology};
 use proptest::prelude::*;
@@ -46,7 +46,7 @@ fn run(planner: FieldPlanner, zoned: &ZonedGrid, start: usize, goal: usize) -> R
 
 fn found(run: &Run) -> &Path {
     match &run.outcome {
-        Outcome::Found(path) => path,
+        Proposal::Found(path) => path,
         other => panic!("{other:?}"),
     }
 }
@@ -62,7 +62,7 @@ fn is_free(grid: &Grid, q: Configuration) -> bool {
 
 fn reason(run: &Run) -> &str {
     match &run.outcome {
-        Outcome::GaveUp(reason) => reason,
+        Proposal::GaveUp(reason) => reason,
         other => panic!("{other:?}"),
     }
 }
@@ -99,13 +99,13 @@ proptest! {
         let query = Query { start: zoned.grid.center(start), goals: zoned.grid.center(goal).into() };
         let wave = Wavefront::default();
         let exists = match wave.query(&zoned.grid, &wave.build(&zoned.grid), &query).outcome {
-            Outcome::Found(_) => true,
-            Outcome::NoPath => false,
-            Outcome::GaveUp(reason) => panic!("{reason}"),
+            Proposal::Found(_) => true,
+            Proposal::NoPath => false,
+            Proposal::GaveUp(reason) => panic!("{reason}"),
         };
         for equation in equations() {
             let run = run(planner(equation, GAUSS_SEIDEL), &zoned, start, goal);
-            prop_assert_eq!(run.outcome == Outcome::NoPath, !exists, "{:?}", equation);
+            prop_assert_eq!(run.outcome == Proposal::NoPath, !exists, "{:?}", equation);
             if exists {
                 for (a, b) in found(&run).segments() {
                     for k in 0..=20 {

@@ -4,10 +4,10 @@ use super::robot;
 use crate::common::reference::published;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 
 /// The problem of a world that names a map and a preference file by their whole paths.
-fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> Problem {
+fn problem(data: &std::path::Path, map: usize, preferences: usize, start: [f64; 2]) -> MotionProblem {
     let folder = tempfile::tempdir().unwrap();
     let world = folder.path().join("world.toml");
     let [map, preferences] =

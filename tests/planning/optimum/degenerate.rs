@@ -3,7 +3,7 @@
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{asked, disc, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use cplan::search::{Motions, least_length};
 use cplan::space::{Axis, Configuration, Metric};
 use std::f64::consts::{PI, TAU};
@@ -90,7 +90,7 @@ fn starts_and_goals_on_rows() {
     }
 }
 
-fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
+fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
     asked(scene(rr(axes), pieces), start, goal)
 }
 

@@ -3,7 +3,7 @@
 use super::{LIMITS, ROUNDING, bound};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Motion, Problem};
+use cplan::model::{Motion, MotionProblem};
 use cplan::space::{Axis, Configuration, GoalSet, Metric};
 use std::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 pub const REACH: f64 = 2.0;
 
 /// A tool without extent whose slides point along `angles`, among `pieces`.
-pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> Problem {
+pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
     let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let axis = Axis::Interval { lower: -REACH, upper: REACH };
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
@@ -21,12 +21,12 @@ pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals
 }
 
 /// With slides along x and y.
-pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> Problem {
+pub fn square(pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
     gantry([0.0, TAU / 4.0], pieces, start, &[goal])
 }
 
 /// Within the gap of a length that is known: from the limits' side nothing is known of it.
-fn assert_is(problem: &Problem, length: f64) {
+fn assert_is(problem: &MotionProblem, length: f64) {
     for factor in LIMITS {
         let found = bound(problem, Metric::Euclidean, factor * length, 1e-5 / factor);
         assert!(found <= length * (1.0 + ROUNDING) && found >= length * (1.0 - 1e-4), "{found}, not {length}");

@@ -8,7 +8,7 @@ mod polygons;
 mod shipped;
 mod worlds;
 
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use cplan::search::{Motions, least_length};
 use cplan::space::Metric;
 
@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-9;
 const LIMITS: [f64; 2] = [3.0, 10.0];
 
 /// The bound for a problem.
-fn bound(problem: &Problem, metric: Metric, limit: f64, gap: f64) -> f64 {
+fn bound(problem: &MotionProblem, metric: Metric, limit: f64, gap: f64) -> f64 {
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let clearance = scene.workspace().clearance;
     least_length(&Motions { scene, start, goals, clearance, metric }, limit, gap, &[])

@@ -5,7 +5,7 @@ use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wa
 use crate::random_worlds::world;
 use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use cplan::space::{GoalSet, Metric, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 const SLABS: usize = 20_000;
 
 /// Certified motions of all that plan.
-fn motions(problem: &Problem) -> Vec<Path> {
+fn motions(problem: &MotionProblem) -> Vec<Path> {
     let effort = |metric| Effort { levels: 2, margin: 1e-4, cells: 128, boxes: 5000, metric, ..Effort::default() };
     let mut verdicts = vec![decide(problem, SLABS)];
     for method in [Method::Shortest, Method::Visibility] {
@@ -26,7 +26,7 @@ fn motions(problem: &Problem) -> Vec<Path> {
 }
 
 /// No bound is above any motion that is known.
-fn keeps_below(problem: &Problem, gap: f64) {
+fn keeps_below(problem: &MotionProblem, gap: f64) {
     let paths = motions(problem);
     for metric in metrics() {
         let length = paths.iter().map(|path| metric.length(path)).fold(f64::INFINITY, f64::min);

@@ -36,12 +36,12 @@ fn what_is_planned_can_be_done() {
         let task = task::task(seed);
         let answer = plan(&task, &manner(), &mut |_| {});
         match &answer.verdict {
-            TaskVerdict::Done => found.done += 1,
+            TaskVerdict::Found(()) => found.done += 1,
             TaskVerdict::Infeasible(_) => found.infeasible += 1,
             TaskVerdict::Unknown(_) => found.unknown += 1,
         }
         found.legs += answer.legs.len();
-        let all = matches!(answer.verdict, TaskVerdict::Done);
+        let all = matches!(answer.verdict, TaskVerdict::Found(()));
         if let Err(violation) = replay::replay(&task, &answer, all) {
             panic!("seed {seed}: {violation}");
         }
@@ -58,7 +58,7 @@ fn what_is_planned_for_another_task_is_refused() {
     for seed in seeds(40) {
         let task = task::task(seed);
         let answer = plan(&task, &manner(), &mut |_| {});
-        if answer.verdict != TaskVerdict::Done {
+        if answer.verdict != TaskVerdict::Found(()) {
             continue;
         }
         done += 1;

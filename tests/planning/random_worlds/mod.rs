@@ -20,7 +20,7 @@ pub mod world;
 
 use crate::common::random::seeds;
 use cplan::engine::{Answer, Effort, Method, Verdict, solve};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use flood::{Truth, connected};
 use oracle::Oracle;
 use std::sync::Mutex;
@@ -69,7 +69,7 @@ struct Run {
 }
 
 /// What is wrong with an answer, if anything.
-fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
+fn lie(problem: &MotionProblem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Option<String> {
     match &answer.verdict {
         Verdict::Unknown(_) => None,
         Verdict::Infeasible(_) => (truth == Truth::Connected).then(|| "infeasible, yet connected".into()),
@@ -103,7 +103,7 @@ fn lie(problem: &Problem, oracle: &Oracle, truth: Truth, answer: &Answer) -> Opt
 }
 
 /// Answers to one world; the lies among them.
-fn look(problem: &Problem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
+fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     let kind = problem.scene().arm().kind();
     let clock = Instant::now();
     let oracle = Oracle::new(problem.scene());

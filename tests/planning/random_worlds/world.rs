@@ -4,7 +4,7 @@ use super::oracle::Oracle;
 use crate::common::{asked, convex, disc, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Problem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, Motion, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
 use cplan::space::{Axis, Configuration, GoalSet};
 use nalgebra::Vector3;
@@ -43,7 +43,7 @@ impl Dice {
 }
 
 /// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
-pub fn world(kind: &str, seed: u64) -> Option<Problem> {
+pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
     let arm = arm(&mut dice, kind);
     let clearance = if dice.chance(0.25) { dice.range(0.0, 0.05) } else { 0.0 };

@@ -7,7 +7,7 @@ mod scenes;
 mod tasks;
 
 use crate::common::placed;
-use cplan::draw::{Ending, Picture, View, svg};
+use cplan::draw::{Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::Trace;
@@ -18,10 +18,10 @@ use std::f64::consts::PI;
 /// Writes the picture if someone wants to look, checks what holds for every picture, and returns it.
 fn checked(name: &str, picture: &Picture) -> String {
     #[cfg(feature = "png")]
-    let png = || cplan::draw::png(picture, 1.0).unwrap();
+    let png = || cplan::draw::png(&svg(picture), 1.0).unwrap();
     #[cfg(not(feature = "png"))]
     let png = Vec::new;
-    pages::inspected(name, &View::of_picture(picture, Ending::Shown, Vec::new(), None));
+    pages::inspected(name, &View::of_picture(picture, None, Vec::new(), None));
     inspected(name, || svg(picture), png)
 }
 
@@ -308,7 +308,7 @@ mod raster {
     fn a_png_has_its_size_and_is_not_blank() {
         let scene = three();
         let goals = [at(1.0, 1.0).into()];
-        let bytes = png(&bare(&scene, &goals), 0.5).unwrap();
+        let bytes = png(&svg(&bare(&scene, &goals)), 0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         let pixels = resvg::tiny_skia::Pixmap::decode_png(&bytes).unwrap();
         assert_eq!((pixels.width(), pixels.height()), (700, 360));
@@ -323,7 +323,7 @@ mod raster {
         let dark = |title: &str| {
             let mut picture = bare(&scene, &[]);
             picture.title = vec![title.to_owned()];
-            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&picture, 1.0).unwrap()).unwrap();
+            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&svg(&picture), 1.0).unwrap()).unwrap();
             pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
         };
         assert!(dark("A title of some length") > dark("") + 300);
@@ -333,7 +333,7 @@ mod raster {
     fn scales_that_make_no_picture_are_refused() {
         let scene = three();
         for scale in [0.0, -1.0, 1e-9, 1e3, f64::NAN, f64::INFINITY] {
-            assert!(matches!(png(&bare(&scene, &[]), scale), Err(DrawError::Scale(_))), "{scale}");
+            assert!(matches!(png(&svg(&bare(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
         }
     }
 }

@@ -3,9 +3,10 @@
 use super::{at, bare, three, torus};
 use cplan::check::{Cell, StuckBox, certify};
 use cplan::cspace::c_obstacles;
-use cplan::draw::{AxesFrame, Ending, Picture, Posture, View, page};
+use cplan::draw::{AxesFrame, Picture, Posture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Pair;
+use cplan::model::Status;
 use cplan::motion::Drive;
 use cplan::planner::Trace;
 use cplan::space::Path;
@@ -71,7 +72,8 @@ fn a_plan_is_shown_as_it_is() {
         ..bare(&scene, &goals)
     };
     let facts = vec![["length".to_owned(), "0.9 rad".to_owned()]];
-    let value = inspected("page_plan", &View::of_picture(&picture, Ending::Found, facts, Some(&timed.trajectory)));
+    let value =
+        inspected("page_plan", &View::of_picture(&picture, Some(Status::Found), facts, Some(&timed.trajectory)));
     assert_eq!(value["ending"], "found");
     assert_eq!(value["facts"][0][1], "0.9 rad");
     near(&pairs(&value["paths"][0]["points"]), path.waypoints().iter().map(|q| [q[0], q[1]]));
@@ -99,7 +101,7 @@ fn a_wavefront_is_written_in_letters() {
     let labels: Vec<u32> = (0..n * n).map(|k| if k / n < 100 { u32::MAX } else { (k / n - 100) as u32 }).collect();
     let trace = Trace::Wavefront { cells: [n; 2], labels };
     let picture = Picture { trace: Some(&trace), ..bare(&scene, &[]) };
-    let value = inspected("page_wavefront", &View::of_picture(&picture, Ending::Unknown, Vec::new(), None));
+    let value = inspected("page_wavefront", &View::of_picture(&picture, Some(Status::Unknown), Vec::new(), None));
     let seen = &value["worlds"][0]["trace"];
     assert_eq!((seen["kind"].as_str(), seen["farthest"].as_u64()), (Some("wavefront"), Some(299)));
     let blocks: Vec<usize> = seen["blocks"].as_array().unwrap().iter().map(|x| x.as_u64().unwrap() as usize).collect();
@@ -117,7 +119,7 @@ fn other_traces_keep_their_parts() {
     let scene = torus();
     let shown = |trace: &Trace| {
         let picture = Picture { trace: Some(trace), ..bare(&scene, &[]) };
-        let mut value = inspected("page_trace", &View::of_picture(&picture, Ending::Shown, Vec::new(), None));
+        let mut value = inspected("page_trace", &View::of_picture(&picture, None, Vec::new(), None));
         value["worlds"][0]["trace"].take()
     };
     let roadmap = shown(&Trace::Roadmap { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], whole: false });
@@ -153,7 +155,7 @@ fn a_proof_is_shown_where_it_is() {
     let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
     let proof = [StuckBox { cell: Cell { lower: [0.25, -0.5], upper: [0.5, 1.0] }, pair }];
     let picture = Picture { proof: &proof, ..bare(&scene, &[]) };
-    let value = inspected("page_proof", &View::of_picture(&picture, Ending::Infeasible, Vec::new(), None));
+    let value = inspected("page_proof", &View::of_picture(&picture, Some(Status::Infeasible), Vec::new(), None));
     assert_eq!(value["worlds"][0]["proof"], serde_json::json!([0.25, -0.5, 0.5, 1.0]));
     assert_eq!((&value["ending"], &value["clock"]), (&"infeasible".into(), &Value::Null));
 }

@@ -4,7 +4,7 @@ use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
 use crate::common::{convex, disc};
 use cplan::cspace::{CObstacle, c_obstacles};
-use cplan::draw::{Ending, Picture, TaskPicture, View, svg, task_svg};
+use cplan::draw::{Picture, TaskPicture, View, svg, task_svg};
 use cplan::engine::task::{Event, Manner, TaskAnswer, TaskVerdict, plan};
 use cplan::engine::{Effort, Method};
 use cplan::geometry::{Point, Pose};
@@ -99,14 +99,14 @@ fn answer(task: &Task) -> TaskAnswer {
 
 fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
     let status = match answer.verdict {
-        TaskVerdict::Done => "found, certified",
+        TaskVerdict::Found(()) => "found, certified",
         TaskVerdict::Infeasible(_) => "impossible, proven",
         TaskVerdict::Unknown(_) => "unknown",
     };
     let title = vec![format!("{name}: test arm"), format!("visibility: {:.2} s", answer.duration())];
     let picture = TaskPicture { title, status: status.into(), task, answer, c_obstacles: contours };
     #[cfg(feature = "png")]
-    let png = || cplan::draw::task_png(&picture, 1.0).unwrap();
+    let png = || cplan::draw::png(&task_svg(&picture), 1.0).unwrap();
     #[cfg(not(feature = "png"))]
     let png = Vec::new;
     follows(name, &picture);
@@ -116,7 +116,7 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
 /// A page of the task shows every motion in the world that it has, when it is made.
 fn follows(name: &str, picture: &TaskPicture) {
     let legs = &picture.answer.legs;
-    let value = pages::inspected(name, &View::of_task(picture, Ending::Shown, Vec::new()));
+    let value = pages::inspected(name, &View::of_task(picture, None, Vec::new()));
     let list = |key: &str| value[key].as_array().unwrap().clone();
     let (motions, paths, worlds) = (list("motions"), list("paths"), list("worlds"));
     assert_eq!((paths.len(), motions.len()), (legs.len(), legs.len() + 1), "and one after the last step");
@@ -151,7 +151,7 @@ fn follows(name: &str, picture: &TaskPicture) {
 
 fn done(name: &str, task: &Task) -> String {
     let answer = answer(task);
-    assert_eq!(answer.verdict, TaskVerdict::Done);
+    assert_eq!(answer.verdict, TaskVerdict::Found(()));
     drawn(name, task, &answer)
 }
 
@@ -265,7 +265,7 @@ fn payloads_are_drawn_where_they_are() {
         let objects = vec![object("part", false, holding, [1.2, -0.5])];
         let task = task(objects, fixed(), &[pick(0), turn_to(1.8, 0.7)], 1);
         let answer = answer(&task);
-        assert_eq!(answer.verdict, TaskVerdict::Done);
+        assert_eq!(answer.verdict, TaskVerdict::Found(()));
         let text = drawn(name, &task, &answer);
         let color = color_of(&text, "part");
         let frames = frames(&text);
@@ -436,7 +436,7 @@ fn pictures_of_one_motion_show_what_is_carried() {
         c_obstacles: &contours(&leg.scene),
     };
     #[cfg(feature = "png")]
-    let png = || cplan::draw::png(&picture, 1.0).unwrap();
+    let png = || cplan::draw::png(&svg(&picture), 1.0).unwrap();
     #[cfg(not(feature = "png"))]
     let png = Vec::new;
     let text = inspected("carrying", || svg(&picture), png);

@@ -9,7 +9,7 @@ use crate::Result;
 use crate::rounds::Rounds;
 use cplan::cspace::Regions;
 use cplan::geometry::Point;
-use cplan::planner::{Outcome, Planner, Query, Visibility};
+use cplan::planner::{Proposal, Planner, Query, Visibility};
 use cplan::space::Configuration;
 use glam::{Vec2, vec2};
 use polyanya::{Mesh, Triangulation};
@@ -63,8 +63,8 @@ fn cplan_length(
     &[start, goal]: &[Configuration; 2],
 ) -> Option<f64> {
     match Visibility::default().query(regions, map, &Query { start, goals: goal.into() }).outcome {
-        Outcome::Found(path) => Some(path.length()),
-        Outcome::NoPath | Outcome::GaveUp(_) => None,
+        Proposal::Found(path) => Some(path.length()),
+        Proposal::NoPath | Proposal::GaveUp(_) => None,
     }
 }
 

@@ -3,14 +3,14 @@
 use crate::Result;
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
-use cplan::model::{Problem, Scene};
+use cplan::model::{MotionProblem, Scene};
 use std::path::Path;
 
 pub fn scene(urdf: &str, world: &str) -> Result<Scene> {
     Ok(input::load_scene(Path::new(urdf), Path::new(world)).map_err(|e| e.to_string())?.scene)
 }
 
-pub fn problem(urdf: &str, world: &str) -> Result<Problem> {
+pub fn problem(urdf: &str, world: &str) -> Result<MotionProblem> {
     let loaded = input::load(Path::new(urdf), Path::new(world), &Overrides::default()).map_err(|e| e.to_string())?;
     Ok(loaded.problem)
 }

@@ -8,10 +8,10 @@ use crate::geometry::Pose;
 use crate::model::{Action, Item, Scene, Step, Task};
 use crate::space::Configuration;
 use nalgebra::Isometry2;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Where all objects lie, as far as that does not depend on postures; elsewhere as if they were not turned.
-type Poses = Rc<[Option<Pose>]>;
+type Poses = Arc<[Option<Pose>]>;
 
 /// Where all objects lie before an item of a task.
 fn poses_before(task: &Task, item: usize) -> Poses {
@@ -73,7 +73,7 @@ impl Ends<'_> {
         let task = Task { items: items.into(), ..self.task.clone() };
         let Action::Pick { object, .. } = pick.action else { return Vec::new() };
         let mut goals = self.after.clone();
-        Rc::make_mut(&mut goals)[object] = self.before[object];
+        Arc::make_mut(&mut goals)[object] = self.before[object];
         let worlds = [self.before, &goals].map(|poses| State {
             poses: poses.clone(),
             held: None,

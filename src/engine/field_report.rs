@@ -1,12 +1,12 @@
 //! A field's settings in the result.
 
-use crate::engine::{Answer, Space};
+use super::{Answer, Space};
 use crate::field::{Difference, Factor, Khatib, Limits, Relaxation, Scheme};
 use crate::motion::FieldReport;
 use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, Size};
 
 /// The field that was asked for and what came of it.
-pub fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {
+pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldReport {
     let limits = if planner.limits == Limits::High { "high" } else { "reflecting" };
     let base = match planner.field {
         FieldChoice::Khatib(Khatib { attraction, repulsion, saturated }) => FieldReport {

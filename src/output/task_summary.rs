@@ -1,54 +1,44 @@
 //! The summary of a task for people.
 
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Clock, Line, arm_lines, configuration, counted, laid_out, named, non_empty, time_line};
-use crate::engine::percent;
+use super::summary::{Line, arm_lines, configuration, counted, field, named, non_empty, notes};
 use crate::engine::task::{Leg, TaskAnswer, TaskReport};
-use crate::input::LoadedTask;
+use crate::engine::{Plan, TaskPlan, percent};
 use crate::model::Task;
-use crate::planner::FieldPlanner;
 
 /// What was found, a line a step.
-pub fn text(
-    loaded: &LoadedTask,
-    answer: &TaskAnswer,
-    report: &TaskReport,
-    field: Option<&FieldPlanner>,
-    files: &[String],
-    clock: &Clock,
-) -> String {
-    let task = &loaded.task;
+pub(super) fn lines(whole: &Plan, plan: &TaskPlan) -> Vec<Line> {
+    let TaskPlan { task, answer, report } = plan;
     let mut lines = arm_lines(&task.arm);
-    lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
+    lines.extend(notes(whole));
     let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object")];
     lines.push(("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))));
     lines.push(("start", configuration(&task.arm, task.start)));
     let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
     lines.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner())));
-    lines.extend(field.map(|field| ("field", field.to_string())));
-    lines.extend(steps(loaded, answer).into_iter().map(|step| ("step", step)));
+    lines.extend(field(whole.options()));
+    lines.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
     lines.extend(outcome(answer, report));
     lines.extend(clearance(answer, report));
-    lines.extend(files.iter().map(|file| ("file", file.clone())));
-    lines.push(time_line(clock));
-    laid_out(&lines)
+    lines
 }
 
 /// What a page says of it: arm and outcome.
-pub fn facts(task: &Task, answer: &TaskAnswer, report: &TaskReport) -> Vec<[String; 2]> {
+pub(super) fn facts(plan: &TaskPlan) -> Vec<[String; 2]> {
+    let TaskPlan { task, answer, report } = plan;
     named(arm_lines(&task.arm).into_iter().chain(outcome(answer, report)).chain(clearance(answer, report)))
 }
 
 /// A line a step, those of later cycles in one.
-fn steps(loaded: &LoadedTask, answer: &TaskAnswer) -> Vec<String> {
+fn steps(task: &Task, answer: &TaskAnswer) -> Vec<String> {
     let repeated = answer.legs.iter().any(|leg| leg.step.cycle > 1);
-    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(loaded, leg, repeated) };
+    let line = |leg: &Leg| StepLine { cycle: leg.step.cycle, matters: false, columns: row(task, leg, repeated) };
     step_lines(&answer.legs.iter().map(line).collect::<Vec<_>>())
 }
 
 /// Number, action, what is carried, and the motion of a step.
-fn row(loaded: &LoadedTask, leg: &Leg, repeated: bool) -> [String; 4] {
-    let objects = &loaded.task.objects;
+fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
+    let objects = &task.objects;
     let cycle = if repeated { format!(" (cycle {})", leg.step.cycle) } else { String::new() };
     let carried = leg.carried.map_or("empty-handed".into(), |object| format!("carrying \"{}\"", objects[object].name));
     let seconds = leg.timed.trajectory.duration();

@@ -1,49 +1,12 @@
 //! The summary for people.
 
-use super::output::Sink;
-use super::planned::Planned;
+use super::task_summary;
 use crate::check::CertifiedCurve;
-use crate::engine::{Bound, Stages, Verdict, percent};
-use crate::input::Loaded;
+use crate::engine::{Bound, Made, MotionPlan, Options, Plan, Verdict, percent};
 use crate::model::{Arm, Joint, Scene, plain_line};
 use crate::space::{Axis, Configuration, Metric, Segment};
 use std::fmt::Write;
-use std::time::{Duration, Instant};
-
-/// Time per stage.
-pub struct Clock {
-    last: Instant,
-    stages: Vec<(String, Duration)>,
-}
-
-impl Clock {
-    pub fn start() -> Self {
-        Self { last: Instant::now(), stages: Vec::new() }
-    }
-
-    /// The time since the last stage ended was this one's.
-    pub fn stage(&mut self, name: &str) {
-        self.stages.push((name.into(), self.last.elapsed()));
-        self.last = Instant::now();
-    }
-
-    /// The solver's own stages.
-    pub fn stages(&mut self, stages: &Stages) {
-        let Stages { build, query, certify, prove, bound } = *stages;
-        for (name, time) in
-            [("build", build), ("query", query), ("certify", certify), ("prove", prove), ("bound", bound)]
-        {
-            if !time.is_zero() {
-                self.stages.push((name.into(), time));
-            }
-        }
-        self.last = Instant::now();
-    }
-
-    pub fn milliseconds(&self) -> Vec<(String, f64)> {
-        self.stages.iter().map(|(name, time)| (name.clone(), time.as_secs_f64() * 1e3)).collect()
-    }
-}
+use std::time::Duration;
 
 /// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
 pub fn value(joint: &Joint, value: f64) -> String {
@@ -81,42 +44,65 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// What was found, in some ten lines.
-pub fn text(loaded: &Loaded, planned: &Planned, sinks: &[Sink], clock: &Clock) -> String {
-    let scene = planned.problem.scene();
+impl Plan {
+    /// What was found, in some ten lines for people; of a task a line a step.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        self.summary_with(&[], &[])
+    }
+
+    /// The same with the files that were written and the stages, in milliseconds, that came after planning.
+    #[must_use]
+    pub(crate) fn summary_with(&self, files: &[String], after: &[(&'static str, Duration)]) -> String {
+        let mut lines = match self.made() {
+            Made::Motion(plan) => motion_lines(self, plan),
+            Made::Task(plan) => task_summary::lines(self, plan),
+        };
+        lines.extend(files.iter().map(|file| ("file", file.clone())));
+        let stages = self.timings().iter().chain(after);
+        let stages: Vec<String> =
+            stages.map(|(name, time)| format!("{name} {:.1}", time.as_secs_f64() * 1e3)).collect();
+        lines.push(("time", format!("{} ms", stages.join(", "))));
+        laid_out(&lines)
+    }
+}
+
+fn motion_lines(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
+    let (problem, scene) = (&plan.problem, plan.problem.scene());
     let arm = scene.arm();
     let mut lines = arm_lines(arm);
-    lines.extend(loaded.robot.notes.iter().chain(&loaded.notes).map(|note| ("", note.clone())));
+    lines.extend(notes(whole));
     let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
     lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))));
-    lines.push(("start", configuration(arm, planned.problem.start())));
-    lines.extend(planned.problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
-    lines.extend(outcome(planned));
-    for sink in sinks.iter().filter(|sink| sink.is_filled_by(planned.report)) {
-        lines.push(("file", sink.path().display().to_string()));
-    }
-    lines.push(time_line(clock));
-    laid_out(&lines)
+    lines.push(("start", configuration(arm, problem.start())));
+    lines.extend(problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
+    lines.extend(outcome(plan, whole.options()));
+    lines
+}
+
+/// How robot and world were read.
+pub(super) fn notes(plan: &Plan) -> impl Iterator<Item = Line> + '_ {
+    plan.problem().robot().notes.iter().chain(plan.problem().notes()).map(|note| ("", note.clone()))
 }
 
 /// What a page says of it: arm and outcome.
-pub fn facts(planned: &Planned) -> Vec<[String; 2]> {
-    named(arm_lines(planned.problem.scene().arm()).into_iter().chain(outcome(planned)))
+pub(super) fn facts(plan: &MotionPlan, options: &Options) -> Vec<[String; 2]> {
+    named(arm_lines(plan.problem.scene().arm()).into_iter().chain(outcome(plan, options)))
 }
 
 /// Lines for a page.
-pub fn named(lines: impl IntoIterator<Item = Line>) -> Vec<[String; 2]> {
+pub(super) fn named(lines: impl IntoIterator<Item = Line>) -> Vec<[String; 2]> {
     lines.into_iter().map(|(key, text)| [key.to_owned(), text]).collect()
 }
 
 /// What the planner did and found.
-fn outcome(planned: &Planned) -> Vec<Line> {
-    let Planned { problem, answer, curve, report, field } = planned;
+fn outcome(plan: &MotionPlan, options: &Options) -> Vec<Line> {
+    let MotionPlan { problem, answer, curve, report } = plan;
     let mut lines = Vec::new();
     let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
     lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
-    lines.extend(field.map(|field| ("field", field.to_string())));
+    lines.extend(field(options));
     match &answer.verdict {
         Verdict::Found(certified) => {
             let path = certified.path();
@@ -148,7 +134,7 @@ fn outcome(planned: &Planned) -> Vec<Line> {
 pub type Line = (&'static str, String);
 
 /// The arm and its joints.
-pub fn arm_lines(arm: &Arm) -> Vec<Line> {
+pub(super) fn arm_lines(arm: &Arm) -> Vec<Line> {
     let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
     for joint in &arm.joints {
         let unit = joint.unit();
@@ -159,10 +145,9 @@ pub fn arm_lines(arm: &Arm) -> Vec<Line> {
     lines
 }
 
-/// The time that each stage took.
-pub fn time_line(clock: &Clock) -> Line {
-    let stages: Vec<String> = clock.milliseconds().iter().map(|(name, ms)| format!("{name} {ms:.1}")).collect();
-    ("time", format!("{} ms", stages.join(", ")))
+/// The field that was asked for.
+pub(super) fn field(options: &Options) -> Option<Line> {
+    options.planner.field().map(|field| ("field", field.to_string()))
 }
 
 /// Lines in two columns; a key that is the same as in the line before is not repeated.
@@ -223,6 +208,6 @@ fn optimum(bound: &Bound) -> String {
 }
 
 /// A title, or words for none.
-pub fn non_empty(name: &str) -> &str {
+pub(super) fn non_empty(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }

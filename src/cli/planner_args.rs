@@ -1,0 +1,227 @@
+//! A planner and its options: one grammar for the main job, `compare --with` and the live page.
+
+use super::args::number_in;
+use super::field_args::FieldArgs;
+use crate::engine::{CELLS, Criterion, LEVELS, MOST_MARGIN, Method, Options, Planner};
+use crate::field::Neighborhood;
+use crate::model::Preference;
+use crate::planner::{FieldPlanner, GridSearch, PathKind};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, ValueEnum};
+use std::ops::RangeInclusive;
+
+/// How hard to try, for any planner.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Resolution")]
+pub struct EffortArgs {
+    /// First number of grid cells along each axis; doubled up to 2048 where needed [default: 256; of fields as many, but
+    /// square in joint space, where a radian is as long as a metre].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&CELLS)))]
+    pub cells: Option<u32>,
+    /// First margin of the polygons, as a share of the arm's reach; quartered where needed [default: 0.001].
+    #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
+    pub margin: Option<f64>,
+    /// Attempts, each finer than the one before [default: 6].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(whole(&LEVELS)))]
+    pub levels: Option<u8>,
+}
+
+impl EffortArgs {
+    /// A planner with what of these options is its.
+    pub fn put_into(&self, mut planner: Planner) -> Planner {
+        let (given, share) = (self.cells.map(|cells| cells as usize), self.margin);
+        match &mut planner {
+            Planner::Shortest { margin, .. }
+            | Planner::Visibility { margin, .. }
+            | Planner::Trapezoid { margin, .. } => {
+                *margin = share.unwrap_or(*margin);
+            }
+            Planner::Wavefront { cells, .. } => *cells = given.unwrap_or(*cells),
+            Planner::Harmonic { cells, .. } => *cells = given.or(*cells),
+            Planner::First | Planner::Subdivision { .. } => {}
+        }
+        planner
+    }
+
+    /// Attempts.
+    pub fn levels(&self) -> usize {
+        self.levels.map_or(Options::default().levels, usize::from)
+    }
+}
+
+/// What makes a path short.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MetricName {
+    /// Square root of the sum of squares, radians and metres as they come.
+    Euclidean,
+    /// The same with the joints' values multiplied by --weights.
+    Weighted,
+    /// Seconds at the joints' top speeds.
+    Time,
+}
+
+/// What to optimise, and how well.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Shortest paths (planners shortest and visibility)")]
+pub struct OptimumArgs {
+    /// What makes a path short.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = MetricName::Euclidean)]
+    pub metric: MetricName,
+    /// Weights of the joints, such as 1,0.5, for --metric weighted.
+    #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
+    pub weights: Option<Weights>,
+    /// Refine until the path is proven to be longer than the optimum by no more than this share of it, such as 0.001; a larger
+    /// one leaves room in which motions are faster [default of shortest: 0.0001].
+    #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
+    pub gap: Option<f64>,
+}
+
+/// Two positive numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights(pub [f64; 2]);
+
+/// Which path, and how a grid is searched.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Paths and grids")]
+pub struct PathArgs {
+    /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
+    /// decomposition's doors and cells), or that one pulled taut within the planner's cells [default: own for harmonic,
+    /// taut for the others].
+    #[arg(long, value_enum, value_name = "KIND")]
+    pub path: Option<PathKind>,
+    /// How the grid is searched, from the goal (planner wavefront). [default: wave]
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub search: Option<GridSearch>,
+    /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
+    /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
+    #[arg(long, value_name = "N", value_parser = neighbors())]
+    pub neighbors: Option<Neighborhood>,
+}
+
+/// All options of planners.
+#[derive(Debug, Clone, Args)]
+pub struct PlannerArgs {
+    #[command(flatten)]
+    pub effort: EffortArgs,
+    #[command(flatten)]
+    pub optimum: OptimumArgs,
+    #[command(flatten)]
+    pub path: PathArgs,
+    #[command(flatten)]
+    pub field: FieldArgs,
+}
+
+/// `PLANNER OPTIONS`, as `compare --with` has it.
+#[derive(Debug, Clone, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+pub struct PlannerWords {
+    /// Which planner.
+    pub planner: Method,
+    #[command(flatten)]
+    pub options: PlannerArgs,
+}
+
+impl PlannerArgs {
+    /// Attempts.
+    pub fn levels(&self) -> usize {
+        self.effort.levels()
+    }
+
+    /// The planner of that name with these options.
+    ///
+    /// # Errors
+    /// Options that it does not have or that contradict each other, in words.
+    pub fn planner(&self, method: Method) -> Result<Planner, String> {
+        let field = self.field.planner(method)?;
+        self.optimum.check(method)?;
+        self.path.check(method)?;
+        Ok(self.put_into(Planner::named(method), field))
+    }
+
+    fn put_into(&self, mut planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
+        match &mut planner {
+            Planner::Shortest { criterion, gap, .. } | Planner::Visibility { criterion, gap, .. } => {
+                (*criterion, *gap) = (self.optimum.criterion(), self.optimum.gap);
+            }
+            Planner::Wavefront { search, neighborhood, .. } => {
+                *search = self.path.search.unwrap_or(*search);
+                *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
+            }
+            Planner::Harmonic { field, .. } => *field = chosen,
+            Planner::Trapezoid { .. } | Planner::First | Planner::Subdivision { .. } => {}
+        }
+        let planner = self.effort.put_into(planner);
+        self.path.path.map_or(planner, |kind| planner.with_path(kind))
+    }
+
+    /// What the field needs and these regions of the world lack, if anything.
+    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
+        self.field.lack(preferences)
+    }
+}
+
+impl OptimumArgs {
+    fn criterion(&self) -> Criterion {
+        match (self.metric, self.weights) {
+            (MetricName::Weighted, Some(Weights(weights))) => Criterion::Weighted(weights),
+            (MetricName::Time, _) => Criterion::Time,
+            _ => Criterion::Euclidean,
+        }
+    }
+
+    /// Refuses what the planner cannot do.
+    fn check(&self, planner: Method) -> Result<(), String> {
+        if self.weights.is_some() && self.metric != MetricName::Weighted {
+            return Err("--weights are for --metric weighted".into());
+        }
+        let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
+        let optimises = self.gap.is_some() || self.metric != MetricName::Euclidean;
+        if optimises && !planner.optimises() {
+            return Err(format!(
+                "{asked} needs --planner shortest or visibility: {planner} does not look for the shortest path"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl PathArgs {
+    /// Refuses what the planner cannot do.
+    fn check(&self, planner: Method) -> Result<(), String> {
+        let asked = if self.search.is_some() { "--search" } else { "--neighbors" };
+        if (self.search.is_some() || self.neighbors.is_some()) && planner != Method::Wavefront {
+            return Err(format!("{asked} needs --planner wavefront: {planner} searches no grid from cell to cell"));
+        }
+        if self.path == Some(PathKind::Own) && !planner.has_own_path() {
+            return Err(format!("--path own is not for {planner}: its path is taut as it is"));
+        }
+        Ok(())
+    }
+}
+
+fn neighbors() -> impl TypedValueParser<Value = Neighborhood> {
+    PossibleValuesParser::new(["4", "8"])
+        .map(|count| if count == "4" { Neighborhood::Four } else { Neighborhood::Eight })
+}
+
+fn weights(text: &str) -> Result<Weights, String> {
+    let values: Vec<f64> = text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect();
+    match values[..] {
+        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok(Weights([a, b])),
+        _ => Err("must be two positive numbers, such as 1,0.5".into()),
+    }
+}
+
+fn gap(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0, such as 0.001")
+}
+
+fn margin(text: &str) -> Result<f64, String> {
+    let range = format!("of more than 0 and at most {MOST_MARGIN} (of the arm's reach)");
+    number_in(text, |x| x > 0.0 && x <= MOST_MARGIN, &range)
+}
+
+/// A range for the parser of whole numbers.
+fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
+    *range.start() as i64..=*range.end() as i64
+}

@@ -1,0 +1,121 @@
+//! Files and streams.
+
+use super::failure::Failure;
+use crate::input::{FileIdentity, read_from};
+use crate::model::{plain, plain_json};
+use crate::motion::{Format, check_writable, write_whole};
+use crate::output::{Drawn, PictureFormat};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// A file to write.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Sink {
+    /// The result.
+    Result(Format, PathBuf),
+    /// A picture.
+    Picture(PictureFormat, PathBuf),
+}
+
+impl Sink {
+    /// The file.
+    pub fn path(&self) -> &Path {
+        match self {
+            Sink::Result(_, path) | Sink::Picture(_, path) => path,
+        }
+    }
+}
+
+/// What the file names ask for, checked before any work is done.
+///
+/// # Errors
+/// Extensions that are none of ours or not in this program, and files that cannot be written.
+pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
+    let mut sinks = Vec::new();
+    for path in results {
+        sinks.push(Sink::Result(Format::from_path(path)?, path.clone()));
+    }
+    for path in pictures {
+        sinks.push(Sink::Picture(PictureFormat::from_path(path)?, path.clone()));
+    }
+    sinks.iter().try_for_each(|sink| check_writable(sink.path()))?;
+    distinct(sinks.iter().map(Sink::path))?;
+    Ok(sinks)
+}
+
+/// Refuses to write two outputs onto one file, however they are spelt.
+///
+/// # Errors
+/// When two are one; both are named.
+pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
+    let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
+    for path in outputs {
+        let Some(identity) = FileIdentity::of(path) else { continue };
+        if let Some((other, _)) = known.iter().find(|(_, other)| other.is(&identity)) {
+            let (one, other) = (path.display(), other.display());
+            let message = format!("the outputs {other} and {one} are one file; nothing was written");
+            return Err(Failure::Option(format!("{message}\n  cure: give each a file of its own")));
+        }
+        known.push((path, identity));
+    }
+    Ok(())
+}
+
+/// Refuses to overwrite what has been read, also through links: to be asked when all inputs have been.
+///
+/// # Errors
+/// When an output is an input; both are named.
+pub fn spare_inputs<'a>(mut outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
+    let onto = outputs.find_map(|path| Some((path, read_from(path)?)));
+    onto.map_or(Ok(()), |(path, input)| {
+        let (path, input) = (path.display(), input.display());
+        let message = format!("the output {path} is the input {input}; nothing was written");
+        Err(Failure::Option(format!("{message}\n  cure: give the output a file of its own")))
+    })
+}
+
+/// Says on stderr that a format has no room for a result without a trajectory.
+pub fn warn_unwritten(path: &Path) {
+    say(&format!("warning: {} is not written: there is no trajectory to put into it", path.display()));
+}
+
+/// Writes a picture.
+///
+/// # Errors
+/// I/O, or a picture that cannot be made of pixels.
+pub fn save_picture(format: PictureFormat, path: &Path, drawing: &impl Drawn) -> Result<(), Failure> {
+    Ok(write_whole(path, &format.bytes(drawing)?)?)
+}
+
+/// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.
+pub fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", plain(text));
+}
+
+/// Prints for people on stdout: as [`print`], but what names hold that would act on a terminal is seen instead.
+///
+/// # Errors
+/// I/O.
+pub fn tell(text: &str) -> Result<(), Failure> {
+    print(&plain(text))
+}
+
+/// Prints JSON on stdout, in which names do nothing to a terminal, either.
+///
+/// # Errors
+/// I/O.
+pub fn print_json(json: &str) -> Result<(), Failure> {
+    print(&plain_json(json))
+}
+
+/// Prints on stdout. A reader that has seen enough (`cplan ... | head`) is no error.
+///
+/// # Errors
+/// I/O.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = std::io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::Option(format!("stdout: {error}"))),
+        _ => Ok(()),
+    }
+}

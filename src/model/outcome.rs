@@ -1,0 +1,70 @@
+//! The three answers.
+
+use serde::Serialize;
+use std::fmt;
+
+/// An answer: found, proven that there is none, or neither, each with what belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Outcome<F, I, U = String> {
+    /// There is one, and it is certified: `F` says which.
+    Found(F),
+    /// There is none: proven by `I`.
+    Infeasible(I),
+    /// Neither: `U` says why.
+    Unknown(U),
+}
+
+impl<F, I, U> Outcome<F, I, U> {
+    /// Which of the three.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        match self {
+            Outcome::Found(_) => Status::Found,
+            Outcome::Infeasible(_) => Status::Infeasible,
+            Outcome::Unknown(_) => Status::Unknown,
+        }
+    }
+
+    /// The same, borrowed.
+    #[must_use]
+    pub fn as_ref(&self) -> Outcome<&F, &I, &U> {
+        match self {
+            Outcome::Found(found) => Outcome::Found(found),
+            Outcome::Infeasible(proof) => Outcome::Infeasible(proof),
+            Outcome::Unknown(why) => Outcome::Unknown(why),
+        }
+    }
+}
+
+/// Which of the three answers it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// With a certified path.
+    Found,
+    /// With a proof that there is none.
+    Infeasible,
+    /// With neither.
+    Unknown,
+}
+
+impl Status {
+    /// All, in the order in which they are counted.
+    pub const ALL: [Status; 3] = [Status::Found, Status::Infeasible, Status::Unknown];
+
+    /// The word for it in results, tables and files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Found => "found",
+            Status::Infeasible => "infeasible",
+            Status::Unknown => "unknown",
+        }
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}

@@ -1,0 +1,229 @@
+//! Pictures and pages of a plan.
+
+use super::summary::{counted, facts};
+use super::task_summary;
+use crate::cspace::{CObstacle, c_obstacles};
+use crate::draw::{self, DrawError, Picture, Posture, TaskPicture, View};
+use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
+use crate::model::{Scene, Status};
+use std::path::Path;
+use thiserror::Error;
+
+/// A format of pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PictureFormat {
+    /// Vector graphics.
+    Svg,
+    /// Pixels.
+    #[cfg(feature = "png")]
+    Png,
+    /// A page with both spaces, in which the arm can be moved.
+    Html,
+}
+
+/// Why a file's name does not tell a format of pictures.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PictureFormatError {
+    /// The extension is none of ours.
+    #[error("{file}: a picture's name must end in .svg, .png or .html")]
+    Unknown {
+        /// The name as given.
+        file: String,
+    },
+    /// The format is one that this build of the program does not have.
+    #[error("{file}: this program was built without PNG; use .svg or .html")]
+    WithoutPng {
+        /// The name as given.
+        file: String,
+    },
+}
+
+/// Pixels of a PNG picture per unit of the SVG.
+#[cfg(feature = "png")]
+const PNG_SCALE: f64 = 2.0;
+
+/// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.
+const PICTURE_TOLERANCE: f64 = 1e-3;
+
+impl PictureFormat {
+    /// The format that a picture's extension stands for; upper and lower case are the same.
+    ///
+    /// # Errors
+    /// Any other extension than `.svg`, `.png` and `.html`, and `.png` without the feature `png`.
+    pub fn from_path(path: &Path) -> Result<Self, PictureFormatError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let file = || path.display().to_string();
+        match extension.as_deref() {
+            Some("svg") => Ok(Self::Svg),
+            #[cfg(feature = "png")]
+            Some("png") => Ok(Self::Png),
+            #[cfg(not(feature = "png"))]
+            Some("png") => Err(PictureFormatError::WithoutPng { file: file() }),
+            Some("html") => Ok(Self::Html),
+            _ => Err(PictureFormatError::Unknown { file: file() }),
+        }
+    }
+
+    /// The file's content.
+    ///
+    /// # Errors
+    /// A picture that cannot be made of pixels.
+    pub fn bytes(self, drawing: &impl Drawn) -> Result<Vec<u8>, DrawError> {
+        Ok(match self {
+            Self::Svg => drawing.svg().into_bytes(),
+            #[cfg(feature = "png")]
+            Self::Png => draw::png(&drawing.svg(), PNG_SCALE)?,
+            Self::Html => draw::page(&drawing.view()).into_bytes(),
+        })
+    }
+}
+
+/// What there are pictures and pages of.
+pub trait Drawn {
+    /// As an SVG document.
+    fn svg(&self) -> String;
+    /// As a page shows it.
+    fn view(&self) -> View;
+}
+
+impl Drawn for Picture<'_> {
+    fn svg(&self) -> String {
+        draw::svg(self)
+    }
+
+    fn view(&self) -> View {
+        View::of_picture(self, None, Vec::new(), None)
+    }
+}
+
+impl Drawn for Posture<'_> {
+    fn svg(&self) -> String {
+        draw::posture_svg(self)
+    }
+
+    fn view(&self) -> View {
+        View::of_posture(self)
+    }
+}
+
+impl Drawn for Plan {
+    fn svg(&self) -> String {
+        match self.made() {
+            Made::Motion(plan) => {
+                let contours = contours(plan.problem.scene());
+                with_picture(plan, &contours, draw::svg)
+            }
+            Made::Task(plan) => draw::task_svg(&self.task_picture(plan)),
+        }
+    }
+
+    fn view(&self) -> View {
+        match self.made() {
+            Made::Motion(plan) => self.view_among(&contours(plan.problem.scene())),
+            Made::Task(_) => self.view_among(&[]),
+        }
+    }
+}
+
+impl Plan {
+    /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        Drawn::svg(self)
+    }
+
+    /// A page that stands by itself, in which the motion is played and the arm can be moved.
+    #[must_use]
+    pub fn html(&self) -> String {
+        draw::page(&self.view())
+    }
+
+    pub(super) fn drawn(&self, format: PictureFormat) -> Result<Vec<u8>, DrawError> {
+        format.bytes(self)
+    }
+
+    /// What a page shows, where the contours of the C-obstacles of a single motion are known.
+    #[must_use]
+    pub(crate) fn view_among(&self, contours: &[CObstacle]) -> View {
+        let ending = Some(self.status());
+        match self.made() {
+            Made::Motion(plan) => {
+                let (facts, trajectory) = (facts(plan, self.options()), plan.report.trajectory.as_ref());
+                with_picture(plan, contours, |picture| View::of_picture(picture, ending, facts, trajectory))
+            }
+            Made::Task(plan) => View::of_task(&self.task_picture(plan), ending, task_summary::facts(plan)),
+        }
+    }
+
+    /// What a picture of a task shows.
+    fn task_picture<'a>(&'a self, plan: &'a TaskPlan) -> TaskPicture<'a> {
+        let TaskPlan { task, answer, report } = plan;
+        let steps = counted(answer.legs.len(), "step");
+        let (status, detail) = match (answer.verdict.status(), report.clearance()) {
+            (Status::Found, clearance) => {
+                let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
+                ("done, certified", format!("{}: {steps} in {:.3} s, {kept}", report.planner(), answer.duration()))
+            }
+            (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner())),
+            (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner())),
+        };
+        TaskPicture {
+            title: vec![title_of(self.problem().scene()), detail],
+            status: status.into(),
+            task,
+            answer,
+            c_obstacles: contours,
+        }
+    }
+}
+
+/// A verdict in a word or two.
+#[must_use]
+pub(crate) fn status(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Found(_) => "found, certified",
+        Verdict::Infeasible(_) => "no path: proven",
+        Verdict::Unknown(_) => "unknown",
+    }
+}
+
+/// Shows a single motion.
+fn with_picture<T>(plan: &MotionPlan, contours: &[CObstacle], show: impl FnOnce(&Picture) -> T) -> T {
+    let MotionPlan { problem, answer, curve, report } = plan;
+    let scene = problem.scene();
+    let outline = curve.as_ref().map(|curve| curve.curve().outline());
+    let detail = match report.length {
+        Some(length) => {
+            let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
+            format!("{}: length {length:.4}, {clearance}", answer.method)
+        }
+        None => answer.method.to_string(),
+    };
+    show(&Picture {
+        title: vec![title_of(scene), detail],
+        status: status(&answer.verdict).into(),
+        scene,
+        start: problem.start(),
+        goals: problem.goals().pieces(),
+        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
+        trace: Some(&answer.drawn()),
+        proof: answer.verdict.proof(),
+        c_obstacles: contours,
+    })
+}
+
+/// Workspace and robot, as a title.
+#[must_use]
+pub(crate) fn title_of(scene: &Scene) -> String {
+    match scene.workspace().name.as_str() {
+        "" => scene.arm().name.clone(),
+        name => format!("{name}: {}", scene.arm().name),
+    }
+}
+
+/// C-obstacles for pictures.
+#[must_use]
+pub(crate) fn contours(scene: &Scene) -> Vec<CObstacle> {
+    let tolerance = PICTURE_TOLERANCE * scene.arm().reach();
+    c_obstacles(scene, tolerance, tolerance)
+}
