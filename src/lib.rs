@@ -57,6 +57,7 @@ pub mod engine;
 pub mod draw;
 pub mod report;
 pub mod output;
+#[cfg(feature = "program")]
 pub mod cli;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;

@@ -7,19 +7,21 @@ use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::motion::MotionArgs;
-use super::planner_args::PlannerArgs;
+use super::planner_args::{PlannerArgs, PlannerWords};
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
 use crate::engine::Method;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::motion::SHORTEST_INTERVAL;
-use clap::{Args, Parser, Subcommand, ValueHint};
+use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand, ValueHint};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 /// Plans motions of a planar two-joint arm among polygonal obstacles: a path that is certified free of collision,
 /// a proof that there is none, or "unknown".
 #[derive(Debug, Parser)]
 #[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(disable_help_flag = true)]
 #[command(after_help = "\
 Examples:
   cplan demo
@@ -51,6 +53,22 @@ pub struct Cli {
     pub files: Option<Files>,
     #[command(flatten)]
     pub plan: PlanArgs,
+    /// Print help; `cplan help planners` has the planners' own options.
+    // Compact: a line an option.
+    #[arg(short, long, action = ArgAction::HelpShort)]
+    help: Option<bool>,
+}
+
+impl Cli {
+    /// The grammar. What planners can be told is left out of the main job's help, which has no room for it.
+    pub fn grammar() -> clap::Command {
+        let planners: BTreeSet<String> =
+            PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
+        Self::command().mut_args(|argument| {
+            let is_planners = planners.contains(argument.get_id().as_str());
+            argument.hide_short_help(is_planners)
+        })
+    }
 }
 
 /// Jobs with a word of their own.
@@ -77,6 +95,8 @@ pub enum Command {
     Completions(CompletionsArgs),
     /// Print the manual page, or write those of all commands.
     Man(ManArgs),
+    /// Tell what each planner can be told: these options are options of the main job.
+    Planners(PlannersArgs),
     /// Print the JSON schema of world files, for editors.
     #[command(after_help = super::schema::HELP)]
     Schema,
@@ -167,6 +187,25 @@ pub struct PlanArgs {
     #[arg(long)]
     pub quiet: bool,
     // Last, because its headings are for all that follows.
+    #[command(flatten)]
+    pub options: PlannerArgs,
+}
+
+/// Arguments of `planners`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The same words follow a planner's name in `cplan compare --with \"PLANNER OPTIONS\"` and on the live page.
+
+Examples:
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --gap 0.01
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
+  cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
+
+Exit codes: 0 the options are printed, 2 wrong command line.")]
+pub struct PlannersArgs {
+    /// Planner to tell of; shortest, if none is named.
+    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
+    pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,
 }

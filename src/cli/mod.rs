@@ -31,7 +31,8 @@ mod verify;
 pub use memory::MemoryMeter;
 
 use args::{Cli, Command};
-use clap::{CommandFactory, Parser, error::ErrorKind};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches};
 use error_json::ErrorJson;
 use failure::Failure;
 use std::process::ExitCode;
@@ -55,7 +56,7 @@ const UNKNOWN: u8 = 4;
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     let in_json = std::env::args_os().any(|argument| argument == "--json");
-    let mut cli = match Cli::try_parse() {
+    let mut cli = match Cli::grammar().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => return unread(&error, in_json),
     };
@@ -71,6 +72,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
         (Some(Command::Init(args)), _) => init::run(args),
         (Some(Command::Completions(args)), _) => completions::run(args),
         (Some(Command::Man(args)), _) => man::run(args),
+        (Some(Command::Planners(_)), _) => planners(),
         (Some(Command::Schema), _) => schema::run(),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => {
@@ -88,6 +90,14 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     }))
 }
 
+/// Shows what planners can be told.
+fn planners() -> Result<u8, Failure> {
+    let mut grammar = Cli::grammar();
+    let help = grammar.find_subcommand_mut("planners").map(|command| command.render_help().to_string());
+    sinks::print(&help.unwrap_or_default())?;
+    Ok(DONE)
+}
+
 /// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.
 fn unread(error: &clap::Error, in_json: bool) -> ExitCode {
     if in_json && error.use_stderr() {
@@ -101,6 +111,7 @@ fn unread(error: &clap::Error, in_json: bool) -> ExitCode {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use clap::Parser;
 
     /// All examples of all helps are command lines; `tests/program/cli/help.rs` runs those that end soon.
     #[test]
