@@ -182,12 +182,12 @@ impl<'a> Closed<'a> {
             && self.halved(pair, [middle, ends[1]], halvings - 1)
     }
 
-    /// Whether one point of one shape is in the other all along the motion.
+    /// Whether one point stays in both shapes all along the motion: fixed in one of them, in the other it moves.
     ///
     /// A point of the part moves smoothly, no farther from the straight line between its places at the ends than half the
     /// bound on its second derivative; and the distance from a convex set, negative inside, is a convex function. So it
     /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
-    /// as seen from the link. Shapes are too near each other where a point of one core is within `radius` of the other.
+    /// as seen from the link. Where its distances from both cores come to no more than `radius`, so does that of the cores.
     fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (PreparedPart { carried, sides: of_part }, of_piece) = (&self.parts[pair.part], &pair.sides);
         let (part, piece) = (carried.shape(), pair.piece.shape());
@@ -195,19 +195,23 @@ impl<'a> Closed<'a> {
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
-        let of_world = |p: Point| {
-            let allowed = radius - posture.curvature_in_link(1, p, deviation) / 2.0;
+        let of_world = |p: Point, from_piece: f64| {
+            let allowed = radius - from_piece - posture.curvature_in_link(1, p, deviation) / 2.0;
             poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
         };
-        let of_link = |a: Point| {
-            let allowed = radius - posture.curvature_in_plane(1, a, deviation) / 2.0;
+        let of_link = |a: Point, from_part: f64| {
+            let allowed = radius - from_part - posture.curvature_in_plane(1, a, deviation) / 2.0;
             poses.iter().all(|pose| within(pose * a, piece.core(), of_piece, allowed))
         };
-        if piece.core().iter().any(|p| of_world(*p)) || part.core().iter().any(|a| of_link(*a)) {
+        if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
             return true;
         }
         let pose = self.scene.arm().pose(1, (ends[0] + ends[1]) / 2.0);
-        common_point(part, piece, &pose).is_some_and(|p| of_world(p) || of_link(pose.inverse_transform_point(&p)))
+        middle_point(part, piece, &pose).is_some_and(|p| {
+            let a = pose.inverse_transform_point(&p);
+            of_world(p, signed_distance(p, piece.core(), of_piece))
+                || of_link(a, signed_distance(a, part.core(), of_part))
+        })
     }
 }
 
@@ -250,8 +254,9 @@ fn least_distance(shape: &Convex, from: Point) -> f64 {
     (core[0] - from).norm() - extent - shape.radius()
 }
 
-/// A point in the middle of what the cores have in common with the part at `pose`.
-fn common_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
+/// A point in the middle of what the cores have in common with the part at `pose`, if they do. Of two segments it is where their
+/// lines cross, which need not be on either.
+fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
     let part: Vec<Point> = part.core().iter().map(|a| pose * a).collect();
     let piece = piece.core();
     let both = match (part.as_slice(), piece) {
@@ -260,7 +265,7 @@ fn common_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
         (&[a, b], &[c, d]) => {
             let (along, across) = (b - a, perpendicular(d - c));
             let share = across.dot(&(c - a)) / across.dot(&along);
-            return share.is_finite().then(|| a + along * share.clamp(0.0, 1.0));
+            return share.is_finite().then(|| a + along * share);
         }
         _ => return None,
     };
@@ -279,18 +284,24 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// Whether a point's signed distance from a convex polygon (negative inside), segment or point, a convex function of it,
-/// is at most `allowed`.
-fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
-    let outside = sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max);
-    if outside > allowed {
-        return false;
-    }
+/// By how much a point is outside the half-planes, or with a negative sign inside them.
+fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
+    sides.iter().map(|(normal, offset)| normal.dot(&p.coords) - offset).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// A point's distance from a convex polygon, negative inside, segment or point: a convex function of it.
+fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
+    let (outside, n) = (outside(p, sides), core.len());
     if outside <= 0.0 && !sides.is_empty() {
-        return true;
+        return outside;
     }
-    let n = core.len();
-    allowed >= 0.0 && (0..n).any(|i| to_segment(p, core[i], core[(i + 1) % n]) <= allowed)
+    (0..n).map(|i| to_segment(p, core[i], core[(i + 1) % n])).fold(f64::INFINITY, f64::min)
+}
+
+/// Whether that is at most `allowed`; often this costs less.
+fn within(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
+    let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
+    at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)
 }
 
 fn to_segment(p: Point, a: Point, b: Point) -> f64 {
@@ -299,3 +310,6 @@ fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let t = if length2 > 0.0 { (along.dot(&to) / length2).clamp(0.0, 1.0) } else { 0.0 };
     (to - along * t).norm()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,9 +1,9 @@
 //! Starts and goals where rows, seams and domains end, and joints that cannot move.
 
 use super::{LIMITS, ROUNDING, bound, metrics};
-use crate::common::{asked, disc, q, rectangle, rr, scene};
-use cplan::geometry::{Convex, Point};
-use cplan::model::MotionProblem;
+use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, rr, scene};
+use cplan::geometry::{Convex, Point, Vector};
+use cplan::model::{Motion, MotionProblem};
 use cplan::search::{Motions, least_length};
 use cplan::space::{Axis, Configuration, Metric};
 use std::f64::consts::{PI, TAU};
@@ -135,5 +135,31 @@ fn the_same_to_the_last_bit() {
         let problem = crate::common::problem(crate::common::Benchmark::A);
         let found = [0; 2].map(|_| bound(&problem, metric, 30.0, 1e-4).to_bits());
         assert_eq!(found[0], found[1]);
+    }
+}
+
+/// A capsule on a carriage that slides past an obstacle, or on the axis of joint 1. Within one strip what it meets leaves the
+/// lower limit of joint 2 and comes in at the upper one, a turn away: all the way in between the elbow is in the link, and in no
+/// obstacle.
+#[test]
+fn what_is_in_the_link_all_along_closes_nothing() {
+    let (far, half, radius) = (0.9_f64, 0.1_f64, 0.1);
+    // Link and obstacle are segments grown by the radius; the link just touches an end of the obstacle's.
+    let touching = (half / far).atan() + (2.0 * radius / far.hypot(half)).asin();
+    let around = Axis::Interval { lower: touching - PI, upper: PI - touching };
+    let first = Axis::Interval { lower: -0.5, upper: 0.48 };
+    let slide = Motion::Prismatic { direction: Vector::y() };
+    let turn = Motion::Revolute { sign: 1.0 };
+    let capsule = |from: Point, to: Point| convex(vec![from, to], radius);
+    for motion in [slide, turn] {
+        let joints = [joint("first", motion, first), joint("second", turn, around)];
+        let second = link("second", vec![capsule(Point::origin(), Point::new(1.0, 0.0))]);
+        let arm = arm(joints, [link("first", Vec::new()), second], Vector::zeros(), Point::new(1.0, 0.0));
+        let scene = scene(arm, vec![capsule(Point::new(-far, -half), Point::new(-far, half))]);
+        let problem = asked(scene, q(-0.4, 0.0), q(0.4, 0.0));
+        for factor in LIMITS {
+            let found = bound(&problem, Metric::Euclidean, factor * 0.8, 1e-4);
+            assert!((found - 0.8).abs() <= 2.0 * ROUNDING, "{motion:?}: {found}, not 0.8");
+        }
     }
 }
