@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         goals: loaded.problem.goals().pieces(),
         paths: Vec::new(),
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: &contours,
     };
     write_whole(&file, svg(&picture).as_bytes())?;

@@ -16,7 +16,7 @@ use crate::space::Configuration;
 /// 1.1e-16 each); bounds are weakened by it, so that they hold in floating point too.
 const ROUNDING: f64 = 1e-13;
 
-/// The same where shapes are to be stuck: more than the independent check demands ([`super::recheck`], 1e-12), so that it
+/// The same where shapes are to be stuck: more than the independent check demands ([`super::Disconnection::checked`], 1e-12), so that it
 /// accepts what is claimed.
 pub(crate) const STUCK_ROUNDING: f64 = 2e-12;
 

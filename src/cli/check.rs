@@ -177,7 +177,7 @@ fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours
         goals: &[],
         paths: Vec::new(),
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: contours,
     }
 }

@@ -4,7 +4,7 @@ use super::DONE;
 use super::args::RecheckArgs;
 use super::failure::Failure;
 use super::sinks;
-use crate::check::{read_proof, recheck};
+use crate::check::read_proof;
 use crate::input::{self, Source};
 
 /// Checks the proof in a result file against the two input files. That it was made for them is not taken on trust.
@@ -16,13 +16,14 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let failed = |why: String| Failure::Option(format!("{}: {why}", args.proof.display()));
     let source = Source::read(&args.proof)?;
-    let boxes = read_proof(source.text()).map_err(|e| failed(e.to_string()))?;
+    let claim = read_proof(source.text()).map_err(|e| failed(e.to_string()))?;
     let problem = &loaded.problem;
-    recheck(&boxes, problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
+    let proof = claim
+        .checked(problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
         .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;
     sinks::print(&format!(
         "the proof holds: {} boxes of collisions separate the start from every goal\n",
-        boxes.len()
+        proof.stuck().len()
     ))?;
     Ok(DONE)
 }

@@ -23,8 +23,8 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     }
     inside.extend(picture.trace.into_iter().flat_map(|t| trace::above(t, &frame, &topology, &paths)));
     inside.extend(preferences::in_cspace(&picture.scene.workspace().preferences, &frame, &paths));
-    if !picture.proof.is_empty() {
-        inside.push(boxes::proof(picture.proof, &frame));
+    if let Some(proof) = picture.proof {
+        inside.push(boxes::proof(proof.stuck(), &frame));
     }
     let segments = picture.goals.iter().filter(|goal| !goal.is_point());
     inside.extend(page::lines(segments.map(|goals| (chart.outline(&Path::new(goals.ends().to_vec())), GOALS))));

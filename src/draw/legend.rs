@@ -44,7 +44,7 @@ pub fn keys(picture: &Picture) -> Vec<Key> {
         keys.push((Sign::Line(page::path_pen(i, count)), name));
     }
     keys.extend(picture.trace.map_or_else(Vec::new, trace::keys));
-    keys.extend((!picture.proof.is_empty()).then(boxes::proof_key));
+    keys.extend(picture.proof.map(|_| boxes::proof_key()));
     keys.extend(preferences::keys(&picture.scene.workspace().preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let obstacles = &picture.scene.workspace().obstacles;

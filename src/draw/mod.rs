@@ -36,7 +36,7 @@ mod workspace;
 pub use task::{TaskPicture, task_svg};
 pub use view::{View, page, shell};
 
-use crate::check::StuckBox;
+use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
 use crate::geometry::Point;
 use crate::model::Scene;
@@ -63,8 +63,8 @@ pub struct Picture<'a> {
     pub paths: Vec<(String, &'a Path)>,
     /// What the planner saw.
     pub trace: Option<&'a Trace>,
-    /// Boxes that prove that there is no path; empty where that is not proven.
-    pub proof: &'a [StuckBox],
+    /// The proof that there is no path, if that is the answer.
+    pub proof: Option<&'a CheckedProof>,
     /// Contours in joint space.
     pub c_obstacles: &'a [CObstacle],
 }
@@ -124,7 +124,7 @@ impl<'a> Posture<'a> {
             goals: &[],
             paths: Vec::new(),
             trace: None,
-            proof: &[],
+            proof: None,
             c_obstacles: &[],
         }
     }

@@ -35,7 +35,7 @@ pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
 pub use problem::{Problem, ProblemError};
 pub use settle::decide;
 
-use crate::check::{CertifiedPath, Disconnection, StuckBox};
+use crate::check::{CertifiedPath, CheckedProof};
 use crate::cspace::{Grid, Regions};
 use crate::model::Outcome;
 use crate::planner::{PathKind, Planner as _, Run, Trace, Visibility};
@@ -46,13 +46,13 @@ use std::ops::Add;
 use std::time::Duration;
 
 /// The answer to a problem: a motion that is proven free, a proof that there is none, or why neither is known within the effort.
-pub type Verdict = Outcome<CertifiedPath, Disconnection>;
+pub type Verdict = Outcome<CertifiedPath, CheckedProof>;
 
 impl Verdict {
-    /// The boxes that prove that there is no path; none where that is not proven.
+    /// The proof that there is no path, if that is the answer.
     #[must_use]
-    pub fn proof(&self) -> &[StuckBox] {
-        if let Verdict::Infeasible(proof) = self { proof.stuck() } else { &[] }
+    pub fn proof(&self) -> Option<&CheckedProof> {
+        if let Verdict::Infeasible(proof) = self { Some(proof) } else { None }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::field_report::field_report;
 use super::options::{Options, Planner};
 use super::{Answer, Bound, Verdict};
-use crate::check::{CertifiedCurve, ProofBox};
+use crate::check::CertifiedCurve;
 use crate::model::MotionProblem;
 use crate::motion::{Optimum, Report, SearchUsed, Timed, TimingError};
 use crate::space::Metric;
@@ -43,7 +43,7 @@ impl MotionPlan {
                 let boxes = proof.stuck().len();
                 let reason = format!("proven: {boxes} boxes of colliding configurations separate start and goal");
                 let mut report = Report::infeasible(planner, joints, reason);
-                report.proof = Some(proof.stuck().iter().map(ProofBox::from).collect());
+                report.proof = Some(proof.clone());
                 report
             }
             Verdict::Unknown(reason) => {

@@ -6,7 +6,7 @@ use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::task::{FailedStep, Manner, MessageError, TaskAnswer, TaskReport, plan as plan_task};
 use super::{Verdict, percent, solve};
-use crate::check::Disconnection;
+use crate::check::CheckedProof;
 use crate::model::{MotionProblem, Outcome, RobotJoints, Status, Task};
 use crate::motion::{AccelerationJump, Report, SearchUsed, TimingError, Trajectory};
 use std::borrow::Cow;
@@ -33,7 +33,7 @@ pub enum PlanError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refutation<'a> {
     /// Of a motion: boxes of configurations that collide separate start and goals.
-    Motion(&'a Disconnection),
+    Motion(&'a CheckedProof),
     /// Of a task: a step that cannot be done, nor can the task in any other way.
     Step(&'a FailedStep),
 }

@@ -4,7 +4,7 @@ use super::Verdict;
 use super::ladder::explain;
 use super::subdivision::certified;
 use super::thinned::Thinned;
-use crate::check::Disconnection;
+use crate::check::{CheckedProof, Disconnection};
 use crate::model::{MotionProblem, Pair};
 use crate::search::{Connectivity, connectivity, slab_connectivity};
 
@@ -88,7 +88,7 @@ fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) 
 
 /// A large proof by slabs with fewer boxes: the largest of its own, or what `by_boxes` takes.
 fn small(problem: &MotionProblem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
-    let proof = match proof.slimmed_to(LARGE_PROOF, |proof| holds(problem, proof)) {
+    let proof = match proof.slimmed(LARGE_PROOF, |proof| held(problem, proof)) {
         Ok(smaller) => return Verdict::Infeasible(smaller),
         Err(proof) => proof,
     };
@@ -120,13 +120,13 @@ fn judged(problem: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, answer: Conn
     }
 }
 
-/// The proof with no more boxes than it takes, if it passes the independent check: no search is trusted.
-pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<Disconnection> {
-    holds(problem, &proof).then(|| proof.slimmed(|some| holds(problem, some)))
+/// The proof with no more boxes than it takes, if it passes the independent check.
+pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
+    proof.slimmed(usize::MAX, |some| held(problem, some)).ok()
 }
 
-/// Whether it passes the independent check.
-fn holds(problem: &MotionProblem, proof: &Disconnection) -> bool {
+/// The proof, if it passes the independent check.
+fn held(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
     let clearance = problem.scene().workspace().clearance;
-    proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).is_ok()
+    proof.checked(problem.scene(), problem.start(), problem.goals(), clearance).ok()
 }

@@ -2,7 +2,7 @@
 
 use super::json::{as_map, line_a_field};
 use super::{FieldReport, Trajectory};
-use crate::check::{CertifiedCurve, ProofBox};
+use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
 use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 use serde::Serialize;
@@ -85,7 +85,7 @@ pub struct Report {
     pub reason: Option<String>,
     /// Of an infeasible problem: boxes of colliding configurations that separate the start from all goals.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub proof: Option<Vec<ProofBox>>,
+    pub proof: Option<CheckedProof>,
     /// Whether there is a path all the same, certified by another method than the one that was asked: `true`, of unknown
     /// results only, and left out where nothing is known.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -4,6 +4,7 @@
 
 mod bands;
 mod boxes;
+mod cell;
 mod chain;
 mod channel;
 mod connectivity;

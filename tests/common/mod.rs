@@ -7,6 +7,7 @@ pub mod reference;
 pub mod roadmap;
 pub mod slips;
 
+use cplan::check::{Disconnection, ProofDefect, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{
@@ -17,6 +18,17 @@ use nalgebra::Vector3;
 
 pub fn q(a: f64, b: f64) -> Configuration {
     Configuration::new(a, b)
+}
+
+/// What the judge says of the claim that these boxes separate the start from all goals.
+pub fn recheck(
+    stuck: &[StuckBox],
+    scene: &Scene,
+    start: Configuration,
+    goals: &GoalSet,
+    clearance: f64,
+) -> Result<(), ProofDefect> {
+    Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
 /// A convex polygon grown by a radius, which must be one.

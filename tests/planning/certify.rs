@@ -1,7 +1,9 @@
 //! The judge against dense sampling and problems whose answers are known.
 
-use crate::common::{Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, rectangle, rr, scene, wall};
-use cplan::check::{CertifiedPath, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify, recheck};
+use crate::common::{
+    Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
+};
+use cplan::check::{CertifiedPath, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Motion, Scene};
 use cplan::search::{Connectivity, Occupancy, connectivity, explore};

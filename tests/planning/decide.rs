@@ -1,7 +1,7 @@
 //! Whether there is a path at all, among thousands of pieces and where nothing can tell.
 
-use crate::common::{asked, placed, q, rr, wall};
-use cplan::check::{certify, recheck};
+use crate::common::{asked, placed, q, recheck, rr, wall};
+use cplan::check::certify;
 use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};

@@ -1,9 +1,8 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
 
 use crate::common::random::{seeds, usual};
-use crate::common::{arm, asked, disc, joint, link, rectangle, scene, wall};
+use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wall};
 use crate::random_worlds::world::Dice;
-use cplan::check::recheck;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, Motion, MotionProblem, Scene, inverse};

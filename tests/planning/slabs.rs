@@ -1,10 +1,10 @@
 //! Slabs of joint 1 against collision tests of sampled postures, the subdivision into boxes, and the independent check.
 
 use crate::common::{
-    Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, rectangle, rr, scene,
-    wall,
+    Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
+    rr, scene, wall,
 };
-use cplan::check::{Cell, certify, recheck};
+use cplan::check::{Cell, certify};
 use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};

@@ -1,7 +1,8 @@
 //! Workspaces without a path and their feasible twins: proofs pass the independent check as they stand in a file, and
 //! found paths a sweep by parry2d.
 
-use cplan::check::{ProofBox, read_proof, recheck};
+use crate::common::recheck;
+use cplan::check::{ProofBox, read_proof};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
@@ -45,12 +46,13 @@ fn each_closed_way_is_proven_closed_and_the_proof_can_be_read_back() {
         };
         let boxes: Vec<ProofBox> = proof.stuck().iter().map(ProofBox::from).collect();
         let text = serde_json::json!({ "proof": boxes }).to_string();
-        let claim = read_proof(&text).unwrap();
+        let read = read_proof(&text).unwrap();
+        let claim = read.stuck();
         assert_eq!(claim, proof.stuck(), "{what}");
-        assert_eq!(recheck(&claim, scene, start, goals, 0.0), Ok(()), "{what}");
+        assert_eq!(recheck(claim, scene, start, goals, 0.0), Ok(()), "{what}");
         // It says nothing about the twin, whose way is open: some box cannot be true there.
         let twin = load(&format!("{what}_open"), robot);
-        assert!(recheck(&claim, twin.scene(), twin.start(), twin.goals(), 0.0).is_err(), "{what}");
+        assert!(recheck(claim, twin.scene(), twin.start(), twin.goals(), 0.0).is_err(), "{what}");
     }
 }
 

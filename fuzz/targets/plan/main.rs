@@ -4,7 +4,7 @@
 
 mod draft;
 
-use cplan::check::{CertifiedPath, certify};
+use cplan::check::{CertifiedPath, Disconnection, certify};
 use cplan::geometry::Convex;
 use cplan::model::{Motion, MotionProblem, Scene};
 use cplan::engine::{Effort, Method, Verdict, solve};
@@ -109,7 +109,8 @@ fuzz_target!(|draft: Draft| {
             }
             Verdict::Infeasible(proof) => {
                 let clearance = problem.scene().workspace().clearance;
-                proof.recheck(problem.scene(), problem.start(), problem.goals(), clearance).expect("the proof holds");
+                let claim = Disconnection::new(proof.stuck().to_vec());
+                claim.checked(problem.scene(), problem.start(), problem.goals(), clearance).expect("the proof holds");
                 let topology = problem.scene().arm().topology();
                 for goal in problem.goals().points() {
                     let straight = Path::new(vec![problem.start(), topology.lift(goal, problem.start())]);

@@ -114,7 +114,7 @@ fn picture<'a>(
         goals: problem.goals().pieces(),
         paths,
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: contours,
     }
 }

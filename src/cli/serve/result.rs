@@ -58,7 +58,7 @@ fn picture<'a>(
         goals,
         paths: Vec::new(),
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles,
     }
 }

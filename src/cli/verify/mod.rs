@@ -163,7 +163,7 @@ fn draw(
         paths: vec![("motion".into(), &path)],
         trace: None,
         c_obstacles: &contours,
-        proof: &[],
+        proof: None,
     };
     sinks::save_picture(format, file, &picture)
 }

@@ -97,7 +97,7 @@ fn keys(picture: &TaskPicture) -> Vec<Key> {
     keys.extend(unreached().next().map(|_| (Sign::Unreached, "not reached".to_owned())));
     let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
     keys.extend(unreached().next().map(|_| (Sign::Line(pen), "the arm there".to_owned())));
-    keys.extend(unreached().any(|unreached| !unreached.proof.is_empty()).then(boxes::proof_key));
+    keys.extend(unreached().any(|unreached| unreached.proof.is_some()).then(boxes::proof_key));
     keys.extend(preferences::keys(&task.workspace.preferences));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let names = task.workspace.obstacles.iter().map(|o| &o.name).chain(task.objects.iter().map(|o| &o.name));

@@ -70,8 +70,8 @@ impl<'a> Panel<'a> {
         let pens = self.motions.iter().map(|leg| motion_pen(picture.task, leg));
         inside.extend(page::lines(curves.iter().map(|path| chart.outline(path)).zip(pens)));
         let unreached = || self.fails.iter().flat_map(|fails| &fails.postures);
-        let proofs = unreached().filter(|unreached| !unreached.proof.is_empty());
-        inside.extend(proofs.map(|unreached| boxes::proof(&unreached.proof, frame)));
+        let proofs = unreached().filter_map(|unreached| unreached.proof.as_ref());
+        inside.extend(proofs.map(|proof| boxes::proof(proof.stuck(), frame)));
         let mut items = vec![Item::Clip(frame.rect, inside)];
         items.extend(frame.sides(chart.seams()));
         items.extend(curves.iter().flat_map(|path| goal_marker(chart.place(path.goal()), true)));

@@ -86,9 +86,9 @@ impl Worlds<'_> {
     /// The world of the step that fails, with what proves that.
     fn failing(&mut self, fails: &Impossible) -> usize {
         let world = self.add(&fails.scene);
-        let proof: Vec<_> = fails.postures.iter().flat_map(|to| to.proof.iter().cloned()).collect();
+        let proofs = fails.postures.iter().filter_map(|to| to.proof.as_ref());
         let unreached = fails.postures.iter().map(|to| self.grain.configuration(to.posture)).collect();
-        self.views[world] = self.views[world].clone().proven(&proof, self.grain).without(unreached);
+        self.views[world] = self.views[world].clone().proven(proofs, self.grain).without(unreached);
         world
     }
 }

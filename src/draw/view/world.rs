@@ -3,7 +3,7 @@
 use super::arm::ShapeView;
 use super::round::Grain;
 use super::trace::TraceView;
-use crate::check::StuckBox;
+use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
 use crate::draw::color;
 use crate::geometry::Convex;
@@ -125,9 +125,10 @@ impl WorldView {
         Self { unreached, ..self }
     }
 
-    /// The same with a proof.
-    pub fn proven(self, proof: &[StuckBox], grain: Grain) -> Self {
-        let boxes = proof.iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]);
+    /// The same with proofs.
+    pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: Grain) -> Self {
+        let boxes =
+            proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]);
         Self { proof: boxes.flat_map(|corner| grain.configuration(Configuration::from(corner))).collect(), ..self }
     }
 }

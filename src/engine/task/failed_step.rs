@@ -2,7 +2,7 @@
 
 use super::impossible::{Impossible, Unreached};
 use super::step_report::ActionName;
-use crate::check::ProofBox;
+use crate::check::CheckedProof;
 use crate::model::Task;
 use serde::Serialize;
 
@@ -15,13 +15,12 @@ pub struct PostureReport {
     pub reason: String,
     /// Boxes of colliding configurations that separate it from where the arm stands, where that is the reason.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub proof: Option<Vec<ProofBox>>,
+    pub proof: Option<CheckedProof>,
 }
 
 impl From<&Unreached> for PostureReport {
     fn from(Unreached { posture, reason, proof }: &Unreached) -> Self {
-        let boxes = || proof.iter().map(ProofBox::from).collect();
-        Self { joints: [posture[0], posture[1]], reason: reason.clone(), proof: (!proof.is_empty()).then(boxes) }
+        Self { joints: [posture[0], posture[1]], reason: reason.clone(), proof: proof.clone() }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Why a task cannot be done, or is not known to be possible.
 
 use super::legs::Refusal;
-use crate::check::StuckBox;
+use crate::check::CheckedProof;
 use crate::model::{Arm, Joint, Scene, Step};
 use crate::space::Configuration;
 use std::sync::Arc;
@@ -19,8 +19,8 @@ pub struct Unreached {
     pub posture: Configuration,
     /// Why, in words.
     pub reason: String,
-    /// Boxes of colliding configurations that separate it from where the arm stands; none where that is not the reason.
-    pub proof: Arc<[StuckBox]>,
+    /// That boxes of colliding configurations separate it from where the arm stands, where that is the reason.
+    pub proof: Option<CheckedProof>,
 }
 
 /// Why a task cannot be done, or is not known to be possible.

@@ -4,7 +4,7 @@ use super::Manner;
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
-use crate::check::{CertifiedPath, StuckBox, WristTurn, certify, wrist_turn};
+use crate::check::{CertifiedPath, CheckedProof, WristTurn, certify, wrist_turn};
 use crate::engine::{Effort, Verdict, solve};
 use crate::geometry::Pose;
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
@@ -21,8 +21,8 @@ pub(super) struct Refusal {
     pub reason: String,
     /// Whether that is proven, or just what came of trying.
     pub proven: bool,
-    /// Boxes of colliding configurations that bar the way, where that is the reason.
-    pub proof: Arc<[StuckBox]>,
+    /// The proof that there is no way, where that is the reason.
+    pub proof: Option<CheckedProof>,
     /// What would have to be elsewhere.
     pub blockers: Blockers,
 }
@@ -39,16 +39,17 @@ pub(super) enum Blockers {
 }
 
 impl Refusal {
-    /// A reason without boxes, from which nothing is learned.
+    /// A reason without a proof by boxes, from which nothing is learned.
     pub fn new(reason: impl Into<String>, proven: bool) -> Self {
-        Self { reason: reason.into(), proven, proof: Arc::new([]), blockers: Blockers::Unknown }
+        Self { reason: reason.into(), proven, proof: None, blockers: Blockers::Unknown }
     }
 
-    /// There is no way, as these boxes prove.
-    fn barred(stuck: &[StuckBox]) -> Self {
+    /// There is no way, as this proves.
+    fn barred(proof: CheckedProof) -> Self {
+        let stuck = proof.stuck();
         let reason = format!("there is no way: {} boxes of colliding configurations bar it (proven)", stuck.len());
         let blockers = Blockers::OnTheWay(distinct(stuck.iter().map(|stuck| stuck.pair.obstacle)));
-        Self { proof: stuck.into(), blockers, ..Self::new(reason, true) }
+        Self { proof: Some(proof), blockers, ..Self::new(reason, true) }
     }
 }
 
@@ -313,8 +314,8 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
     }
     let goal = to.into();
     match slab_connectivity(scene, from, &goal, clearance, SLABS) {
-        Connectivity::Disconnected(proof) if proof.recheck(scene, from, &goal, clearance).is_ok() => {
-            Way::Barred(Refusal::barred(proof.stuck()))
+        Connectivity::Disconnected(proof) => {
+            proof.checked(scene, from, &goal, clearance).map_or(Way::Open, |proof| Way::Barred(Refusal::barred(proof)))
         }
         _ => Way::Open,
     }
@@ -325,7 +326,7 @@ fn path(scene: &Scene, from: Configuration, to: Configuration, manner: &Manner) 
     let problem = MotionProblem::trusted(scene.clone(), from, to);
     match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
         Verdict::Found(path) => Ok(path),
-        Verdict::Infeasible(proof) => Err(Refusal::barred(proof.stuck())),
+        Verdict::Infeasible(proof) => Err(Refusal::barred(proof)),
         Verdict::Unknown(reason) => Err(Refusal::new(reason, false)),
     }
 }

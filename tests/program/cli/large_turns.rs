@@ -1,8 +1,8 @@
 //! Joints on circles, many turns from zero: a proof there is held to where the start really is.
 
 use super::*;
-use crate::common::random;
-use cplan::check::{Cell, ProofDefect, StuckBox, recheck};
+use crate::common::{random, recheck};
+use cplan::check::{Cell, ProofDefect, StuckBox};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::Pair;
 use cplan::space::Configuration;

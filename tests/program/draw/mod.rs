@@ -133,7 +133,7 @@ fn planned(
         goals: &[path.goal().into()],
         paths: vec![("wavefront".to_owned(), &path)],
         trace: Some(&trace),
-        proof: &[],
+        proof: None,
         c_obstacles: &c_obstacles,
     };
     checked(name, &picture)
@@ -208,7 +208,7 @@ fn a_comparison_tells_paths_apart() {
         goals: &[walk.goal().into()],
         paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: &c_obstacles,
     };
     let words = words(&checked("comparison", &picture));
@@ -233,7 +233,7 @@ fn a_crowd_without_a_path() {
         goals: &[at(1.0, -2.4).into(), at(2.0, 2.4).into()],
         paths: Vec::new(),
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: &c_obstacles,
     };
     let words = words(&checked("crowd", &picture));
@@ -249,7 +249,7 @@ fn bare<'a>(scene: &'a Scene, goals: &'a [Segment]) -> Picture<'a> {
         goals,
         paths: Vec::new(),
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: &[],
     }
 }
@@ -358,7 +358,7 @@ fn preference_regions_are_dashed_and_explained() {
                 goals: &[],
                 paths: Vec::new(),
                 trace: None,
-                proof: &[],
+                proof: None,
                 c_obstacles: &[],
             },
         );

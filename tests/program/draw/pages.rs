@@ -1,14 +1,15 @@
 //! Pages: self-contained, deterministic, finite, and the same results as the pictures.
 
 use super::{at, bare, three, torus};
-use cplan::check::{Cell, StuckBox, certify};
+use crate::common::{Benchmark, benchmark};
+use cplan::check::certify;
 use cplan::cspace::c_obstacles;
 use cplan::draw::{AxesFrame, Picture, Posture, View, page};
 use cplan::geometry::Point;
-use cplan::model::Pair;
 use cplan::model::Status;
 use cplan::motion::Drive;
 use cplan::planner::Trace;
+use cplan::search::{Connectivity, connectivity};
 use cplan::space::Path;
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -151,12 +152,18 @@ fn other_traces_keep_their_parts() {
 
 #[test]
 fn a_proof_is_shown_where_it_is() {
-    let scene = three();
-    let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
-    let proof = [StuckBox { cell: Cell { lower: [0.25, -0.5], upper: [0.5, 1.0] }, pair }];
-    let picture = Picture { proof: &proof, ..bare(&scene, &[]) };
+    let (scene, start, goal) = benchmark(Benchmark::T);
+    let Connectivity::Disconnected(claim) = connectivity(&scene, start, &goal.into(), 0.0, 100_000) else {
+        panic!("walls of link 1 close the way")
+    };
+    let proof = claim.checked(&scene, start, &goal.into(), 0.0).expect("the proof holds");
+    let corners = proof.stuck().iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]).flatten();
+    let corners: Vec<f64> = corners.collect();
+    let picture = Picture { proof: Some(&proof), ..bare(&scene, &[]) };
     let value = inspected("page_proof", &View::of_picture(&picture, Some(Status::Infeasible), Vec::new(), None));
-    assert_eq!(value["worlds"][0]["proof"], serde_json::json!([0.25, -0.5, 0.5, 1.0]));
+    let shown: Vec<f64> = value["worlds"][0]["proof"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
+    assert_eq!(shown.len(), corners.len());
+    assert!(shown.iter().zip(&corners).all(|(a, b)| (a - b).abs() < 1e-4), "{shown:?} {corners:?}");
     assert_eq!((&value["ending"], &value["clock"]), (&"infeasible".into(), &Value::Null));
 }
 

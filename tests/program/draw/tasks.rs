@@ -432,7 +432,7 @@ fn pictures_of_one_motion_show_what_is_carried() {
         goals: &[path.goal().into()],
         paths: vec![("visibility".into(), &path)],
         trace: None,
-        proof: &[],
+        proof: None,
         c_obstacles: &contours(&leg.scene),
     };
     #[cfg(feature = "png")]

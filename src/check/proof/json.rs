@@ -1,7 +1,6 @@
 //! Proofs of disconnection in result files.
 
-use super::cell::Cell;
-use super::disconnection::StuckBox;
+use super::{Cell, Disconnection, StuckBox};
 use crate::model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -50,18 +49,18 @@ pub enum ProofFormatError {
     Missing,
 }
 
-/// The claim in a result file: its field `proof`. Whether it is true is for [`super::recheck`] to say.
+/// The claim in a result file: its field `proof`. Whether it is true, [`Disconnection::checked`] says.
 ///
 /// # Errors
 /// [`ProofFormatError`].
-pub fn read_proof(json: &str) -> Result<Vec<StuckBox>, ProofFormatError> {
+pub fn read_proof(json: &str) -> Result<Disconnection, ProofFormatError> {
     #[derive(Deserialize)]
     struct Claim {
         proof: Option<Vec<ProofBox>>,
     }
     let claim: Claim = serde_json::from_str(json)?;
     let boxes = claim.proof.ok_or(ProofFormatError::Missing)?;
-    Ok(boxes.into_iter().map(StuckBox::from).collect())
+    Ok(Disconnection::new(boxes.into_iter().map(StuckBox::from).collect()))
 }
 
 #[cfg(test)]
@@ -76,7 +75,10 @@ mod tests {
             let pair = Pair { link: 1, part: 0, obstacle: 3, piece: 2 };
             let stuck = StuckBox { cell: Cell { lower: [lower, lower / 7.0], upper: [lower / 3.0, 2.5] }, pair };
             let text = serde_json::to_string(&[ProofBox::from(&stuck)]).unwrap();
-            assert_eq!(read_proof(&format!(r#"{{"status": "infeasible", "proof": {text}}}"#)).unwrap(), vec![stuck]);
+            assert_eq!(
+                read_proof(&format!(r#"{{"status": "infeasible", "proof": {text}}}"#)).unwrap().stuck(),
+                [stuck]
+            );
         }
     }
 

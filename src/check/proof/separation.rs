@@ -1,135 +1,23 @@
-//! Checking a proof of disconnection without trusting who made it.
-//!
-//! Shares no code with the search that made the proof: depths come from the Minkowski difference, motions from chords,
-//! and that the boxes separate start and goals is decided by a sweep over what they leave of the domain.
+//! Whether boxes separate the start from all goals.
 
-use super::disconnection::{Disconnection, StuckBox};
-use crate::geometry::penetration_depth;
+use super::StuckBox;
 use crate::interrupt::checkpoint;
-use crate::model::{Motion, Scene};
 use crate::space::{Configuration, GoalSet, Segment, Topology};
 use petgraph::unionfind::UnionFind;
-use thiserror::Error;
 
-/// Share of the lengths involved by which a depth must exceed the motion, far above the rounding of either.
-const ROUNDING: f64 = 1e-12;
-
-/// Why a claimed proof proves nothing.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ProofDefect {
-    /// The box names shapes that cannot meet, or do not exist.
-    #[error("stuck box {0} names a pair of shapes that the scene does not have")]
-    UnknownPair(usize),
-    /// The box is empty, or not within the domain.
-    #[error("stuck box {0} is no part of the configuration space")]
-    NotInDomain(usize),
-    /// Its shapes could come apart within the box.
-    #[error(
-        "stuck box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
-    )]
-    NotStuck {
-        /// Which box.
-        index: usize,
-        /// Penetration depth in the middle, clearance included, metres.
-        depth: f64,
-        /// How far points of the link can move from there, metres.
-        motion: f64,
-    },
-    /// The start and some of this piece of the goals lie in one connected part of what the boxes leave.
-    #[error("the stuck boxes do not separate the start from goal {0}")]
-    NotSeparated(usize),
-}
-
-impl Disconnection {
-    /// Checks this proof against the problem; see [`recheck`].
-    ///
-    /// # Errors
-    /// The first [`ProofDefect`].
-    pub fn recheck(
-        &self,
-        scene: &Scene,
-        start: Configuration,
-        goals: &GoalSet,
-        clearance: f64,
-    ) -> Result<(), ProofDefect> {
-        recheck(self.stuck(), scene, start, goals, clearance)
-    }
-}
-
-/// Checks a claim, wherever it comes from: that in each of the boxes its pair is nearer than `clearance` (or touches),
-/// and that together they separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes above
-/// one another.
-///
-/// # Errors
-/// The first [`ProofDefect`].
-pub fn recheck(
-    stuck: &[StuckBox],
-    scene: &Scene,
+/// The first piece of the goals of which some lies in one connected part with the start of what the boxes leave.
+pub(super) fn not_separated(
+    topology: &Topology,
+    boxes: &[StuckBox],
     start: Configuration,
     goals: &GoalSet,
-    clearance: f64,
-) -> Result<(), ProofDefect> {
-    let topology = scene.arm().topology();
-    for (index, stuck) in stuck.iter().enumerate() {
-        check_box(scene, &topology, index, stuck, clearance)?;
-        checkpoint();
-    }
-    let slabs = Slabs::new(&topology, stuck);
+) -> Option<usize> {
+    let slabs = Slabs::new(topology, boxes);
     // A start or goal inside a stuck box is not free: nothing leads there.
-    let Some(from) = slabs.locate(topology.wrap(start)) else { return Ok(()) };
-    let groups = slabs.groups(&topology);
+    let from = slabs.locate(topology.wrap(start))?;
+    let groups = slabs.groups(topology);
     let joined = |goals: Segment| slabs.holding(&goals).into_iter().any(|to| groups.equiv(to, from));
-    goals.wrapped(&topology).position(joined).map_or(Ok(()), |goal| Err(ProofDefect::NotSeparated(goal)))
-}
-
-fn check_box(
-    scene: &Scene,
-    topology: &Topology,
-    index: usize,
-    stuck: &StuckBox,
-    clearance: f64,
-) -> Result<(), ProofDefect> {
-    let cell = &stuck.cell;
-    for k in 0..2 {
-        let (lower, upper) = topology.axes[k].domain();
-        if !(lower <= cell.lower[k] && cell.lower[k] < cell.upper[k] && cell.upper[k] <= upper) {
-            return Err(ProofDefect::NotInDomain(index));
-        }
-    }
-    if scene.pairs().binary_search(&stuck.pair).is_err() {
-        return Err(ProofDefect::UnknownPair(index));
-    }
-    let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
-    // The middle is rounded: the farther of the two ends counts.
-    let half = [0, 1].map(|k| (cell.upper[k] - middle[k]).max(middle[k] - cell.lower[k]));
-    let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
-    let piece = scene.piece(stuck.pair).grown(clearance);
-    let depth = penetration_depth(&part, &piece);
-    let motion = farthest(scene, stuck, middle, half);
-    let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.coords.norm();
-    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofDefect::NotStuck { index, depth, motion }) }
-}
-
-/// Farthest that a corner of the link's part can move from where it is at `q` while each joint moves by at most `half`:
-/// a turn by `t` about a point at distance `r` moves by the chord `2 r sin(t / 2)`.
-fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
-    let arm = scene.arm();
-    let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
-    let of_corner = |a: nalgebra::Vector2<f64>| match (stuck.pair.link, arm.joints[0].motion, arm.joints[1].motion) {
-        (0, Motion::Revolute { .. }, _) => a.norm() * chord(half[0]),
-        (0, Motion::Prismatic { .. }, _) => half[0],
-        (_, Motion::Revolute { .. }, Motion::Revolute { .. }) => {
-            arm.offset.norm() * chord(half[0]) + a.norm() * chord(half[0] + half[1])
-        }
-        (_, Motion::Revolute { .. }, Motion::Prismatic { direction }) => {
-            let at = |slide: f64| (arm.offset + direction * (q[1] + slide) + a).norm();
-            // Joint 2 first, then the turn about the base at the farther of the two ends: distance is convex.
-            half[1] + at(half[1]).max(at(-half[1])) * chord(half[0])
-        }
-        (_, Motion::Prismatic { .. }, Motion::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
-        (_, Motion::Prismatic { .. }, Motion::Prismatic { .. }) => half[0] + half[1],
-    };
-    scene.part(stuck.pair).core().iter().map(|p| of_corner(p.coords)).fold(0.0, f64::max)
+    goals.wrapped(topology).position(joined)
 }
 
 /// What closed boxes leave of the domain: strips of `q1` between the boxes' sides, and in each the open gaps of `q2`.
