@@ -1,6 +1,9 @@
 //! The JSON schema of world files, by an independent validator: it accepts what the program reads and refuses what it
 //! refuses for its form.
 
+#[path = "../../examples/world_reference/page.rs"]
+mod page;
+
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -187,6 +190,33 @@ fn worlds_with_every_key_are_valid() {
     for key in keys(&schema) {
         assert!(FULL.iter().any(|full| full.contains(&key)), "no world has the key {key}");
     }
+}
+
+#[test]
+fn the_kept_reference_is_made_from_the_schema() {
+    let kept = std::fs::read_to_string(root().join("docs/world_reference.md")).unwrap();
+    assert_eq!(page::page(&cplan::input::world_schema()), kept, "run `cargo run --example world_reference`");
+    for key in keys(&cplan::input::world_schema()) {
+        assert!(kept.contains(&format!("| `{key}`")), "the reference has no key {key}");
+    }
+}
+
+#[test]
+fn worlds_that_the_book_shows_are_valid() {
+    let validator = validator();
+    let pages = std::fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
+    let mut seen = 0;
+    for file in pages.filter(|file| file.extension().is_some_and(|e| e == "md")) {
+        let text = std::fs::read_to_string(&file).unwrap();
+        for block in text.split("```toml\n").skip(1) {
+            let world = json(block.split("```").next().unwrap_or_default());
+            let errors: Vec<String> =
+                validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
+            assert!(errors.is_empty(), "{}: {}", file.display(), errors.join("; "));
+            seen += 1;
+        }
+    }
+    assert!(seen >= 6, "only {seen} worlds");
 }
 
 /// Every key has a description, so that editors have something to show.

@@ -3,8 +3,10 @@
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
+mod docs;
 mod draw;
 mod pictures;
+mod rounding;
 mod search;
 #[cfg(feature = "serve")]
 mod serve;

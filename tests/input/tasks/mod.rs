@@ -237,9 +237,9 @@ fn steps_count_for_more_than_the_goal_of_a_map() {
 }
 
 #[test]
-fn the_readme_shows_what_can_be_written() {
-    let readme = include_str!("../../../README.md");
-    let block = readme.split("```toml\n").map(|b| b.split("```").next().unwrap_or_default());
+fn the_book_shows_what_can_be_written() {
+    let page = include_str!("../../../docs/world_file.md");
+    let block = page.split("```toml\n").map(|b| b.split("```").next().unwrap_or_default());
     let block = block.filter(|b| b.contains("[[step]]")).collect::<Vec<_>>();
     let [block, pallets] = block[..] else { panic!("two blocks with steps") };
     // The robot of these tests has no joint that could lower a tool.

@@ -179,24 +179,6 @@ fn places_that_cannot_be_written_give_one_error() {
     fs::set_permissions(place.path("locked"), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// The README's first own world, with the arm that `init` writes: it succeeds, and its mistake is shown as the README says.
-#[test]
-fn the_readmes_own_world_has_a_path() {
-    let readme = include_str!("../../../README.md");
-    let section = readme.split("**Your own world**").nth(1).expect("the README has the section");
-    let block = |mark: &str| section.split(mark).nth(1).and_then(|rest| rest.split("```").next()).expect("a block");
-    let world = block("```toml\n");
-    let place = Place::new();
-    assert_eq!(place.run(&["init"], "").code, 0);
-    place.write("world.toml", world);
-    let done = place.run(&["arm.urdf", "world.toml"], "--picture my.svg");
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
-    assert!(done.stdout.contains("found and certified") && place.path("my.svg").is_file(), "{}", done.stdout);
-    place.write("world.toml", world.replace("radius", "radios"));
-    let wrong = place.run(&["arm.urdf", "world.toml"], "");
-    assert_eq!((wrong.code, wrong.stderr.as_str()), (1, block("```console\n")));
-}
-
 /// Every key of a wrong kind is refused with its place and what to write instead.
 #[test]
 fn every_wrong_kind_of_value_has_a_cure() {

@@ -7,7 +7,7 @@ use std::path::Path;
 const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
 
 /// The commands, as the help lists them.
-fn commands(place: &Place) -> Vec<String> {
+pub fn commands(place: &Place) -> Vec<String> {
     let help = place.run(&["--help"], "").stdout;
     let listed = help.split("Commands:\n").nth(1).expect("a list of commands").split("\n\n").next().unwrap();
     let names: Vec<String> = listed
@@ -21,7 +21,7 @@ fn commands(place: &Place) -> Vec<String> {
 }
 
 /// The words of a command line, quotes taken off, without what the shell does with its output.
-fn words(line: &str) -> Vec<String> {
+pub fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     for (i, part) in line.split('"').enumerate() {
         if i % 2 == 1 {
@@ -36,7 +36,7 @@ fn words(line: &str) -> Vec<String> {
 }
 
 /// Copies the files of a shipped folder, its own folders included.
-fn copy(from: &Path, to: &Path) {
+pub fn copy(from: &Path, to: &Path) {
     std::fs::create_dir_all(to).unwrap();
     for entry in std::fs::read_dir(from).unwrap() {
         let entry = entry.unwrap();

@@ -8,7 +8,7 @@ mod error_json;
 mod fields;
 mod first;
 mod free_joint;
-mod help;
+pub mod help;
 mod inputs;
 mod large_turns;
 mod many_corners;
@@ -39,29 +39,29 @@ fn shelf() -> [String; 2] {
 const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
 
 /// A folder to run the program in.
-struct Place(TempDir);
+pub struct Place(TempDir);
 
 /// What came of a run.
-struct Done {
-    code: i32,
-    stdout: String,
-    stderr: String,
+pub struct Done {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
 }
 
 impl Place {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }
 
-    fn path(&self, file: &str) -> PathBuf {
+    pub fn path(&self, file: &str) -> PathBuf {
         self.0.path().join(file)
     }
 
-    fn write(&self, file: &str, content: impl AsRef<[u8]>) {
+    pub fn write(&self, file: &str, content: impl AsRef<[u8]>) {
         std::fs::write(self.path(file), content).unwrap();
     }
 
-    fn read(&self, file: &str) -> String {
+    pub fn read(&self, file: &str) -> String {
         std::fs::read_to_string(self.path(file)).unwrap()
     }
 
@@ -71,7 +71,7 @@ impl Place {
         command
     }
 
-    fn run<S: AsRef<str>>(&self, files: &[S], options: &str) -> Done {
+    pub fn run<S: AsRef<str>>(&self, files: &[S], options: &str) -> Done {
         let mut command = self.command();
         command.args(files.iter().map(AsRef::as_ref)).args(options.split_whitespace());
         let Output { status, stdout, stderr } = command.output().unwrap();

@@ -1,0 +1,110 @@
+//! Every command that is shown is run, in a folder of its page's own, with the shipped robots and workspaces beside it.
+//!
+//! Comments above a block say what a reader need not: `<!-- not run: why -->`; `<!-- exit: 3 -->` for another exit code than 0;
+//! `<!-- file: world.toml -->` for a block that is to be written; `<!-- edit: world.toml: this -> that -->` for what the text
+//! says is changed; `<!-- part of: plan.yaml -->` for a block that shows what a file holds.
+
+use super::page::{Block, Page};
+use super::{pages, root, shown::difference};
+use crate::cli::Place;
+use crate::cli::help::{copy, words};
+use std::sync::Mutex;
+
+/// A command, and what it is shown to say.
+struct Shown<'a> {
+    line: usize,
+    command: &'a str,
+    says: Option<String>,
+}
+
+/// The commands of a block.
+fn commands(block: &Block) -> Vec<Shown<'_>> {
+    let mut commands: Vec<Shown> = Vec::new();
+    for (line, text) in (block.line..).zip(block.text.lines()) {
+        match (block.language.as_str(), text.strip_prefix("$ "), commands.last_mut()) {
+            ("sh", ..) => commands.push(Shown { line, command: text, says: None }),
+            (_, Some(command), _) => commands.push(Shown { line, command, says: Some(String::new()) }),
+            (_, None, Some(Shown { says: Some(says), .. })) => says.push_str(&format!("{text}\n")),
+            _ => panic!("line {line}: {text:?} is neither a command nor what one says"),
+        }
+    }
+    commands
+}
+
+/// Nothing if a command does what is shown, else what it does.
+fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
+    let command = shown.command;
+    let arguments = ["cplan ", "cargo run --release -- "].iter().find_map(|program| command.strip_prefix(program));
+    let Some(arguments) = arguments else { return Some("no command of cplan: mark it as not run, and why".into()) };
+    let done = place.run(&words(arguments), "");
+    if done.code != code {
+        return Some(format!("exit code {} instead of {code}\n{}{}", done.code, done.stdout, done.stderr));
+    }
+    let said = if done.stdout.is_empty() { &done.stderr } else { &done.stdout };
+    difference(shown.says.as_ref()?, said)
+}
+
+/// Does what the blocks of a page say, from the first to the last. Returns how many commands ran, and what is wrong.
+fn follow(page: &Page) -> (usize, Vec<String>) {
+    let place = Place::new();
+    for folder in ["robots", "workspaces"] {
+        copy(&root().join(folder), &place.path(folder));
+    }
+    let (mut ran, mut wrong) = (0, Vec::new());
+    for block in page.blocks() {
+        let at = format!("{}:{}", page.name, block.line);
+        for mark in &block.marks {
+            let known =
+                ["not run: ", "exit: ", "file: ", "edit: ", "part of: "].iter().any(|key| mark.starts_with(key));
+            assert!(known, "{at}: nobody reads the mark {mark:?}");
+        }
+        if let Some(edit) = block.mark("edit") {
+            let (file, change) = edit.split_once(": ").unwrap_or_else(|| panic!("{at}: FILE: this -> that"));
+            let (this, that) = change.split_once(" -> ").unwrap_or_else(|| panic!("{at}: FILE: this -> that"));
+            let text = place.read(file);
+            assert!(text.contains(this), "{at}: {file} has no {this:?}");
+            place.write(file, text.replace(this, that));
+        }
+        if let Some(file) = block.mark("file") {
+            place.write(file, &block.text);
+        }
+        if let Some(file) = block.mark("part of")
+            && !place.read(file).contains(&block.text)
+        {
+            wrong.push(format!("{at}: {file} does not hold that"));
+        }
+        if !["sh", "console"].contains(&block.language.as_str()) || block.mark("not run").is_some() {
+            continue;
+        }
+        let code = block.mark("exit").map_or(0, |code| code.parse().expect("an exit code"));
+        for shown in commands(&block) {
+            ran += 1;
+            wrong.extend(
+                run(&place, &shown, code)
+                    .map(|what| format!("{}:{}: {}: {what}", page.name, shown.line, shown.command)),
+            );
+        }
+    }
+    (ran, wrong)
+}
+
+#[cfg_attr(not(all(feature = "png", feature = "mcap", feature = "serve")), ignore = "pages use every feature")]
+#[test]
+fn every_command_does_what_is_shown() {
+    let (ran, wrong) = (Mutex::new(0), Mutex::new(Vec::new()));
+    let pages = pages();
+    std::thread::scope(|scope| {
+        for page in &pages {
+            let (ran, wrong) = (&ran, &wrong);
+            scope.spawn(move || {
+                let (commands, faults) = follow(page);
+                *ran.lock().unwrap() += commands;
+                wrong.lock().unwrap().extend(faults);
+            });
+        }
+    });
+    let (ran, mut wrong) = (ran.into_inner().unwrap(), wrong.into_inner().unwrap());
+    wrong.sort();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(ran >= 30, "only {ran} commands");
+}
