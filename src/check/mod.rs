@@ -2,6 +2,19 @@
 //!
 //! Imports geometry, space and model alone: it works on the scene's exact outlines, so that an error of a planner or of the
 //! search for proofs ([`crate::search`]) cannot hide here.
+//!
+//! - [`certify`] judges a path, by bisection ([`Deviation`] says how far shapes can come together), and alone makes a
+//!   [`CertifiedPath`]; [`blend`] cuts its corners by parabolas, each as large as is certified within the clearance: a
+//!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
+//! - [`recheck()`] judges a proof that there is no path: it joins what the stuck boxes leave by petgraph's union-find.
+//! - [`passage()`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
+//!   it leads from start to goal.
+//! - [`replay()`] does a recorded task again: it puts the recorded steps beside the task's (`order`), follows where the
+//!   objects are and what is carried from the recorded configurations (`state`), and judges each motion in the scene of
+//!   its moment.
+//! - [`claims_kept`]: what a result says besides its samples. The samples are the motion, everything else is a claim
+//!   about it.
+//! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
 
 mod blends;
 mod cell;

@@ -1,4 +1,12 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
+//!
+//! [`Rows`] gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the rows of slabs;
+//! polygons follow the contact curves between the rows where they change their course (`events`). Outlines with many
+//! corners are traced coarser, within the margin (`coarse`); what is ragged is covered by cells of that size
+//! (`covering`), and contours are united with their neighbours first, so that time grows with the outline (`union`).
+//!
+//! On circle axes polygons cover a window of some turns, in which obstacles and goals repeat: planners need no special
+//! case.
 
 mod bitmap;
 mod chord;

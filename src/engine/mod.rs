@@ -3,6 +3,32 @@
 //!
 //! Planners see approximations of the configuration space, so their paths are proposals. What leaves this module as
 //! found has passed [`crate::check`], what leaves it as infeasible is proven there.
+//!
+//! # The ladder
+//!
+//! A rung is a space: for roadmaps `cspace::regions` with a margin (a quarter of it on the next rung), for fields
+//! `cspace::outer_grid`, whose free cells are wholly free, then `cspace::grid_from_rows` with as many cells free at their
+//! centres (passages look some three cells wider, and the certificate judges the path), then twice the cells. The cells
+//! of fields are square in joint space unless their number is given, so that the equation is that of the configuration
+//! space (`rungs`). A start or goal nearer to an obstacle than the margin is free, but not in such a space: `admission`
+//! lets a certified straight step lead to where it is (or, where that is certified too, the path goes past it).
+//!
+//! The path that a planner proposes is certified. What fails is refined and planned again; after the first failure, and
+//! at the end, [`crate::search`] looks for a proof that there is no path. Should it find a path instead, which the
+//! planner's space does not show, the answer stays unknown, and says so ([`Answer::witness`]).
+//!
+//! # Planners without a space
+//!
+//! [`decide`], and the planner `first`, is that question by itself, within one budget (among thousands of pieces it is
+//! put to some of them first: what these close is closed). The planner `subdivision` is the search of boxes itself: it
+//! judges the scene, so it has no representation to build or to refine, and `planner` lends it only the taut string.
+//!
+//! The planner `shortest`, the default, is the search that bounds the optimum, twice. Slabs give a first path, which says
+//! how far to look; among obstacles that are grown by a hair the way keeps off the true ones and is certified; the same
+//! rows among the true ones give the bound. What is left of the gap is spent on fewer corners (`corners`), which makes
+//! motions faster. Polygons and graphs are built where that fails only: then the visibility graph has its turn on behalf
+//! of `shortest`. The planner `visibility` itself climbs to finer margins until both ends of the interval meet; without
+//! `--gap` two levels at the most, where the interval is wider than 5 %.
 
 mod admission;
 mod bound;

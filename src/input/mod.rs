@@ -11,6 +11,10 @@
 //!
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
+//!
+//! [`load`] reads both files, finds the plane and the two joints, projects the geometry of all that each joint moves,
+//! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every defect at once.
+//! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
 
 mod cure;
 mod ends;

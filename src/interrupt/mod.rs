@@ -12,6 +12,9 @@
 //! interrupt.set();
 //! assert_eq!(interrupt.run(|| (1..=3).inspect(|_| checkpoint()).sum::<i32>()), Err(Interrupted::Set));
 //! ```
+//!
+//! A loop that may take more than some milliseconds needs a checkpoint. No signature says so: that is why stopping
+//! unwinds.
 
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};

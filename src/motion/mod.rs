@@ -18,6 +18,23 @@
 //! motion only where the acceleration does not jump, so accelerations are left out unless they are asked for, and refused
 //! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
 //! `a` and states `h` seconds apart.
+//!
+//! # How fast
+//!
+//! [`time`] drives along the curve within the limits: forward-backward integration of the squared speed, on straight
+//! pieces in closed form (`profile`), on a blend over spans with bounds that are linear in the squared speeds at their
+//! ends (`corner`), from one stop to the next (`schedule`). Every piece of the motion is a polynomial in time of the
+//! fourth degree at the most, and the samples say which. With a limit on a jerk there are no blends: `jerk` takes
+//! Ruckig's times of the seven phases from rest to rest, brings them to the least interval between samples, and works out
+//! the phases from the times and the length alone, so that they end where they should and keep the limits whatever the
+//! solver's tolerances are. All samples lie at whole nanoseconds (`clock`).
+//!
+//! # Files
+//!
+//! `message` is a motion of all joints that a ROS 2 message names: `model::RobotJoints` says what sets each one's value,
+//! and in a task the engine adds the tool's strokes and the wrist's turns. Writers make files, whole or not at all. A
+//! recording (`mcap`, a feature) is a list of motions, each with the time at which it begins: a CDR writer of our own
+//! (`mcap/cdr`), the two messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
 mod clock;
 mod corner;

@@ -1,4 +1,7 @@
 //! From cells to a path.
+//!
+//! A field's path is the curve along it: within 0.05 cells of that (`simplify`), to the goal itself rather than the
+//! centre of its cell, and then certified as it is. What fails the certificate gets a finer grid.
 
 use super::attach::{Attachment, Joined};
 use super::simplify::simplified;

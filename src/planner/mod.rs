@@ -1,4 +1,9 @@
 //! Planners: pure functions from a space and a query to a run. They know nothing of arms or obstacles.
+//!
+//! Both roadmap planners begin with `geometry::planar`, which takes polygons apart into vertices and sides. A path may
+//! touch obstacles, along sides too, but not squeeze between two that touch in a point: triangles and cells are
+//! neighbours through pieces of positive length only. Which of two paths a planner gives, its own or that one pulled
+//! taut, [`PathKind`] says.
 
 mod attach;
 mod channel;

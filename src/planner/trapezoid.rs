@@ -1,4 +1,8 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a taut string.
+//!
+//! `decomposition` makes the cells, `channel` is A* over them, `funnel` pulls the string taut. The A* is our own:
+//! petgraph's keeps its scores in hash maps, needs a copy of the graph for each query's ends, and takes over twice as
+//! long.
 
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{Decomposition, Door};

@@ -1,4 +1,11 @@
 //! Shortest paths by visibility graph and A*.
+//!
+//! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Cones are bounded by lines
+//! through vertices, so that exact predicates decide what is seen. `VisibilityMap::arcs` reads the whole reduced
+//! visibility graph off it. A query (`taut_search`) does not: it is A* over that graph, but keeps cones on the open list
+//! beside corners, each with a lower bound on the way through it, so that arcs are found in the order in which they
+//! matter (Polyanya). One search serves all metrics: shortest paths in any norm turn at the same corners, only lengths
+//! and bounds differ ([`crate::space::Measure`]).
 
 use super::mesh::{Mesh, Tangency};
 use super::taut_search::TautSearch;

@@ -6,6 +6,10 @@
 //!                        table, Markdown, CSV, JSON        the same, with distributions and words;
 //!                                                          a page with charts; a log for Planner Arena
 //! ```
+//!
+//! It knows figures only, and all outputs are pure functions of these. `Spread` is a distribution, `Measure` a number to
+//! compare by, `words` says what a sign test over the problems bears out and nothing else. `page` writes HTML with SVG
+//! charts of its own; pictures of `draw` come in as text.
 
 mod arena;
 mod comparison;

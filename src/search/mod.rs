@@ -1,6 +1,17 @@
 //! Where proofs and bounds are found: slabs and boxes that tell whether there is a path, and lower bounds on how short one can
 //! be. What it finds passes [`crate::check`], which shares no code with it but the kernels of geometry and
 //! [`crate::check::Deviation`].
+//!
+//! [`slab_connectivity`] is asked first: in a slab of `q1`, contact angles with obstacles grown by the slab's motion
+//! leave what is free all over it, those with shapes eroded by it name what is stuck all over it, and slabs are halved
+//! where the connection is undecided. What slabs leave open (shapes without thickness) goes to the boxes
+//! ([`connectivity()`]). Proofs of both are stuck boxes, paths of both a channel of free boxes: both pass the checks.
+//!
+//! [`least_length`] bounds the optimum from below. Rows at some dozens of values of `q1` say exactly what is closed
+//! there; between two rows straight barriers are proven to be closed. A search in the manner of Polyanya, over all turns
+//! at once, finds the shortest way around both, which no motion is shorter than. Rows are added where that way passes
+//! what is closed, so along smooth boundaries what is left falls with the square of their spacing. [`short_motion`] is
+//! the same search among obstacles grown by a hair.
 
 mod bands;
 mod boxes;

@@ -1,4 +1,9 @@
 //! `cplan compare`: every planner on the same problems, side by side.
+//!
+//! It makes the figures that `report` shows: `cases` (one problem, a suite's, or random pairs of `pairs`, whose generator
+//! is written out so that a seed keeps its meaning), `runner` (threads, times, memory, and a lower bound for each problem
+//! from the shortest path that anyone found). The allocator that counts bytes is the program's, not the library's:
+//! `cli::run` gets it as a `MemoryMeter`.
 
 mod args;
 mod cases;

@@ -7,6 +7,25 @@
 //!
 //! The page sends the whole of what it shows each time, as a change of the text that it was given; so any message may be
 //! dropped for a newer one, and the world that is planned in is always read from text by the same code as any file.
+//!
+//! - Undo is the page's own affair. `document` changes the TOML and keeps comments and what it does not know.
+//! - Each page has one worker thread (`socket`), which takes the latest request; a newer one interrupts the plan under
+//!   way. While something is dragged it answers without bound and motion (`result::quick`), if that takes no more than 60
+//!   ms, else with the C-space alone (`Pace`); at the end with everything. Contours of obstacles that stay where they
+//!   are, are kept (`contours`).
+//! - Menus come from the command line's grammar (`menus`); what nobody has chosen is not sent, so the page has no
+//!   defaults of its own.
+//! - Errors say what they are about; of a start or goal that is not free the postures and what is in their way
+//!   (`blocked`), in words that need no file.
+//! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number it was asked with.
+//!   The badge says certified only of the final answer to the present number, on a line that is up. Edits are kept in the
+//!   browser (`keep`), under the text that the program began with.
+//! - Refused are hosts that are no address or `localhost` (DNS rebinding), other pages' origins, requests with bodies,
+//!   and worlds that name files which the server was not started with (`http`, `Host::read`). Sizes, pages, connections
+//!   and times are bounded; a panic in a plan becomes a message.
+//! - The page's code (`assets`) adds to that of `draw::shell`: `link` (one request under way, the latest next), `keep`,
+//!   `notices` (what is wrong, where one looks), `scene` (state and history), `edit` (pointer and keys), `controls`,
+//!   `live`.
 
 mod blocked;
 mod contours;

@@ -9,6 +9,32 @@
 //! carried, by A* over times. Motions are planned only when they matter: until then an edge counts as the time that the
 //! joints would take if nothing were in the way, which no motion undercuts. Such times to the end, over all postures (and
 //! orders), are the heuristic; at the start they bound the whole task from below.
+//!
+//! # Scenes
+//!
+//! - A rigid payload is a union of parts of link 2.
+//! - A level one only translates with the tip, so the part is the tip, a point, and what it can meet are the Minkowski
+//!   differences of the obstacles' pieces and the payload's. So planners, C-obstacles, certificates and proofs need no
+//!   third link.
+//! - What a payload rests on it meets with its outline made smaller by what it may press in, which no corner moves
+//!   farther than (`inner_approximation`); to keep no clearance there, it or the support is made smaller by that, each in
+//!   turn.
+//! - Motions are shared (`legs`) among worlds that differ only in objects which the heights keep from being hit.
+//!
+//! # Orders
+//!
+//! Where a group has more than ten pairs, or the search takes too long, an order is settled on (`order`); the bound stays
+//! one over all orders. A local search (`tour`) proposes one by times with nothing in the way; `walk` goes through it
+//! with questions that cost a tenth of a motion (straight? barred, by slabs?). The first pair that cannot be done makes a
+//! `condition`: what was hit, or barred the way, has to be moved before, or after. The ends of all motions make such
+//! conditions beforehand (`ends`). If no order meets all, one is built up pair by pair. The file's own order is tried,
+//! too; then motions teach the tour how long they really take, and it proposes again.
+//!
+//! # Verdicts
+//!
+//! If the search runs dry and every motion was refused with a proof, the task is infeasible; where a choice was left out
+//! (a turn of the wrist on the way, orders not tried), it is unknown. That no order can be done is proven by a `part` of
+//! the group: one pair or two that cannot be done though all other objects are out of the way.
 
 mod answer;
 mod failed_step;

@@ -1,5 +1,10 @@
 //! The family of field equations and their relaxations, as values that combine: a [`Domain`], an [`Equation`], a
 //! [`Relaxation`] and a [`Stopping`] rule; [`relax`] takes one of each.
+//!
+//! An equation becomes a `Stencil` (what the neighbours ask of a cell), an order a list of passes, a measure a `Tally`;
+//! the sweeps are compiled for each pair of stencil and tally, and know no other combinations. A new linear equation is a
+//! drift per cell; another one is a stencil. Attraction and repulsion ([`super::Khatib`]) are no equation: their
+//! potential is given, not sought.
 
 mod descent;
 mod domain;

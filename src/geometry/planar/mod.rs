@@ -1,4 +1,7 @@
 //! Polygons with holes as distinct vertices and directed sides that meet in vertices, and their triangulation.
+//!
+//! Sides that touch, or that the rounding of their corners has made cross by a hair, are cut and joined there (`noding`).
+//! All sweeps keep the sides under the line in the same balanced tree (`status`).
 
 mod noding;
 mod simplicity;
