@@ -83,6 +83,23 @@ fn every_module_is_in_the_table() {
     }
 }
 
+/// The map of the code has the same table: a row a module, in the order of the pipeline.
+#[test]
+fn the_map_shows_the_same_table() {
+    let map = include_str!("../../docs/architecture.md");
+    let names = |cell: &str| -> Vec<String> { cell.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
+    let rows = map.lines().filter_map(|line| line.strip_prefix("| `")?.strip_suffix(" |"));
+    let shown: Vec<(String, Vec<String>)> = rows
+        .map(|row| {
+            let cells: Vec<&str> = row.split(" | ").collect();
+            (cells[0].trim_end_matches('`').to_owned(), names(cells.last().expect("three cells")))
+        })
+        .collect();
+    let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+    let held = MAY_IMPORT.map(|(module, allowed)| (module.to_owned(), owned(allowed)));
+    assert_eq!(shown, held);
+}
+
 #[test]
 fn the_reader_of_imports_sees_all_forms() {
     let text =

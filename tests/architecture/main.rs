@@ -1,5 +1,6 @@
-//! The source text itself: who imports whom, and that no test is left to chance.
+//! The source text itself: who imports whom, what comes from outside, and that no test is left to chance.
 
+mod dependencies;
 mod imports;
 mod seeds;
 

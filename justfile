@@ -1,0 +1,44 @@
+# What is run by hand. `.ci/run` is what a clean clone has to pass, and needs no just.
+
+# All of them
+default:
+    @just --list
+
+# Formatting and lints, with all features and with none
+check:
+    cargo fmt --check
+    cargo clippy --locked --all-targets --all-features -- -D warnings
+    cargo clippy --locked --all-targets --no-default-features -- -D warnings
+
+# All tests, or those of a program: just test --test planning
+test *WHICH:
+    cargo test --locked {{WHICH}}
+
+# Recordings by the format's own readers, pages in a browser
+browser:
+    cargo build --locked
+    .ci/browser
+
+# The fuzz targets, built and run over their seeds, without the nightly toolchain
+fuzz:
+    .ci/fuzz
+
+# Licences, bans and duplicates of dependencies (needs cargo-deny)
+deny:
+    cargo deny --locked check
+
+# All benchmarks, or one: just bench slabs
+bench NAME="":
+    cargo bench --locked {{ if NAME == "" { "" } else { "--bench " + NAME } }}
+
+# The pictures of the documentation, drawn again
+pictures:
+    cargo run --locked --release --example pictures
+
+# Schema and reference of world files, the pages of the library; and the book, where mdBook is installed
+docs:
+    cargo run --locked -- schema > target/world.schema.json
+    mv target/world.schema.json docs/world.schema.json
+    cargo run --locked --example world_reference
+    RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
+    if command -v mdbook >/dev/null; then mdbook build docs; fi
