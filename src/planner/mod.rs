@@ -3,7 +3,8 @@
 //! Both roadmap planners begin with `geometry::planar`, which takes polygons apart into vertices and sides. A path may
 //! touch obstacles, along sides too, but not squeeze between two that touch in a point: triangles and cells are
 //! neighbours through pieces of positive length only. Which of two paths a planner gives, its own or that one pulled
-//! taut, [`PathKind`] says.
+//! taut, [`PathKind`] says. [`FieldPlanner`] follows any field on a `cspace::ZonedGrid`, whose cells know the world's
+//! preferences.
 
 mod attach;
 mod channel;

@@ -8,7 +8,7 @@
 //! [`plan`] searches a layered graph, whose nodes say what is done, where the arm and the objects are, and what is
 //! carried, by A* over times. Motions are planned only when they matter: until then an edge counts as the time that the
 //! joints would take if nothing were in the way, which no motion undercuts. Such times to the end, over all postures (and
-//! orders), are the heuristic; at the start they bound the whole task from below.
+//! orders, by a table of subsets), are the heuristic; at the start they bound the whole task from below.
 //!
 //! # Scenes
 //!
