@@ -13,34 +13,32 @@ fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
 
-/// The lines of a text in a form to compare by: without the widths of columns, and without times and memory.
+/// A word that is no number.
+fn timeless(word: &str) -> &str {
+    if word.trim_end_matches(',').parse::<f64>().is_ok() { ANY } else { word }
+}
+
+/// The lines of a text in a form to compare by: without times and memory, and without the widths of the columns beside them.
 fn lines(text: &str) -> Vec<String> {
-    let is_volatile = |head: &&str| head.ends_with("[ms]") || head.ends_with("[MiB]");
+    let is_volatile = |head: &str| head.ends_with("[ms]") || head.ends_with("[MiB]");
+    // Columns of the table that a line stands in.
     let mut volatile: Vec<usize> = Vec::new();
     let mut lines = Vec::new();
     for line in text.lines() {
         let cells = cells(line);
-        if cells.len() > 1 && cells.iter().any(|head| is_volatile(&head)) {
-            volatile = (0..cells.len()).filter(|&k| is_volatile(&cells[k])).collect();
-        } else if line.is_empty() {
-            volatile.clear();
+        let heads: Vec<usize> = (0..cells.len()).filter(|&k| cells.len() > 1 && is_volatile(cells[k])).collect();
+        let begins = !heads.is_empty();
+        if begins || line.is_empty() {
+            volatile = heads;
         }
-        let rule = cells.len() > 1 && line.chars().all(|c| c == '-' || c == ' ');
-        let is_time = cells.first() == Some(&"time");
-        let shown = (0..cells.len()).map(|k| match (rule, volatile.contains(&k)) {
-            (true, _) => "---",
-            (_, true) if !is_volatile(&cells[k]) => ANY,
-            _ => cells[k],
+        let cell = |k: usize| if volatile.contains(&k) { ANY } else { cells[k] };
+        lines.push(match (begins, volatile.is_empty()) {
+            (true, _) => cells.join("  "),
+            (_, false) if line.chars().all(|c| c == '-' || c == ' ') => "---".into(),
+            (_, false) => (0..cells.len()).map(cell).collect::<Vec<_>>().join("  "),
+            _ if line.starts_with("time ") => line.split(' ').map(timeless).collect::<Vec<_>>().join(" "),
+            _ => line.trim_end().into(),
         });
-        let mut shown = shown.collect::<Vec<_>>().join("  ");
-        if is_time {
-            shown = shown
-                .split(' ')
-                .map(|word| if word.trim_end_matches(',').parse::<f64>().is_ok() { ANY } else { word })
-                .collect::<Vec<_>>()
-                .join(" ");
-        }
-        lines.push(shown);
     }
     lines
 }
@@ -58,7 +56,7 @@ fn is_line(shown: &str, said: &str) -> bool {
 fn are_lines(shown: &[String], said: &[String]) -> bool {
     match shown {
         [] => said.is_empty(),
-        [first, rest @ ..] if first == OUT => (0..=said.len()).any(|k| are_lines(rest, &said[k..])),
+        [first, rest @ ..] if first.trim() == OUT => (0..=said.len()).any(|k| are_lines(rest, &said[k..])),
         [first, rest @ ..] => said.first().is_some_and(|line| is_line(first, line)) && are_lines(rest, &said[1..]),
     }
 }
@@ -70,7 +68,7 @@ pub fn difference(shown: &str, said: &str) -> Option<String> {
         return None;
     }
     let missing: Vec<&String> =
-        shown.iter().filter(|line| *line != OUT && !heard.iter().any(|said| is_line(line, said))).collect();
+        shown.iter().filter(|line| line.trim() != OUT && !heard.iter().any(|said| is_line(line, said))).collect();
     let what = match missing.first() {
         Some(line) => format!("it does not say\n    {line}"),
         None => "it says that in another order, or more".into(),
