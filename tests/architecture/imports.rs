@@ -8,7 +8,7 @@ use std::path::Path;
 const EVERYWHERE: &str = "interrupt";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 15] = [
+const MAY_IMPORT: [(&str, &[&str]); 16] = [
     (EVERYWHERE, &[]),
     ("geometry", &[]),
     ("space", &["geometry"]),
@@ -20,14 +20,15 @@ const MAY_IMPORT: [(&str, &[&str]); 15] = [
     ("check", &["geometry", "space", "model"]),
     ("search", &["geometry", "space", "model", "check"]),
     ("motion", &["geometry", "space", "model", "check"]),
-    ("engine", &["geometry", "space", "model", "cspace", "planner", "check", "search", "motion"]),
+    ("engine", &["geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion"]),
     ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine"]),
     ("report", &["geometry", "space", "model", "planner", "check", "motion", "engine"]),
+    ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
     (
         "cli",
         &[
             "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
-            "draw", "report",
+            "draw", "report", "output",
         ],
     ),
 ];

@@ -5,6 +5,7 @@ mod cli;
 mod common;
 mod docs;
 mod draw;
+mod front_door;
 mod pictures;
 mod rounding;
 mod search;
