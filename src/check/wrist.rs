@@ -86,7 +86,7 @@ impl Turning {
     fn new(arm: &Arm, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
         let about = Translation2::from(-point.coords);
         let parts: Vec<_> = payload
-            .parts(arm, workspace.clearance)
+            .parts(arm)
             .into_iter()
             .map(|(shape, kind)| (Features::new(&shape.at(&about.into())), kind))
             .collect();
@@ -96,8 +96,9 @@ impl Turning {
                 continue;
             }
             for (part, kind) in parts.iter().filter(|(_, kind)| payload.meets(*kind, number)) {
-                let pieces = obstacle.pieces.iter().filter_map(|piece| kind.piece(piece, workspace.clearance));
-                pairs.extend(pieces.map(|piece| (part.clone(), Features::new(&piece), number)));
+                let nearer = kind.nearer(workspace.clearance);
+                let pieces = obstacle.pieces.iter().map(|piece| Features::new(&piece.receding(nearer)));
+                pairs.extend(pieces.map(|piece| (part.clone(), piece, number)));
             }
         }
         Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }

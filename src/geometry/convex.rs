@@ -41,7 +41,8 @@ pub enum ConvexDefect {
 /// polygon with rounded corners. Links and obstacles are unions of these, so polygons, discs, thin walls and a
 /// clearance to keep are one case: growing by a distance only adds to the radius, exactly.
 ///
-/// The core is counter-clockwise and has no repeated corners.
+/// The core is counter-clockwise and has no repeated corners. Within a scene what may be come nearer to than the clearance has a
+/// negative radius, see [`Convex::receding`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
     core: Vec<Point>,
@@ -145,6 +146,15 @@ impl Convex {
         Self { core: self.core.clone(), radius }
     }
 
+    /// The same shape, met only by what comes nearer than it would have to by `distance`: every signed distance from it is
+    /// greater by that, exactly. Where the radius becomes negative and cores overlap, that is by less than their
+    /// *penetration depth*; no shape of points does this, as one that is smaller on every side has other corners.
+    #[must_use]
+    pub(crate) fn receding(&self, distance: f64) -> Self {
+        debug_assert!(distance >= 0.0 && distance.is_finite());
+        Self { core: self.core.clone(), radius: self.radius - distance }
+    }
+
     /// The differences `q - p` of the points `q` of this shape and `p` of `other`: the translations that make `other`
     /// meet this shape, its *C-obstacle*. The radii add up, exactly, and the cores' difference is counter-clockwise from its
     /// lowest (of these the leftmost) corner, each coordinate one difference of the cores' coordinates, rounded once. By one
@@ -152,7 +162,7 @@ impl Convex {
     /// `O(n + m)`, at most `n + m` corners.
     #[must_use]
     pub fn minkowski_difference(&self, other: &Self) -> Self {
-        Self::trusted(super::minkowski_difference(&self.core, &other.core), self.radius + other.radius)
+        Self { core: super::minkowski_difference(&self.core, &other.core), radius: self.radius + other.radius }
     }
 
     /// The shape moved by `pose`, up to rounding.
@@ -161,16 +171,16 @@ impl Convex {
         Self { core: self.core.iter().map(|p| pose * p).collect(), radius: self.radius }
     }
 
-    /// Greatest distance of a point of the shape from `pivot`, metres.
+    /// Greatest distance of a point of the shape (with a negative radius, of its core) from `pivot`, metres.
     #[must_use]
     pub fn reach_from(&self, pivot: Point) -> f64 {
-        self.core.iter().map(|p| (p - pivot).norm()).fold(0.0, f64::max) + self.radius
+        self.core.iter().map(|p| (p - pivot).norm()).fold(0.0, f64::max) + self.radius.max(0.0)
     }
 
-    /// The smallest box with sides along the axes that holds the shape.
+    /// The smallest box with sides along the axes that holds the shape; with a negative radius, its core.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let radius = Vector::repeat(self.radius);
+        let radius = Vector::repeat(self.radius.max(0.0));
         let first = [self.core[0]; 2];
         let [lower, upper] = self.core.iter().fold(first, |[lower, upper], p| [lower.inf(p), upper.sup(p)]);
         [lower - radius, upper + radius]

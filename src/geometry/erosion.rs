@@ -27,8 +27,8 @@ impl Convex {
     /// than the sides that make it.
     ///
     /// Sides lie at least 0.7 times as deep in this shape as they can where every corner has a stand-in so near: beside a corner
-    /// of angle `a`, `distance * sin(a / 2)`. It has the points `with`, which are to be some of this shape. Rounded outlines shrink by their radius first, exactly. Up to rounding;
-    /// `O(n^2)`.
+    /// of angle `a`, `distance * sin(a / 2)`. It has the points `with`, which are to be some of this shape. Rounded outlines shrink
+    /// by their radius first, exactly. Up to rounding; `O(n^2)`.
     #[must_use]
     pub(crate) fn inner_approximation(&self, distance: f64, with: &[Point]) -> Self {
         if distance <= self.radius() {
@@ -133,6 +133,22 @@ mod tests {
             for point in inner.core() {
                 prop_assert!(separation(&shape, &Convex::point(*point)).distance <= 1e-12, "{point} is outside");
             }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(crate::random::cases(2000))]
+
+        /// What recedes is farther away by that, and not a whit of its corners is rounded; grown again it is what it was.
+        #[test]
+        fn what_recedes_is_farther_away(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
+            let (near, far) = (separation(&other, &shape), separation(&other, &shape.receding(by)));
+            prop_assert!((far.distance - near.distance - by).abs() < 1e-12);
+            let difference = shape.receding(by).minkowski_difference(&other);
+            let of_difference = separation(&Convex::point(Point::origin()), &difference).distance;
+            prop_assert!((of_difference - far.distance).abs() < 1e-9, "{of_difference} {}", far.distance);
+            let again = shape.receding(by).eroded(shape.radius() - by).expect("all of it");
+            prop_assert!(again.core() == shape.core() && again.radius() < 1e-15);
         }
     }
 

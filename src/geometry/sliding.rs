@@ -32,6 +32,7 @@ pub(crate) fn along_and_across<'a>(
 /// `radius`. Its outline consists of differences of a corner of the one and a side of the other, and all such
 /// differences belong to it: so the interval reaches from the least to the greatest crossing of any of them.
 pub(crate) fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
+    debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
     let mut interval: Option<[f64; 2]> = None;
     let mut include = |s: f64| {
         interval = Some(interval.map_or([s, s], |[low, high]| [low.min(s), high.max(s)]));

@@ -113,15 +113,15 @@ impl LoadedScene {
 
     fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
         let object = &self.world.objects[object];
-        let by = Payload::give(self.scene.arm()) + self.scene.workspace().clearance;
+        let by = Payload::give(self.scene.arm());
         if object.pieces.iter().any(|piece| piece.eroded(by).is_some()) {
             return None;
         }
         let message = format!(
-            "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, the clearance and what it may press into its supports",
+            "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, which is what it may press into its supports",
             object.name
         );
-        Some((message, "make it thicker, ask for less clearance, or remove its supports"))
+        Some((message, "make it thicker, or remove its supports"))
     }
 }
 

@@ -5,7 +5,6 @@ use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneDefect, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
-use std::borrow::Cow;
 use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
@@ -45,7 +44,7 @@ pub struct Scene {
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
     pairs: Vec<Pair>,
-    /// Of each obstacle, what a level payload, and the clearance where a payload rests, make of its pieces.
+    /// Of each obstacle, what a level payload makes of its pieces, and of supports what is met of them.
     differences: Vec<Vec<Convex>>,
 }
 
@@ -54,20 +53,8 @@ pub struct Scene {
 pub(crate) enum Meets {
     /// Everything but the payload's supports.
     Others,
-    /// The supports: the part is smaller by what it may press into them, and by the clearance, which is kept from nothing less.
+    /// The supports: the part is smaller by what it may press into them.
     Supports,
-    /// Supports made smaller by the clearance: the part is smaller by what it may press into them alone.
-    SmallerSupports,
-}
-
-impl Meets {
-    /// What the part meets of an obstacle's piece; none where nothing is left of it.
-    pub(crate) fn piece<'a>(self, piece: &'a Convex, clearance: f64) -> Option<Cow<'a, Convex>> {
-        match self {
-            Meets::Others | Meets::Supports => Some(Cow::Borrowed(piece)),
-            Meets::SmallerSupports => piece.eroded(clearance).map(Cow::Owned),
-        }
-    }
 }
 
 impl Scene {
@@ -81,9 +68,7 @@ impl Scene {
 
     /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
     /// just let go of or is about to take. A payload presses into its supports by no more than [`Payload::give`], its corners
-    /// included. No clearance is kept there; but with one, corners of the payload against corners of a support, and against
-    /// supports thinner than twice the clearance, count as rounded off with that radius, and parts of the payload that are as
-    /// thin do not count against these.
+    /// included. No clearance is kept there: in every distance a support is farther away by it than it is.
     ///
     /// # Errors
     /// As [`Scene::new`]; when what is carried is held at no finite place, or an obstacle's number is none.
@@ -277,7 +262,7 @@ impl Payload {
     /// `differences`.
     fn on_link(&self, arm: &Arm, workspace: &Workspace, differences: &mut [Vec<Convex>]) -> Vec<(Part, Meetable)> {
         let mut parts = Vec::new();
-        for (shape, kind) in self.parts(arm, workspace.clearance) {
+        for (shape, kind) in self.parts(arm) {
             let (on_link, level) = match self.grip {
                 Grip::Rigid(in_link) => (shape.at(&in_link), None),
                 Grip::Level { angle, point } => {
@@ -288,16 +273,17 @@ impl Payload {
             let mut meetable = Vec::new();
             for (number, obstacle) in workspace.obstacles.iter().enumerate() {
                 let own = obstacle.pieces.len();
-                if !self.meets(kind, number) || (level.is_none() && kind != Meets::SmallerSupports) {
-                    meetable.push(0..if self.meets(kind, number) { own } else { 0 });
+                let meets = self.meets(kind, number);
+                let nearer = kind.nearer(workspace.clearance);
+                if !meets || (level.is_none() && nearer == 0.0) {
+                    meetable.push(0..if meets { own } else { 0 });
                     continue;
                 }
                 let made = &mut differences[number];
                 let first = own + made.len();
-                let pieces = obstacle.pieces.iter().filter_map(|piece| kind.piece(piece, workspace.clearance));
-                made.extend(pieces.map(|piece| match &level {
-                    Some(level) => piece.minkowski_difference(level),
-                    None => piece.into_owned(),
+                made.extend(obstacle.pieces.iter().map(|piece| match &level {
+                    Some(level) => piece.receding(nearer).minkowski_difference(level),
+                    None => piece.receding(nearer),
                 }));
                 meetable.push(first..own + made.len());
             }
@@ -306,25 +292,14 @@ impl Payload {
         parts
     }
 
-    /// Its pieces, and smaller ones for its supports, in its own frame.
-    ///
-    /// Whatever meets keeps the clearance, and supports are to be touched. So of part and support one is smaller by it, each in
-    /// turn: growing again by the clearance, which is what keeping it means, rounds the corners of that one alone. Pieces go on sharing their sides but for what may be
+    /// Its pieces, and smaller ones for its supports, in its own frame. Pieces go on sharing their sides but for what may be
     /// pressed into the ends, so that nothing gets in between them.
-    pub(crate) fn parts(&self, arm: &Arm, clearance: f64) -> Vec<(Convex, Meets)> {
+    pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
         let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
-        if self.supports.is_empty() {
-            return parts;
-        }
-        let give = Self::give(arm);
-        for (piece, seam) in self.pieces.iter().zip(seams(&self.pieces, give)) {
-            let pressed = piece.inner_approximation(give, &seam);
-            if clearance > 0.0 {
-                parts.extend(pressed.eroded(clearance).map(|smaller| (smaller, Meets::Supports)));
-                parts.push((pressed, Meets::SmallerSupports));
-            } else {
-                parts.push((pressed, Meets::Supports));
-            }
+        if !self.supports.is_empty() {
+            let give = Self::give(arm);
+            let pressed = self.pieces.iter().zip(seams(&self.pieces, give));
+            parts.extend(pressed.map(|(piece, seam)| (piece.inner_approximation(give, &seam), Meets::Supports)));
         }
         parts
     }
@@ -332,5 +307,15 @@ impl Payload {
     /// Whether its parts of that kind can meet an obstacle.
     pub(crate) fn meets(&self, kind: Meets, obstacle: usize) -> bool {
         (kind != Meets::Others) == self.supports.contains(&obstacle)
+    }
+}
+
+impl Meets {
+    /// How much nearer than the clearance the part may come to what it meets.
+    pub(crate) fn nearer(self, clearance: f64) -> f64 {
+        match self {
+            Meets::Others => 0.0,
+            Meets::Supports => clearance,
+        }
     }
 }

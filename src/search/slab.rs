@@ -37,7 +37,8 @@ struct Prepared<'a> {
     reach: f64,
     /// How deep the piece is, metres.
     depth: f64,
-    /// The eroded piece for every width of slab that it was asked for; none where nothing is left.
+    /// The eroded piece (or the part, for this piece alone) for every width of slab that it was asked for; none where nothing is
+    /// left.
     eroded: Vec<Option<Option<Eroded>>>,
 }
 
@@ -67,26 +68,27 @@ impl Eroded {
     /// Whichever shape is deeper, eroded by `overlap` less `clearance`; none where nothing is left.
     pub fn new(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
         if part.shape().depth() > piece.depth() {
-            Self::part(part, overlap, clearance)
+            Self::part(part, piece, overlap, clearance)
         } else {
             Self::piece(piece, overlap, clearance)
         }
     }
 
-    fn part(part: &Carried, overlap: f64, clearance: f64) -> Option<Self> {
-        let by = overlap - clearance;
+    fn part(part: &Carried, piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
+        let grow = clearance - overlap;
+        let by = lacking(piece) - grow;
         if by <= 0.0 {
-            return Some(Self::Grown(-by));
+            return Some(Self::Grown(grow));
         }
         part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.motion(), &shape)))
     }
 
     fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
-        let by = overlap - clearance;
-        if by <= 0.0 {
-            return Some(Self::Grown(-by));
+        let grow = clearance - overlap;
+        if lacking(piece) <= grow {
+            return Some(Self::Grown(grow));
         }
-        piece.eroded(by).map(|shape| Self::Piece(Features::new(&shape)))
+        piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
     /// Values of the joint at which the pair's shapes overlap by at least as much as one of them was eroded by.
@@ -99,11 +101,16 @@ impl Eroded {
         out: &mut Vec<[f64; 2]>,
     ) -> Hits {
         match self {
-            Self::Part(eroded) => eroded.hits(pivot, heading, piece, 0.0, out),
+            Self::Part(eroded) => eroded.hits(pivot, heading, piece, lacking(piece.shape()), out),
             Self::Piece(eroded) => part.hits(pivot, heading, eroded, 0.0, out),
             Self::Grown(by) => part.hits(pivot, heading, piece, *by, out),
         }
     }
+}
+
+/// By how much a piece has to grow until its radius is none: what is to be kept from it then is to be kept from its core.
+fn lacking(piece: &Convex) -> f64 {
+    (-piece.radius()).max(0.0)
 }
 
 /// Link 2 and all that it can meet, for slabs of joint 1.
@@ -237,12 +244,14 @@ impl<'a> SecondLink<'a> {
         let (clearance, pair) = (self.clearance, &mut self.pairs[index]);
         let part = &mut self.parts[pair.part];
         let of_part = part.depth > pair.depth;
-        let known = if of_part { &mut part.eroded } else { &mut pair.eroded };
+        // What is to be kept from all pieces is the part's own.
+        let shared = of_part && lacking(pair.piece) == 0.0;
+        let known = if shared { &mut part.eroded } else { &mut pair.eroded };
         if known.len() <= level {
             known.resize_with(level + 1, || None);
         }
         let eroded = known[level].get_or_insert_with(|| match of_part {
-            true => Eroded::part(&part.carried, overlap, clearance),
+            true => Eroded::part(&part.carried, pair.piece, overlap, clearance),
             false => Eroded::piece(pair.piece, overlap, clearance),
         });
         match eroded {

@@ -27,8 +27,8 @@ struct ObstacleView {
     name: String,
     color: String,
     outline: OutlineView,
-    /// How many of the pieces are the obstacle itself; those that follow are what a level payload makes of them, which
-    /// the tip must not enter.
+    /// How many of the pieces are the obstacle itself; those that follow are what a payload meets in their place: what
+    /// a level one makes of them, which the tip must not enter, and supports, nearer than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }

@@ -59,6 +59,7 @@ pub fn turning_from(
     out: &mut Vec<[f64; 2]>,
 ) -> Hits {
     let radius = part.shape.radius() + piece.shape.radius() + grow;
+    debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
     if let Some(bar) = part.bar.as_ref().filter(|_| radius == 0.0)
         && let Some(hits) = bar.arc(pivot, zero, piece, out)
     {

@@ -246,17 +246,9 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// By how much a body that rests on something presses into it less than it may; negative: more. Without a clearance that is
-    /// the depth of penetration. With one, corners of either count as rounded off with it: so discs of its radius that fit
-    /// into the one, as deep as may be pressed, do not meet the other.
+    /// By how much a body that rests on something presses into it less than it may; negative: more. Whatever the clearance.
     fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
-        let (give, clearance) = (GIVE * self.task.arm.reach(), self.task.workspace.clearance);
-        if clearance == 0.0 {
-            return body.distance(support) + give;
-        }
-        let discs = |of: &Solid, other: &Solid| of.shrunk(give + clearance).map(|centers| centers.distance(other));
-        let least = [discs(body, support), discs(support, body)].into_iter().flatten().fold(f64::INFINITY, f64::min);
-        least - clearance
+        body.distance(support) + GIVE * self.task.arm.reach()
     }
 
     /// Calls `f` with what moves, what it can meet, their distance at `q`, and of what rests on the other [`World::pressed`].

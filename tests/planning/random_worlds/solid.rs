@@ -79,35 +79,6 @@ impl Solid {
         at
     }
 
-    /// All that lies at least so deep inside, if anything: the corners of the lines of all sides, moved inwards, that lie on
-    /// none's wrong side.
-    pub fn shrunk(&self, by: f64) -> Option<Self> {
-        if by <= self.radius {
-            return Some(Self { radius: self.radius - by, ..*self });
-        }
-        let by = by - self.radius;
-        let n = self.count;
-        let (mut corners, mut count) = ([[0.0; 2]; MOST], 0);
-        let height = |i: usize, p: V| -dot(self.normals[i], sub(p, self.corners[i])) - by;
-        for i in 0..if n > 2 { n } else { 0 } {
-            // Sides of a convex outline meet in the order of their normals; those that are left out are hidden by others.
-            for j in (1..n).map(|ahead| (i + ahead) % n) {
-                let (a, b) = (self.normals[i], self.normals[j]);
-                let cross = a[0] * b[1] - a[1] * b[0];
-                let [da, db] = [i, j].map(|k| dot(self.normals[k], self.corners[k]) - by);
-                let p = [(da * b[1] - db * a[1]) / cross, (db * a[0] - da * b[0]) / cross];
-                if cross > 1e-9 && (0..n).all(|k| height(k, p) > -1e-12) && count < MOST {
-                    corners[count] = p;
-                    count += 1;
-                    break;
-                }
-            }
-        }
-        let corners: Vec<_> = corners[..count].iter().map(|p| cplan::geometry::Point::new(p[0], p[1])).collect();
-        let core = cplan::geometry::hull(&corners);
-        (core.len() > 2).then(|| Self::new(&Convex::new(core, 0.0).expect("a hull")))
-    }
-
     pub fn corners(&self) -> &[V] {
         &self.corners[..self.count]
     }

@@ -1,6 +1,7 @@
 //! How deep what is placed presses into what it rests on.
 
 use super::{Place, shipped};
+use std::f64::consts::SQRT_2;
 
 /// A level object whose tip points at a table's edge at y = 1.2.
 fn cell(polygon: &str, table: &str, [tip, deep, clearance]: [f64; 3]) -> String {
@@ -100,4 +101,96 @@ fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
         assert_eq!(verify(&world), 0, "clearance {clearance}");
         assert_eq!(verify(&world.replace("1.2]", "1.199]")), 3, "clearance {clearance}");
     }
+}
+
+/// Share of the arm's reach of 1.8 m, metres.
+const GIVE: f64 = 1.8e-4;
+
+/// An object that ends in a tip on its axis: its outline and how it is held, how far from its origin the tip is, and the share of [`GIVE`] by
+/// which the tip is given way. Sides are moved inwards by `d`, the greatest of 1, 0.7, 0.7 * 0.7, ... of it with which no corner
+/// moves farther than it: one of angle `a` moves by `d / sin(a / 2)`.
+const TIPPED: [([&str; 2], f64, f64); 5] = [
+    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [-0.05, 0.1]]", "level"], 0.1, 0.7),
+    (["polygon = [[-0.05, -0.02], [0.05, -0.02], [0.05, 0.1], [0, 0.15], [-0.05, 0.1]]", "level"], 0.15, 0.7 * SQRT_2),
+    // Half of its angle has the tangent 0.1.
+    (["polygon = [[-0.02, -0.02], [0.02, -0.02], [0.0, 0.18]]", "level"], 0.18, 0.082_354_3 * 10.049_875_621_120_89),
+    (["circle = { center = [0.0, 0.06], radius = 0.05 }", "level"], 0.11, 1.0),
+    // Turned as it may be, it ends where it does.
+    (["circle = { center = [0.0, 0.0], radius = 0.11 }", "rigid"], 0.11, 1.0),
+];
+
+/// What is rested on: whatever its shape, the tip is the first that it meets, at the height `y` on the object's axis.
+fn on_the_axis(y: f64) -> [(&'static str, String); 7] {
+    let at = |above: f64| y + above;
+    [
+        ("thick", format!("polygon = [[0.3, {y}], [1.3, {y}], [1.3, {0}], [0.3, {0}]]", at(0.2))),
+        ("thin", format!("polygon = [[0.3, {y}], [1.3, {y}], [1.3, {0}], [0.3, {0}]]", at(0.004))),
+        ("a wall along", format!("polyline = [[0.3, {y}], [1.3, {y}]]")),
+        ("a wall across", format!("polyline = [[0.8, {y}], [0.8, {}]]", at(0.2))),
+        ("a corner", format!("polygon = [[0.8, {y}], [1.1, {0}], [0.5, {0}]]", at(0.3))),
+        ("a sharp corner", format!("polygon = [[0.8, {y}], [0.81, {0}], [0.79, {0}]]", at(0.2))),
+        ("a peg", format!("circle = {{ center = [0.8, {}], radius = 0.003 }}", at(0.003))),
+    ]
+}
+
+/// An object, a support and a clearance of each, so deep in it.
+fn tipped([outline, held]: [&str; 2], support: &str, numbers: [f64; 3]) -> String {
+    cell("[]", support, numbers).replace("polygon = []", outline).replace("\"level\"", &format!("\"{held}\""))
+}
+
+/// Nothing is allowed for a clearance: with any, on thick and thin supports, and corner on corner, a place is free where the
+/// tip is less deep than it is given way, and not where it is deeper; by a hundredth.
+#[test]
+fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
+    let mut wrong = Vec::new();
+    for (object, tip, share) in TIPPED {
+        for (what, support) in on_the_axis(1.2) {
+            for (clearance, deeper) in [(0.005, 1.01), (0.02, 20.0)] {
+                for (by, code) in [(0.99, 0), (deeper, 3)] {
+                    let world = tipped(object, &support, [tip, by * share * GIVE, clearance]);
+                    let done = Place::new().plan(world, "--json --quiet");
+                    let kept = done.code != 0 || done.json()["clearance"].as_f64().unwrap() >= clearance;
+                    if done.code != code || !kept {
+                        wrong
+                            .push(format!("{object:?} {by} deep in {what}, {clearance}: {}{}", done.code, done.stderr));
+                    }
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A result that does not say how near anything comes, which would be false where a support lies nearer.
+fn without_clearances(result: &str) -> String {
+    let mut result: serde_json::Value = serde_json::from_str(result).unwrap();
+    assert!(result.as_object_mut().unwrap().remove("clearance").is_some());
+    for step in result["steps"].as_array_mut().unwrap() {
+        step.as_object_mut().unwrap().remove("clearance");
+    }
+    result.to_string()
+}
+
+/// The judge of recordings: plans are judged in worlds where the support lies nearer than it did.
+#[test]
+fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
+    let mut wrong = Vec::new();
+    for (object, tip, share) in TIPPED {
+        for ((what, support), clearance) in on_the_axis(1.2).into_iter().zip([0.005, 0.02].into_iter().cycle()) {
+            let place = Place::new();
+            let done = place.plan(tipped(object, &support, [tip, 0.0, clearance]), "--output plan.json --quiet");
+            assert_eq!(done.code, 0, "{object:?} on {what}: {}", done.stderr);
+            place.write("plan.json", without_clearances(&place.read("plan.json")));
+            for (by, code) in [(0.0, 0), (0.99, 0), (1.01, 3), (20.0, 3)] {
+                let nearer =
+                    on_the_axis(1.2 - by * share * GIVE).into_iter().find(|nearer| nearer.0 == what).unwrap().1;
+                place.write("nearer.toml", tipped(object, &nearer, [tip, 0.0, clearance]));
+                let done = place.run(&["verify", &shipped("robots/planar_2r.urdf"), "nearer.toml", "plan.json"], "");
+                if done.code != code {
+                    wrong.push(format!("{object:?} {by} deep in {what}, {clearance}: {}", done.code));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
