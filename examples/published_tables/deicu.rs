@@ -90,7 +90,7 @@ pub struct Line {
 }
 
 impl Line {
-    /// Its numbers.
+    /// The numbers that the line compares, the published and the measured ones.
     pub fn counts(&self) -> impl Iterator<Item = &Count> {
         std::iter::once(&self.before).chain(&self.after)
     }

@@ -6,7 +6,7 @@ use cplan::input::{LineMap, PreferenceMap};
 
 /// A line map and a preference file, ready to be cut into cells.
 pub struct Scene {
-    /// The walls.
+    /// The walls as segments, with start and goal.
     pub map: LineMap,
     /// Goal and preferences.
     pub preferences: PreferenceMap,

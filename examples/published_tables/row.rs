@@ -25,7 +25,7 @@ pub struct Count {
 }
 
 impl Count {
-    /// Of sweeps.
+    /// A count of sweeps beside the published one.
     pub fn of_sweeps(published: usize, measured: Option<usize>, claim: Claim) -> Self {
         Self { published: published as f64, measured: measured.map(|sweeps| sweeps as f64), claim }
     }

@@ -12,7 +12,7 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The middle.
+    /// The configuration in the middle of the box.
     #[must_use]
     pub fn center(&self) -> Configuration {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)

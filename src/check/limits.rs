@@ -26,7 +26,7 @@ const COARSE: f64 = 0.01;
 /// A limit of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Limit {
-    /// Its range.
+    /// The least and the greatest value that the joint can take.
     Position,
     /// Its top speed.
     Velocity,
@@ -47,7 +47,7 @@ pub enum Limit {
 pub struct Excess {
     /// 0 or 1.
     pub joint: usize,
-    /// Which limit.
+    /// The limit that is broken.
     pub limit: Limit,
     /// What the limit allows, in the unit of `value`: the nearer end of the range, or a magnitude; 0 for rest and jumps.
     pub allowed: f64,

@@ -37,14 +37,14 @@ pub struct CertifiedPath {
 /// Where a path comes nearest to an obstacle, as far as was looked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// The configuration.
+    /// The configuration at which it comes so near.
     pub at: Configuration,
     /// The shapes and their distance there, an upper bound on the true clearance.
     pub contact: Contact,
 }
 
 impl CertifiedPath {
-    /// The path.
+    /// The path that was shown to be free.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path

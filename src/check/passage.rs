@@ -46,7 +46,7 @@ impl Moment {
 /// A pair of shapes at a moment of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Encounter {
-    /// When.
+    /// When and where on the motion that is.
     pub moment: Moment,
     /// The shapes and their signed distance then.
     pub contact: Contact,

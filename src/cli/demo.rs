@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// The robot of the cell.
 pub const ROBOT: &str = include_str!("../../robots/scara.urdf");
-/// The cell.
+/// The world of the demonstration: the SCARA cell.
 pub const WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 
 /// Names of the files that are written.

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// An error as an object. `file` to `cure` are those of the first defect; `defects` has all.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
-    /// `error`.
+    /// Always `error`, so that scripts tell it from a result.
     status: &'static str,
     /// `usage` for a wrong command line, `start` or `goal` for one that is missing, out of range or not free, else `input`.
     kind: &'static str,

@@ -22,7 +22,7 @@ pub enum Failure {
     /// An output file.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A picture.
+    /// A picture could not be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
     /// What an option asks for cannot be done.

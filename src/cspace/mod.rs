@@ -43,7 +43,7 @@ pub enum Proves {
     Exact,
     /// Obstacles are grown by at most `margin` metres of workspace motion: free is free; blocked proves nothing.
     Outer {
-        /// Metres.
+        /// The greatest growth of an obstacle, metres.
         margin: f64,
     },
     /// Looked at in places only: neither proves anything.

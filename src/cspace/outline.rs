@@ -46,7 +46,7 @@ pub(super) struct Flattening {
 /// A breakpoint of `q1`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Break {
-    /// Where.
+    /// The value of joint 1 there.
     pub q1: f64,
     /// Whether contours keep a vertex here: an end or a split of the C-obstacle may hide between other rows.
     pub keep: bool,

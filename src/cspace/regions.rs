@@ -26,7 +26,7 @@ const OVERLAP: f64 = 1e-3;
 /// A simple polygon with holes: the outer contour counter-clockwise, holes clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
-    /// Outer contour.
+    /// The outer contour, counter-clockwise.
     pub outer: Vec<Point>,
     /// Contours of the holes.
     pub holes: Vec<Vec<Point>>,

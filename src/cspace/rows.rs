@@ -37,7 +37,7 @@ struct PreparedPart {
     carried: Carried,
     /// Link 2 only: the part with all its positions under joint 2, as carried by joint 1.
     sweep: Option<Carried>,
-    /// Its pairs.
+    /// The numbers of the pairs that the part is in.
     pairs: Range<usize>,
     /// The boxes of their pieces.
     pieces: BoxTree,
@@ -101,7 +101,7 @@ impl<'a> Rows<'a> {
         &self.pieces[pair.piece as usize]
     }
 
-    /// The scene.
+    /// The scene that was prepared.
     #[must_use]
     pub fn scene(&self) -> &'a Scene {
         self.scene

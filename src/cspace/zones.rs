@@ -17,7 +17,7 @@ pub struct Zone {
 /// A grid whose cells know the preference that holds at their centres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZonedGrid {
-    /// The cells.
+    /// The cells, free and blocked.
     pub grid: Grid,
     /// In the order of the world file.
     pub zones: Vec<Zone>,

@@ -18,7 +18,7 @@ pub struct Chart {
     pub frame: Frame,
     /// What the axes measure.
     pub units: [Unit; 2],
-    /// Its topology.
+    /// How each joint's values go round, if they do.
     pub topology: Topology,
     /// Where paths repeat: across seams.
     pub paths: Window,

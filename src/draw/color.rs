@@ -12,13 +12,13 @@ impl Rgb {
         Rgb(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
     }
 
-    /// Paler.
+    /// The same colour, this part of the way to white.
     #[must_use]
     pub fn lighter(self, part: f64) -> Rgb {
         self.mixed(WHITE, part)
     }
 
-    /// Deeper.
+    /// The same colour, this part of the way to black.
     #[must_use]
     pub fn darker(self, part: f64) -> Rgb {
         self.mixed(Rgb(0, 0, 0), part)
@@ -31,17 +31,17 @@ impl std::fmt::Display for Rgb {
     }
 }
 
-/// Paper.
+/// The colour of the paper.
 pub const WHITE: Rgb = Rgb(255, 255, 255);
 /// Text, path and arm.
 pub const INK: Rgb = Rgb(0x22, 0x26, 0x2b);
-/// Minor text.
+/// For text that is less important.
 pub const GREY: Rgb = Rgb(0x6b, 0x72, 0x7a);
 /// Ghost poses and roadmaps.
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// What bars the way, and what is out of reach.
 pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
-/// Grid lines.
+/// For lines of the grid behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
 
 /// Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), neighbours in the list far apart.

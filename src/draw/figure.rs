@@ -8,24 +8,24 @@ pub type Spot = [f64; 2];
 /// A rectangle of the page, pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rect {
-    /// Left side.
+    /// The left side's distance from the left edge of the page.
     pub x: f64,
-    /// Upper side.
+    /// The upper side's distance from the top of the page.
     pub y: f64,
-    /// Width.
+    /// From the left side to the right one.
     pub width: f64,
-    /// Height.
+    /// From the upper side to the lower one.
     pub height: f64,
 }
 
 impl Rect {
-    /// Right side.
+    /// The right side's distance from the left edge of the page.
     #[must_use]
     pub fn right(&self) -> f64 {
         self.x + self.width
     }
 
-    /// Lower side.
+    /// The lower side's distance from the top of the page.
     #[must_use]
     pub fn bottom(&self) -> f64 {
         self.y + self.height
@@ -37,7 +37,7 @@ impl Rect {
 pub enum Step {
     /// Begins a new piece.
     Move(Spot),
-    /// Straight on.
+    /// Straight on to a place.
     Line(Spot),
     /// On a circle of this radius, by half a turn at most, counter-clockwise as seen on the page.
     Arc(f64, Spot),
@@ -45,12 +45,12 @@ pub enum Step {
     Close,
 }
 
-/// A pen.
+/// How a line is drawn: colour, width and dashes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
-    /// Colour.
+    /// The colour of the line.
     pub color: Rgb,
-    /// Pixels.
+    /// The width of the line, pixels.
     pub width: f64,
     /// Lengths of dashes and gaps in turn; empty for a solid line.
     pub dash: &'static [f64],
@@ -120,7 +120,7 @@ pub enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// Where.
+    /// The place at which the text is anchored.
     pub at: Spot,
     /// What, any characters.
     pub text: String,
@@ -128,20 +128,20 @@ pub struct Label {
     pub size: f64,
     /// Which point of the text is `at`.
     pub anchor: Anchor,
-    /// Reads upwards.
+    /// Whether it reads upwards, as beside a vertical axis.
     pub upwards: bool,
-    /// Colour.
+    /// The colour of the letters.
     pub color: Rgb,
 }
 
-/// Something drawn.
+/// Something that is drawn on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Item {
     /// Lines and surfaces.
     Outline(Vec<Step>, Style),
-    /// A disc.
+    /// A disc: centre, radius and style.
     Disc(Spot, f64, Style),
-    /// Text.
+    /// A line of text.
     Text(Label),
     /// Items of which only the part within the rectangle shows.
     Clip(Rect, Vec<Item>),
@@ -165,9 +165,9 @@ pub struct Raster {
 /// A page; later items cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Pixels.
+    /// The page's width, pixels.
     pub width: f64,
-    /// Pixels.
+    /// The page's height, pixels.
     pub height: f64,
     /// In drawing order.
     pub items: Vec<Item>,

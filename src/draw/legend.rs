@@ -23,9 +23,9 @@ pub enum Sign {
     Goal,
     /// Where it would end.
     Unreached,
-    /// A line.
+    /// A piece of line, drawn with this pen.
     Line(Pen),
-    /// A surface.
+    /// A small square of this colour.
     Swatch(Rgb),
     /// A dashed outline.
     Dashed(Rgb),

@@ -35,7 +35,7 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
-/// Draws everything.
+/// The whole page: workspace, configuration space, title and legend.
 #[must_use]
 pub fn compose(picture: &Picture) -> Figure {
     let mut items = titles(&picture.title, &picture.status);

@@ -15,7 +15,7 @@ use std::borrow::Cow;
 const CELLS: usize = 192;
 /// Colours of a wavefront.
 const SHADES: usize = 32;
-/// Equipotentials.
+/// How many equipotentials are drawn.
 const LINES: usize = 20;
 /// Part of the cells that may lie below the lowest equipotential: the field goes on falling in dead ends that no one
 /// asks about, and would leave no lines for the rest.
@@ -203,7 +203,7 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
 /// A field that paths follow upwards, coarse enough to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slope {
-    /// Its values.
+    /// The values at the points of a coarse grid.
     pub samples: Samples,
     /// The values between which equipotentials are drawn.
     pub span: (f64, f64),

@@ -35,7 +35,7 @@ impl Admit for ZonedGrid {
     }
 }
 
-/// Directions tried.
+/// How many directions are tried.
 const DIRECTIONS: usize = 64;
 
 /// Steps tried in each direction, the shortest first; each is twice the one before.

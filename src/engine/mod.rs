@@ -87,7 +87,7 @@ impl Verdict {
 pub enum Space {
     /// Polygons, with the margin that obstacles were grown by, metres.
     Regions(Box<Regions>),
-    /// Cells.
+    /// Cells of a grid.
     Grid(Box<Grid>),
     /// None: subdivision judges the scene itself.
     Scene,
@@ -100,7 +100,7 @@ pub struct Stages {
     pub build: Duration,
     /// Answering the query.
     pub query: Duration,
-    /// Certifying proposals.
+    /// Certifying the paths that planners propose.
     pub certify: Duration,
     /// Looking for a proof that there is no path.
     pub prove: Duration,
@@ -130,7 +130,7 @@ const MOST_CORNERS: usize = 5_000;
 pub struct Answer {
     /// Which planner was asked.
     pub method: Method,
-    /// The result.
+    /// What was found out: a path, a proof, or neither.
     pub verdict: Verdict,
     /// Which of the method's paths was asked for.
     pub path: PathKind,

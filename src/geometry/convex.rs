@@ -12,25 +12,25 @@ pub enum ConvexDefect {
     /// The radius is negative or not finite.
     #[error("its radius is {radius}")]
     Radius {
-        /// As given.
+        /// The radius as it was given.
         radius: f64,
     },
     /// A coordinate is infinite or not a number.
     #[error("corner {} is not finite", corner + 1)]
     NotFinite {
-        /// The corner.
+        /// The place of the corner in the list, from 0.
         corner: usize,
     },
     /// A corner and the next one coincide.
     #[error("corner {} and the next one coincide", corner + 1)]
     Repeated {
-        /// The corner.
+        /// The place of the corner in the list, from 0.
         corner: usize,
     },
     /// The boundary does not go round once counter-clockwise, turning left all the way.
     #[error("the boundary does not turn left at corner {}, or goes round more than once: its corners are to be convex and counter-clockwise", corner + 1)]
     NotConvex {
-        /// The corner.
+        /// The place of the corner in the list, from 0.
         corner: usize,
     },
 }

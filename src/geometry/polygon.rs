@@ -18,7 +18,7 @@ pub enum PolygonDefect {
     /// A coordinate is infinite or not a number.
     #[error("corner {} has a coordinate that is not finite", corner + 1)]
     NotFinite {
-        /// The corner.
+        /// The place of the corner in the list, from 0.
         corner: usize,
     },
     /// Two corners lie in the same place.
@@ -26,7 +26,7 @@ pub enum PolygonDefect {
     RepeatedCorner {
         /// The one that comes first in the list.
         first: usize,
-        /// The other.
+        /// The one that coincides with it.
         second: usize,
     },
     /// All corners lie on one line.

@@ -9,7 +9,7 @@ use serde::Serialize;
 /// The report on a robot. What could not be found out for the defects of the file is empty or none.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Inspection {
-    /// The URDF.
+    /// The path of the URDF, as it was given.
     pub urdf: String,
     /// The world file, if one was given.
     pub world: Option<String>,
@@ -64,7 +64,7 @@ impl Inspection {
 /// A URDF link.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LinkEntry {
-    /// Name.
+    /// The link's name in the URDF.
     pub name: String,
     /// The joint above it; none for the root.
     pub above: Option<String>,
@@ -95,16 +95,16 @@ pub enum Role {
 /// A URDF joint.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointEntry {
-    /// Name.
+    /// The joint's name in the URDF.
     pub name: String,
     /// Its type in the file's words.
     #[serde(rename = "type")]
     pub kind: String,
     /// Line of the URDF.
     pub line: usize,
-    /// Link above.
+    /// The link that carries the joint.
     pub parent: String,
-    /// Link below.
+    /// The link that the joint carries.
     pub child: String,
     /// Of a joint that can move: its axis in its own frame, of unit length.
     pub axis: Option<[f64; 3]>,

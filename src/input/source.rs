@@ -11,9 +11,9 @@ use std::sync::OnceLock;
 /// A place in a text file, counted from 1; columns count characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
-    /// Line.
+    /// The number of the line.
     pub line: usize,
-    /// Column.
+    /// The number of the character in the line.
     pub column: usize,
 }
 
@@ -107,7 +107,7 @@ impl Source {
         Self { path: name.into(), text: text.into(), is_file: false, milestones: OnceLock::new() }
     }
 
-    /// The text.
+    /// The whole text of the file.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text

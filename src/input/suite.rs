@@ -14,7 +14,7 @@ pub const MANIFEST: &str = "suite.toml";
 /// Robots in their worlds, read, in the order in which they were named.
 #[derive(Debug, Clone)]
 pub struct Suite {
-    /// Title.
+    /// The title of the suite.
     pub name: String,
     /// At least one; names are all different.
     pub members: Vec<Member>,
@@ -27,16 +27,16 @@ pub struct Suite {
 /// A problem that cannot be read, or whose start or goal cannot be.
 #[derive(Debug, Clone)]
 pub struct Refused {
-    /// For tables.
+    /// Stands for the problem in tables.
     pub name: String,
-    /// Why.
+    /// Why it cannot be read.
     pub error: InputError,
 }
 
 /// A robot in a world.
 #[derive(Debug, Clone)]
 pub struct Member {
-    /// For tables.
+    /// Stands for the problem in tables.
     pub name: String,
     /// As [`load_scene`] has it.
     pub scene: LoadedScene,

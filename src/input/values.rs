@@ -11,13 +11,13 @@ use std::str::FromStr;
 /// What the command line says over the world file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Overrides {
-    /// `--start`.
+    /// The value of `--start`.
     pub start: Option<JointValues>,
     /// `--goal`; not together with `goal_tip`.
     pub goal: Option<JointValues>,
     /// `--goal-tip`, metres in plane coordinates.
     pub goal_tip: Option<TipPoint>,
-    /// `--clearance`, metres.
+    /// The value of `--clearance`, metres.
     pub clearance: Option<f64>,
 }
 

@@ -21,10 +21,10 @@ pub(crate) fn assumed_acceleration(velocity: f64) -> f64 {
 /// certificate and proof do not.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct AssumedLimits {
-    /// Top speeds.
+    /// The top speeds that were assumed, by joint.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub velocity: BTreeMap<String, f64>,
-    /// Greatest accelerations.
+    /// The greatest accelerations that were assumed, by joint.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub acceleration: BTreeMap<String, f64>,
 }

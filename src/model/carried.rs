@@ -32,7 +32,7 @@ impl Carried {
         self.motion
     }
 
-    /// The part.
+    /// The part that is carried.
     #[must_use]
     pub fn shape(&self) -> &Convex {
         self.features.shape()

@@ -19,7 +19,7 @@ pub enum Region {
 pub struct Preference {
     /// The user's name for it, or `preference 3`.
     pub name: String,
-    /// Where.
+    /// The region in which it holds.
     pub region: Region,
     /// Strength of the drift in the field equation, per grid cell; finite. With fields whose drift follows their own slope
     /// a positive one makes the region less attractive, a negative one more.

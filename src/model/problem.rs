@@ -19,7 +19,7 @@ pub enum ProblemDefect {
     /// The start lies outside a joint's limits, or is no number.
     #[error("the start is outside the limits of joint \"{joint}\": {value}")]
     StartOutside {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
         /// Radians or metres.
         value: f64,

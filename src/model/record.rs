@@ -44,7 +44,7 @@ pub struct Claims {
     pub clearance: Option<Option<f64>>,
     /// The corners that are cut.
     pub blends: Option<BlendsClaim>,
-    /// Seconds.
+    /// How long the motion takes, seconds.
     pub duration: Option<f64>,
     /// How long the path is in some metric, and a bound on it.
     pub optimum: Option<OptimumClaim>,
@@ -57,7 +57,7 @@ pub struct Claims {
 /// The corners of a path that a motion cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BlendsClaim {
-    /// How many.
+    /// The number of corners that are cut.
     pub count: usize,
     /// Greatest distance of the ends of a cut from its corner.
     pub largest_radius: f64,

@@ -31,7 +31,7 @@ pub struct RobotJoint {
 /// The joints of a robot that can move, in the order of the URDF.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RobotJoints {
-    /// The joints.
+    /// The joints, in the order of the URDF.
     pub joints: Vec<RobotJoint>,
     /// How the tool is lowered at picks and places.
     pub stroke: Option<Stroke>,
@@ -59,7 +59,7 @@ impl RobotJoints {
         Self { joints: vec![joint(0), joint(1)], ..Self::default() }
     }
 
-    /// Their names.
+    /// The joints' names, in the order of the URDF.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.joints.iter().map(|joint| joint.name.as_str())
     }

@@ -23,7 +23,7 @@ pub struct Pair {
 /// A pair and how its shapes lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
-    /// Which shapes.
+    /// The shapes that are looked at.
     pub pair: Pair,
     /// Their signed distance and its direction.
     pub separation: Separation,

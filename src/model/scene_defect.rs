@@ -12,39 +12,39 @@ pub enum SceneDefect {
     /// A joint's range is empty or not finite.
     #[error("joint \"{joint}\": no range from {lower} to {upper}")]
     Range {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
-        /// As given.
+        /// The least value, as it was given.
         lower: f64,
-        /// As given.
+        /// The greatest value, as it was given.
         upper: f64,
     },
     /// A joint slides, and yet its values are said to repeat with whole turns.
     #[error("joint \"{joint}\" slides: it needs a range, not a circle")]
     SlidesOnCircle {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
     },
     /// A turning joint's sign is neither 1 nor -1, or a sliding one's direction not of length 1.
     #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
     Motion {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
     },
     /// A joint's greatest speed, acceleration or jerk is not positive or not finite.
     #[error("joint \"{joint}\": its {limit} must be positive and finite, is {value}")]
     Limit {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
-        /// Of what.
+        /// The quantity that is limited, in words.
         limit: &'static str,
-        /// As given.
+        /// The limit, as it was given.
         value: f64,
     },
     /// A coordinate of the arm is infinite or not a number.
     #[error("the arm's {what} is not finite")]
     NotFinite {
-        /// Which point.
+        /// The point that has it, in words.
         what: &'static str,
     },
     /// The plane's vectors are not of length 1 and at right angles.
@@ -55,33 +55,33 @@ pub enum SceneDefect {
     Heights {
         /// Name of the obstacle, link or payload.
         of: String,
-        /// As given.
+        /// The lower end, as it was given.
         lower: f64,
-        /// As given.
+        /// The upper end, as it was given.
         upper: f64,
     },
     /// The distance to keep is negative or not finite.
     #[error("the clearance must be finite and not negative, is {clearance}")]
     Clearance {
-        /// As given.
+        /// The distance, as it was given.
         clearance: f64,
     },
     /// A preference's strength is not finite, or its direction not of length 1.
     #[error("preference \"{name}\": its epsilon must be finite, its direction of length 1")]
     Preference {
-        /// Its name.
+        /// The preference's name in the world.
         name: String,
     },
     /// What is carried is held at no finite place.
     #[error("payload \"{object}\": its grip is not finite")]
     Grip {
-        /// Its name.
+        /// The object's name in the world.
         object: String,
     },
     /// There is no obstacle of this number to spare, or to rest on.
     #[error("there is no obstacle number {number} among {count}")]
     NoObstacle {
-        /// From 0.
+        /// The number that was given; the first obstacle is 0.
         number: usize,
         /// How many there are.
         count: usize,

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-12;
 /// A part of a segment on which one obstruction is proven to remain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockedStretch {
-    /// Which configurations.
+    /// The configurations of that part.
     pub stretch: Segment,
     /// What is wrong in its middle, and not undone anywhere in it.
     pub obstruction: Obstruction,

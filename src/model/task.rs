@@ -37,7 +37,7 @@ pub struct Object {
 pub enum Action {
     /// The tip goes to an object and takes it.
     Pick {
-        /// Which object.
+        /// The number of the object in the task.
         object: usize,
         /// The point of the object, in its own frame, that the tip goes to.
         grasp: Point,
@@ -57,7 +57,7 @@ pub enum Action {
     Move(Goal),
 }
 
-/// One step.
+/// A step: what to do, and how fast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
     /// What it does.
@@ -77,7 +77,7 @@ pub struct Step {
 /// Part of a task.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Item {
-    /// A step.
+    /// A step in its place in the order.
     Step(Step),
     /// Pairs of a pick and the place that follows it, in whichever order is fastest.
     AnyOrder(Vec<[Step; 2]>),
@@ -88,9 +88,9 @@ pub enum Item {
 /// A wrist's limits; positive, radians and seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrist {
-    /// Top speed.
+    /// The top speed, radians a second.
     pub velocity: f64,
-    /// Greatest acceleration.
+    /// The greatest acceleration, radians a second squared.
     pub acceleration: f64,
 }
 

@@ -6,14 +6,14 @@ use crate::geometry::{Convex, ConvexDefect, Point, PolygonDefect, Pose, SimplePo
 /// Extent along the plane's normal, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Heights {
-    /// Lower end.
+    /// The lower end of the extent.
     pub lower: f64,
-    /// Upper end.
+    /// The upper end of the extent.
     pub upper: f64,
 }
 
 impl Heights {
-    /// All heights.
+    /// The extent that holds all heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
     /// Whether the two extents share a height; touching counts.
@@ -28,9 +28,9 @@ impl Heights {
 pub enum Shape {
     /// Corners of a simple polygon, counter-clockwise.
     Polygon(Vec<Point>),
-    /// A disc.
+    /// A disc, by its centre and radius.
     Circle {
-        /// Its centre.
+        /// The centre, plane coordinates.
         center: Point,
         /// Its radius, metres; 0 for a point.
         radius: f64,
@@ -60,7 +60,7 @@ impl Shape {
 pub struct Obstacle {
     /// The user's name for it, or `obstacle 3`.
     pub name: String,
-    /// As given.
+    /// The shape as the user gave it.
     pub shape: Shape,
     /// The same as a union of convex pieces, without any clearance.
     pub pieces: Vec<Convex>,
@@ -71,7 +71,7 @@ pub struct Obstacle {
 /// The obstacles, the distance to keep from them, and where to be rather than elsewhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Workspace {
-    /// Title.
+    /// The title of the world.
     pub name: String,
     /// In the order of the file.
     pub obstacles: Vec<Obstacle>,

@@ -5,7 +5,7 @@ use super::clock::whole_nanoseconds;
 /// A time of constant jerk along a stretch, mostly of none at all; distances counted from the stretch's beginning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
-    /// Seconds.
+    /// How long it lasts, seconds.
     pub(super) duration: f64,
     /// Distance at which it begins.
     pub(super) from: f64,
@@ -17,7 +17,7 @@ pub(super) struct Phase {
     pub(super) leave: f64,
     /// The acceleration with which it begins.
     pub(super) acceleration: f64,
-    /// The jerk.
+    /// The jerk, which is constant in it.
     pub(super) jerk: f64,
 }
 

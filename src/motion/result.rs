@@ -130,7 +130,7 @@ pub struct Report {
     /// How to read the trajectory between its samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<&'static str>,
-    /// The motion.
+    /// The motion in time; none where there is none.
     pub trajectory: Option<Trajectory>,
     /// The joints that ROS 2 messages name: at first the two planned ones.
     #[serde(skip)]

@@ -135,7 +135,7 @@ fn rest(pause: f64) -> f64 {
 pub struct Timed {
     /// The path, with the blends that the motion takes: those that would not make it faster are gone.
     pub curve: CertifiedCurve,
-    /// The motion.
+    /// The motion as samples in time.
     pub trajectory: Trajectory,
 }
 

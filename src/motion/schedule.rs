@@ -152,7 +152,7 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
     (used, runs)
 }
 
-/// Seconds.
+/// How long they take together, seconds.
 fn duration(passages: &[Passage]) -> f64 {
     passages.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }

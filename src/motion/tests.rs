@@ -16,7 +16,7 @@ fn path(waypoints: &[[f64; 2]]) -> Path {
     Path::new(waypoints.iter().map(|&[a, b]| Configuration::new(a, b)).collect())
 }
 
-/// Without blends.
+/// The motion along the path without blends: it stops at every corner.
 fn time_path(path: &Path, joints: &[Joint; 2], period: f64) -> Result<Trajectory, TimingError> {
     time_curve(&path.clone().into(), &Limits::from(joints), period).map(|(_, trajectory)| trajectory)
 }

@@ -9,7 +9,7 @@ pub(super) const TIP_STEP: f64 = 0.01;
 /// Greatest speed of an arm's tip over the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipSpeed<'a> {
-    /// The arm.
+    /// The arm whose tip it is.
     pub arm: &'a Arm,
     /// Metres a second, positive.
     pub speed: f64,

@@ -27,7 +27,7 @@ pub enum WriteError {
     Refused {
         /// The file as given.
         path: PathBuf,
-        /// Its reason.
+        /// Why the operating system refused.
         source: io::Error,
     },
 }
@@ -58,7 +58,7 @@ pub fn write_whole_set<B: AsRef<[u8]>>(files: &[(PathBuf, B)]) -> Result<(), Wri
 
 /// A temporary file that holds what a file is to hold; removed unless it is put there.
 struct Prepared {
-    /// As given.
+    /// The path of the file that is to be written, as it was given.
     path: PathBuf,
     target: PathBuf,
     /// Closed, so that the number of files is not limited by that of open ones.

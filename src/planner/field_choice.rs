@@ -8,7 +8,7 @@ use std::fmt;
 /// Which equation; arrays over the cells are made of the zones when a grid is there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EquationChoice {
-    /// Laplace's.
+    /// Laplace's equation.
     Harmonic,
     /// One drift everywhere.
     Oriented {
@@ -45,9 +45,9 @@ pub enum EquationChoice {
 pub enum FieldChoice {
     /// An equation that is relaxed.
     Relaxed {
-        /// Which.
+        /// The equation that is solved.
         equation: EquationChoice,
-        /// How.
+        /// The relaxation that solves it.
         relaxation: Relaxation,
         /// The field is relaxed until no value changes by more than this part of itself in a sweep.
         tolerance: f64,
@@ -66,7 +66,7 @@ pub enum FieldChoice {
 /// [`Proposal::NoPath`](super::Proposal::NoPath) says that the cells hold none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldPlanner {
-    /// The field.
+    /// The field whose gradient is followed.
     pub field: FieldChoice,
     /// What lies beyond the limits of intervals.
     pub limits: Limits,

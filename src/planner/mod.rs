@@ -85,7 +85,7 @@ pub enum Size {
     },
     /// Values of joint 1 at which free values of joint 2 are known exactly.
     Rows {
-        /// Their number.
+        /// How many such values there are.
         rows: usize,
     },
     /// Cells of a grid as far as a search came.
@@ -160,7 +160,7 @@ pub enum Trace {
         free: Vec<[Configuration; 2]>,
         /// Collision everywhere in them.
         stuck: Vec<[Configuration; 2]>,
-        /// Undecided.
+        /// Boxes that are neither proven free nor proven stuck.
         mixed: Vec<[Configuration; 2]>,
     },
     /// Steps to the goal for every cell of the grid, `u32::MAX` where the wave did not come.
@@ -181,7 +181,7 @@ pub enum Trace {
     /// The harmonic potential of the cells that the goal can be reached from. Its logarithms are for pictures alone, and
     /// computed when there is one ([`Trace::logarithms`]).
     Harmonic {
-        /// The cells.
+        /// The cells that the field covers.
         component: Component,
         /// Not known where the start is none of them.
         potential: Option<Potential>,

@@ -14,7 +14,7 @@ pub enum PathKind {
 }
 
 impl PathKind {
-    /// Both.
+    /// Both kinds, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::Own, Self::Taut];
 
     /// Name on the command line and in results.

@@ -16,7 +16,7 @@ pub enum Family {
 }
 
 impl Family {
-    /// All.
+    /// All families, in the order of the tables.
     pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
     /// Its planners, in the plural.
@@ -43,9 +43,9 @@ impl From<Method> for Family {
 /// Figures of a planner's path of the other kind than the row is about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherPath {
-    /// As [`Row::length`].
+    /// Its length, in the unit of [`Row::length`].
     pub length: f64,
-    /// As [`Row::clearance`].
+    /// Its clearance, as in [`Row::clearance`].
     pub clearance: Option<f64>,
 }
 

@@ -5,7 +5,7 @@
 pub struct Spread {
     /// How many values there are; at least one.
     pub n: usize,
-    /// The least.
+    /// The least of the values.
     pub min: f64,
     /// A quarter of the values are no greater.
     pub lower_quartile: f64,
@@ -13,7 +13,7 @@ pub struct Spread {
     pub median: f64,
     /// Three quarters are no greater.
     pub upper_quartile: f64,
-    /// The greatest.
+    /// The greatest of the values.
     pub max: f64,
     /// The arithmetic mean.
     pub mean: f64,

@@ -33,7 +33,7 @@ pub struct Study {
 /// A problem that could not be run: its files cannot be read, or its start or goal is blocked.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
-    /// Its name.
+    /// The problem's name in tables.
     pub problem: String,
     /// `input`, `start` or `goal`.
     pub kind: &'static str,

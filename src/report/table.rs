@@ -5,9 +5,9 @@ use crate::model::plain_line;
 /// Side to which a column's cells are moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Align {
-    /// For words.
+    /// To the left side, for words.
     Left,
-    /// For numbers.
+    /// To the right side, for numbers.
     Right,
 }
 
@@ -40,7 +40,7 @@ impl Column {
 /// Columns and rows of cells; a missing cell is shown as `-`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Headers.
+    /// The headers, one for each column.
     pub columns: Vec<Column>,
     /// As many cells as columns each.
     pub rows: Vec<Vec<Option<String>>>,

@@ -24,7 +24,7 @@ pub(super) enum Kind {
     Free,
     /// Somewhere in the stretch it is too near over a width that is proven: no way leads through.
     Wall(StuckBox),
-    /// Neither.
+    /// Neither free for certain nor hit for certain.
     Unknown,
 }
 

@@ -15,7 +15,7 @@ const NONE: u32 = u32::MAX;
 pub(super) enum Openness {
     /// All of it is free.
     Free,
-    /// Undecided.
+    /// Neither proven free nor proven stuck.
     Mixed,
     /// Undecided, and halves would tell no more.
     Finest,
@@ -25,7 +25,7 @@ pub(super) enum Openness {
 pub(super) trait Mosaic {
     /// One more than the greatest number of a box.
     fn count(&self) -> usize;
-    /// Which configurations.
+    /// The configurations that a box holds.
     fn cell(&self, index: u32) -> Cell;
     /// None for a stuck box, or one that is there no more.
     fn openness(&self, index: u32) -> Option<Openness>;

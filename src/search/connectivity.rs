@@ -32,14 +32,14 @@ pub enum Occupancy {
     Free,
     /// One pair of shapes is too near everywhere in it.
     Stuck,
-    /// Undecided.
+    /// Neither proven free nor proven stuck.
     Mixed,
 }
 
 /// An answer, and the subdivision that led to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exploration {
-    /// The answer.
+    /// A path, a proof, or neither.
     pub answer: Connectivity,
     /// Boxes that cover the domain, side by side.
     pub boxes: Vec<(Cell, Occupancy)>,

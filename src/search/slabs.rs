@@ -60,7 +60,7 @@ struct Span {
 struct Slabs<'a> {
     topology: Topology,
     second: SecondLink<'a>,
-    /// Ascending.
+    /// The slabs by ascending values of joint 1.
     slabs: Vec<Slab>,
     /// Those of slabs that were halved stay behind, unused.
     spans: Vec<Span>,

@@ -53,11 +53,11 @@ impl Blend {
 /// What a motion along a path with blends consists of. Two straight pieces in a row meet in a corner where it stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stretch {
-    /// Straight.
+    /// A straight piece between two corners or their blends.
     Line {
-        /// One end.
+        /// The configuration at which it begins.
         from: Configuration,
-        /// The other.
+        /// The configuration at which it ends.
         to: Configuration,
     },
     /// Around a corner.

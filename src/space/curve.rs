@@ -8,7 +8,7 @@ use super::bernstein::Polynomial;
 pub enum Derivative {
     /// The joint values themselves.
     Position,
-    /// Per second.
+    /// The first derivative, per second.
     Velocity,
     /// Per second squared.
     Acceleration,

@@ -27,13 +27,13 @@ impl Path {
         &self.waypoints
     }
 
-    /// First waypoint.
+    /// The first waypoint.
     #[must_use]
     pub fn start(&self) -> Configuration {
         self.waypoints[0]
     }
 
-    /// Last waypoint.
+    /// The last waypoint.
     #[must_use]
     pub fn goal(&self) -> Configuration {
         self.waypoints[self.waypoints.len() - 1]

@@ -48,11 +48,11 @@ pub enum RecordingDefect {
     /// A number is NaN, infinite, or too large to be meant.
     #[error("a {what} is {value}")]
     Value {
-        /// The sample.
+        /// The place of the sample in the recording, from 0.
         sample: usize,
         /// `position`, `time`, `velocity` or `acceleration`.
         what: &'static str,
-        /// The number.
+        /// The number that was found there.
         value: f64,
     },
     /// The clock stands still or runs backwards.
@@ -60,7 +60,7 @@ pub enum RecordingDefect {
     Time {
         /// The later sample.
         sample: usize,
-        /// Its time.
+        /// The time of that sample, seconds.
         time: f64,
         /// The time of the sample before.
         before: f64,

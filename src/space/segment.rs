@@ -41,7 +41,7 @@ impl Segment {
         self.from == self.to
     }
 
-    /// Euclidean length.
+    /// The distance of its ends in joint space.
     #[must_use]
     pub fn length(&self) -> f64 {
         (self.to - self.from).norm()

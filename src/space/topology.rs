@@ -38,9 +38,9 @@ pub enum Axis {
     /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then postures
     /// repeat within it, but configurations do not.
     Interval {
-        /// Least value.
+        /// The least value of the joint.
         lower: f64,
-        /// Greatest value.
+        /// The greatest value of the joint.
         upper: f64,
     },
     /// A joint without limits: values that differ by whole turns are one configuration.
@@ -212,7 +212,7 @@ mod tests {
         let atan = |inverse: f64, terms: u8| {
             let (x, square) = (exact(1.0) / exact(inverse), exact(inverse * inverse));
             let term = |k: u8| exact(if k.is_multiple_of(2) { 1.0 } else { -1.0 }) / exact(f64::from(2 * k + 1));
-            // Horner's scheme.
+            // The series by Horner's scheme.
             (0..terms).rev().fold(exact(0.0), |sum, k| sum / &square + term(k)) * x
         };
         (atan(5.0, 32) * exact(4.0) - atan(239.0, 10)) * exact(8.0)

@@ -150,7 +150,7 @@ pub enum Benchmark {
     A,
     /// Passage of 0.022 rad; optimum 6.4281.
     B,
-    /// No path.
+    /// Start and goal are proven not to be connected.
     Inf,
     /// No path: two walls of link 1, 0.0066 rad wide.
     T,

@@ -50,7 +50,7 @@ impl<'a> Decoder<'a> {
         (0..self.word()).map(|_| self.string()).collect()
     }
 
-    /// Nanoseconds.
+    /// A time in whole nanoseconds.
     fn time(&mut self) -> u64 {
         let (seconds, rest) = (self.word(), self.word());
         assert!(seconds <= i32::MAX as u32 && rest < 1_000_000_000);

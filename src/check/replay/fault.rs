@@ -75,7 +75,7 @@ pub enum Departure {
         index: usize,
         /// The recorded step's number.
         number: usize,
-        /// Its repetition.
+        /// The repetition that the record says it belongs to.
         cycle: usize,
         /// What was to be done, in words.
         expected: String,

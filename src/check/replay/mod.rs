@@ -28,7 +28,7 @@ const SHORT: f64 = 1e-6;
 /// A turn of the wrist that was judged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReplayedTurn {
-    /// As recorded.
+    /// The turn as the record has it.
     pub turn: RecordedTurn,
     /// Proven free, or where it first hits something.
     pub verdict: Result<WristTurn, TurnContact>,

@@ -28,9 +28,9 @@ pub struct Cases {
     pub warnings: Vec<String>,
 }
 
-/// One problem.
+/// A robot in a world, as one column of the comparison.
 pub struct Case {
-    /// For tables.
+    /// Stands for the problem in tables.
     pub name: String,
     /// Which of the worlds it is in, from 0.
     pub world: usize,

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 /// A planner to compare.
 #[derive(Debug, Clone)]
 pub struct Entry {
-    /// For tables.
+    /// Stands for the planner in tables.
     pub label: String,
     /// The planner.
     pub planner: Planner,

@@ -24,7 +24,7 @@ pub enum ReportFormat {
 pub struct ReportSink {
     /// What goes into it.
     pub format: ReportFormat,
-    /// Where.
+    /// The path of the file.
     pub path: PathBuf,
 }
 

@@ -17,7 +17,7 @@ impl Document {
         Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
     }
 
-    /// The text.
+    /// The text as it is now, edits included.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -44,7 +44,7 @@ impl Document {
         pair(self.toml.get("start")?.get("joints"))
     }
 
-    /// Its goal.
+    /// What the text says of the goal, if it says anything.
     pub fn goal(&self) -> Option<End> {
         let goal = self.toml.get("goal")?;
         pair(goal.get("joints")).map(End::Joints).or_else(|| pair(goal.get("tip")).map(End::Tip))

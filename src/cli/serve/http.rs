@@ -56,7 +56,7 @@ const CODE: [&str; 7] = [
     include_str!("assets/live.js"),
 ];
 
-/// The page.
+/// The page with its scripts and styles in one document.
 fn page() -> String {
     shell("cplan", "", include_str!("assets/live.css"), "", &CODE.concat())
 }

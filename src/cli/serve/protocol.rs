@@ -22,7 +22,7 @@ pub enum Request {
     Load {
         /// Number of the request; answers name it.
         id: u64,
-        /// TOML.
+        /// The world file's text.
         text: String,
         /// As in [`Ask`].
         options: String,
@@ -77,7 +77,7 @@ pub struct State {
     pub clearance: f64,
 }
 
-/// One obstacle.
+/// An obstacle as the page edits it.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
@@ -96,7 +96,7 @@ pub struct Piece {
 pub enum Form {
     /// Corners in order round it.
     Polygon(Vec<Pair>),
-    /// A disc.
+    /// A disc, by its centre and radius.
     Circle {
         /// Where its centre is.
         center: Pair,
@@ -155,21 +155,21 @@ pub enum Reply {
     Answer(Box<AnswerReply>),
     /// What was asked makes no sense, or went wrong; the page keeps what it has.
     Failed {
-        /// The request.
+        /// The number of the request that this answers.
         id: u64,
-        /// In words.
+        /// What went wrong, in words for the page.
         error: String,
     },
 }
 
-/// A world.
+/// A world as the page draws and edits it.
 #[derive(Debug, Serialize)]
 pub struct WorldReply {
     /// The request that loaded it; none for the first.
     pub id: Option<u64>,
     /// Number of the text: states are changes of one text.
     pub base: u64,
-    /// Title.
+    /// The title that stands above the picture.
     pub name: String,
     /// The robot, and the kind of its joints: `RR`.
     pub robot: String,
@@ -189,11 +189,11 @@ pub struct WorldReply {
     pub reach: f64,
     /// Planners to choose from.
     pub planners: Vec<&'static str>,
-    /// Their menus.
+    /// The options of each planner, for the page's menus.
     pub menus: Vec<PlannerReply>,
     /// Planner and options to begin with; none with a world that was loaded.
     pub options: Option<String>,
-    /// The text.
+    /// The world file's text, as it is now.
     pub toml: String,
 }
 
@@ -206,7 +206,7 @@ pub struct PlannerReply {
     pub options: Vec<OptionReply>,
 }
 
-/// A menu.
+/// An option with the values that a menu offers.
 #[derive(Debug, Serialize)]
 pub struct OptionReply {
     /// As on the command line: `--cells`.
@@ -222,14 +222,14 @@ pub struct OptionReply {
 /// One obstacle of a world.
 #[derive(Debug, Serialize)]
 pub struct PieceReply {
-    /// Its name.
+    /// The obstacle's name in the world file.
     pub name: String,
     /// Its shape; none for one that the page cannot change, such as a map.
     #[serde(flatten)]
     pub shape: Option<Form>,
 }
 
-/// A joint.
+/// A joint with its unit and limits.
 #[derive(Debug, Serialize)]
 pub struct JointReply {
     /// Name in the URDF.
@@ -243,7 +243,7 @@ pub struct JointReply {
 /// What became of a plan.
 #[derive(Debug, Default, Serialize)]
 pub struct AnswerReply {
-    /// The request.
+    /// The number of the request that this answers.
     pub id: u64,
     /// Whether all that can be known was wanted.
     #[serde(rename = "final")]
@@ -291,7 +291,7 @@ pub enum About {
 /// A posture that is not free.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct BlockedReply {
-    /// Joint values.
+    /// The joint values, in which it is not free.
     pub at: Pair,
     /// What is in the way, deepest first; nothing where the posture is outside the joint limits.
     pub hits: Vec<HitReply>,

@@ -23,7 +23,7 @@ const WORKSPACE: [f64; 2] = [520.0, 640.0];
 /// Below panels, for values and titles of their axes and the space to what follows, pixels.
 const AXES: f64 = 62.0;
 
-/// Draws everything.
+/// The whole page of a task: the workspace, a chart for each of its worlds, and its steps.
 #[must_use]
 pub fn compose(picture: &TaskPicture) -> Figure {
     let (task, answer) = (picture.task, picture.answer);

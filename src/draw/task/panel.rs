@@ -15,13 +15,13 @@ use crate::space::Configuration;
 /// A world with a payload, and the motions in it.
 #[derive(Debug, Clone)]
 pub struct Panel<'a> {
-    /// Its title.
+    /// The line of text above it.
     pub title: String,
     /// World and payload, with link 2 free of nothing.
     pub scene: Scene,
     /// The obstacles that link 2 may reach into, in some of the motions at least.
     pub spared: Vec<usize>,
-    /// The motions.
+    /// The motions that take place in this world.
     pub motions: Vec<&'a Leg>,
     /// Where the arm is at first.
     pub start: Configuration,

@@ -31,7 +31,7 @@ const LINE_SPOT: f64 = 4.0;
 /// Steps that end at one place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tag {
-    /// Where.
+    /// The place at which the steps end.
     pub at: Spot,
     /// Their numbers, each once.
     pub numbers: Vec<usize>,

@@ -63,7 +63,7 @@ impl Grain {
         rounded(value, self.joints[k])
     }
 
-    /// A configuration.
+    /// A configuration, rounded to what can be seen.
     #[must_use]
     pub fn configuration(self, q: Configuration) -> [f64; 2] {
         [self.joint(0, q[0]), self.joint(1, q[1])]

@@ -71,7 +71,7 @@ struct RegionView {
     corners: Vec<f64>,
 }
 
-/// A world.
+/// A world as the page draws it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WorldView {
     /// What there is to say of it, in a word or two.

@@ -13,12 +13,12 @@ use std::sync::Arc;
 pub enum Event {
     /// The gripper takes an object.
     Grasp {
-        /// Which.
+        /// The number of the object in the task.
         object: usize,
     },
     /// The gripper lets go of an object.
     Release {
-        /// Which.
+        /// The number of the object in the task.
         object: usize,
         /// Where it lies from then on.
         pose: Pose,
@@ -41,7 +41,7 @@ impl Event {
 /// move: motion, dwell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
-    /// The step.
+    /// The step that it carries out.
     pub step: Step,
     /// The world during the motion, and what is carried.
     pub scene: Arc<Scene>,
@@ -122,7 +122,7 @@ pub type TaskVerdict = Outcome<(), Impossible, Impossible>;
 /// The answer to a task and how it came about.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// The result.
+    /// What was found out: a sequence, a proof, or neither.
     pub verdict: TaskVerdict,
     /// The steps in the order in which they are done: all, or those before the one that fails.
     pub legs: Vec<Leg>,

@@ -9,9 +9,9 @@ use serde::Serialize;
 /// A posture at a step's target that the arm cannot take, or is not known to.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PostureReport {
-    /// Joint values.
+    /// The values of both joints, radians or metres.
     pub joints: [f64; 2],
-    /// Why.
+    /// Why the arm cannot take it, in words.
     pub reason: String,
     /// Boxes of colliding configurations that separate it from where the arm stands, where that is the reason.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -15,7 +15,7 @@ const DIGITS: i32 = 4;
 /// A posture at the target of a step that the arm cannot take, or is not known to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unreached {
-    /// Joint values.
+    /// The values of both joints.
     pub posture: Configuration,
     /// Why, in words.
     pub reason: String,

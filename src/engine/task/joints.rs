@@ -23,9 +23,9 @@ pub enum MessageError {
          step less speed, or write the two planned joints alone (--joints planned)"
     )]
     Wrist {
-        /// Its name.
+        /// The joint's name in the URDF.
         joint: String,
-        /// When, seconds.
+        /// When that would be, seconds from the beginning.
         time: f64,
         /// What it would do.
         what: String,

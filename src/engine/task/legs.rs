@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// Why a motion is not possible.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Refusal {
-    /// In words.
+    /// Why, in words for the summary.
     pub reason: String,
     /// Whether that is proven, or just what came of trying.
     pub proven: bool,

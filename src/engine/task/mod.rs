@@ -17,8 +17,8 @@
 //!   differences of the obstacles' pieces and the payload's. So planners, C-obstacles, certificates and proofs need no
 //!   third link.
 //! - What a payload rests on it meets with its outline made smaller by what it may press in, which no corner moves
-//!   farther than (`inner_approximation`); to keep no clearance there, it or the support is made smaller by that, each in
-//!   turn.
+//!   farther than (`inner_approximation`); to keep no clearance there, supports are farther away by it in
+//!   every distance (`Convex::receding`).
 //! - Motions are shared (`legs`) among worlds that differ only in objects which the heights keep from being hit.
 //!
 //! # Orders

@@ -54,7 +54,7 @@ pub(super) enum Stops {
     One(Stop),
     /// Of each pair: pick and place.
     Pairs(Vec<[Stop; 2]>),
-    /// Nothing moves.
+    /// The item moves nothing.
     Nothing,
 }
 

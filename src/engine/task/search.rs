@@ -44,7 +44,7 @@ pub(super) enum Ending {
 /// A way to a state.
 struct Node<'a> {
     parent: Option<usize>,
-    /// Steps done.
+    /// How many steps are done.
     depth: usize,
     /// Seconds to here; a lower bound while the motion is not planned.
     seconds: f64,

@@ -16,7 +16,7 @@ pub enum ActionName {
     Pick,
     /// Lets go of one.
     Place,
-    /// Goes somewhere.
+    /// Goes somewhere and handles nothing there.
     Move,
 }
 

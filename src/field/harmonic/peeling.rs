@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::LN_2;
 
-/// No window.
+/// Stands for a cell that is in no window.
 const NONE: u32 = u32::MAX;
 
 /// Guessed depth of a window, nepers: the guessed fall of the potential, as a natural logarithm.
@@ -89,7 +89,7 @@ pub(super) struct Peeling<'a> {
 
 /// Unknown cells whose values are found together.
 struct Window {
-    /// Positions.
+    /// The positions of its cells in the grid.
     cells: Vec<u32>,
     /// Positions of the accepted cells that it was gathered around.
     sources: Vec<u32>,

@@ -5,9 +5,9 @@ use super::Component;
 /// The exponent counts in steps of this many binary orders, so that neighbours mostly share theirs and can be averaged
 /// as plain doubles.
 const STEP: i32 = 256;
-/// `2^-STEP`.
+/// One step down in scale, `2^-STEP`.
 const DOWN: f64 = f64::from_bits(((1023 - STEP) as u64) << 52);
-/// `2^STEP`.
+/// One step up in scale, `2^STEP`.
 const UP: f64 = f64::from_bits(((1023 + STEP) as u64) << 52);
 /// A mantissa within `2^-192 ..= 2^192` keeps its exponent. Wider than a step, so that a value near a boundary does not
 /// hop to and fro; and narrow enough that the products and sums of a chunk of cells stay within the doubles.
@@ -36,12 +36,12 @@ impl Scaled {
         self
     }
 
-    /// Binary logarithm.
+    /// The binary logarithm of the number.
     pub fn log2(self) -> f64 {
         self.mantissa.log2() + f64::from(self.exponent) * f64::from(STEP)
     }
 
-    /// `2^log2`.
+    /// The number whose binary logarithm is given.
     pub fn exp2(log2: f64) -> Self {
         let exponent = (log2 / f64::from(STEP)).round();
         Self { mantissa: (log2 - exponent * f64::from(STEP)).exp2(), exponent: exponent as i32 }
@@ -80,7 +80,7 @@ impl Potential {
         potential
     }
 
-    /// Zero everywhere.
+    /// A potential that is zero in all cells.
     pub(super) fn zero(len: usize) -> Self {
         Self { mantissa: vec![0.0; len + 1], exponent: Vec::new() }
     }

@@ -21,7 +21,7 @@ pub enum Attraction {
 pub enum Repulsion {
     /// The nearest obstacle: potential `k (1/p - 1/p0)^2 / 2` within the range `p0`, nothing beyond.
     Ranged {
-        /// `k`.
+        /// The factor `k` of the potential.
         gain: f64,
         /// `p0`, in the units of the joints.
         range: f64,
@@ -122,14 +122,14 @@ pub struct ForceField<'a> {
 enum Obstacles {
     /// Displacements to the nearest.
     Nearest(Vec<[f64; 2]>),
-    /// All together.
+    /// All obstacle cells together repel.
     Sum(Charges),
 }
 
 /// Where all ways are worse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Trap {
-    /// The cell.
+    /// The cell that cannot be left.
     pub cell: usize,
     /// Its potential; of saturated forces, which have none, the strength of the force there.
     pub value: f64,

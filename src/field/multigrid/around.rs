@@ -3,7 +3,7 @@
 use super::machine::{LANES, Machine, packs};
 use super::stencil::Stencil;
 
-/// Consecutive packs.
+/// Packs of cells that follow each other in memory.
 type Packs<'a> = &'a [[f32; LANES]];
 
 /// A row and its eight neighbours, each with its coupling.

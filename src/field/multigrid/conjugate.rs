@@ -52,7 +52,7 @@ pub(super) struct Step {
     pub beta: f64,
 }
 
-/// Greatest magnitudes.
+/// The greatest magnitudes met in one pass.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Greatest {
     pub value: f64,
@@ -353,7 +353,7 @@ fn part(row: &[f64], i: usize, even: &mut [f64], odd: &mut [f64]) {
     }
 }
 
-/// The reverse.
+/// Puts the columns together again: the reverse of splitting them.
 #[inline(always)]
 fn merge(even: &[f64], odd: &[f64], i: usize, row: &mut [f64]) {
     let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };

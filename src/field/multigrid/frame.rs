@@ -21,7 +21,7 @@ pub(super) struct Frame {
     pub rows: usize,
     pub columns: usize,
     pub ends: [Ends; 2],
-    /// `columns` padded.
+    /// The number of `columns`, padded to whole packs.
     pub width: usize,
     stride: usize,
 }

@@ -82,7 +82,7 @@ impl<'a, O: Operator> Window<'a, O> {
     }
 }
 
-/// Coarsens `operator`.
+/// The coarser level of `operator`: the transfer to it, and the operator there.
 pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer, Stencil) {
     let fine = operator.frame();
     let coarse = Frame::new([fine.rows.div_ceil(2), fine.columns.div_ceil(2)], fine.ends).of_coefficients();

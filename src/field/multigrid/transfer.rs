@@ -217,7 +217,7 @@ impl Transfer {
     }
 }
 
-/// Columns apart.
+/// Takes even and odd columns apart.
 #[inline(always)]
 fn split(natural: &[f32], even: &mut [f32], odd: &mut [f32]) {
     for ((pair, even), odd) in natural.as_chunks::<2>().0.iter().zip(even).zip(odd) {

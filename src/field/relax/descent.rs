@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, VecDeque};
 /// Where a descent ended without a goal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stuck {
-    /// The cell.
+    /// The cell in which it ended.
     pub cell: usize,
-    /// Its value.
+    /// The value of the field there.
     pub value: f64,
     /// Whether a free neighbour has the very same value; otherwise all are worse.
     pub flat: bool,

@@ -18,7 +18,7 @@ pub enum Cell {
 pub enum Boundary {
     /// The cells of the other end: a circle.
     Periodic,
-    /// Obstacles (Dirichlet).
+    /// As high as obstacles (Dirichlet).
     High,
     /// The mirror image: no flow through the limit (Neumann). A cell at the limit has itself as its neighbour there.
     Reflecting,
@@ -27,19 +27,19 @@ pub enum Boundary {
 /// The limits of intervals; circles have none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Limits {
-    /// [`Boundary::High`].
+    /// As high as obstacles: [`Boundary::High`].
     #[default]
     High,
-    /// [`Boundary::Reflecting`].
+    /// Mirrors: [`Boundary::Reflecting`].
     Reflecting,
 }
 
 /// The fixed values, and that which free cells start from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Levels {
-    /// Of obstacles.
+    /// The value that obstacles keep.
     pub obstacle: f64,
-    /// Of goals.
+    /// The value that goals keep.
     pub goal: f64,
     /// Of free cells before the first sweep.
     pub free: f64,
@@ -63,7 +63,7 @@ impl Levels {
 /// The neighbour of a cell in some direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Neighbor {
-    /// Another cell.
+    /// Another cell, by its number.
     Cell(usize),
     /// Beyond a high limit: has the value of obstacles.
     Limit,

@@ -47,7 +47,7 @@ impl Direction {
         self.0
     }
 
-    /// `epsilon v`.
+    /// The drift `epsilon v`.
     #[must_use]
     pub fn drift(self, epsilon: f64) -> [f64; 2] {
         self.0.map(|v| epsilon * v)
@@ -62,11 +62,11 @@ pub enum Equation {
     Harmonic,
     /// `lap p + epsilon <v, grad p> = 0`, the same everywhere (Prestes 2003).
     Oriented {
-        /// `v`.
+        /// The direction `v`.
         direction: Direction,
         /// `epsilon`, per cell.
         epsilon: f64,
-        /// How.
+        /// How the drift is discretised.
         difference: Difference,
     },
     /// The same with a drift of its own in every cell, 0 where there is none: around robots (Faria 2006, see
@@ -74,7 +74,7 @@ pub enum Equation {
     LocallyOriented {
         /// `epsilon v`, per cell.
         drift: Vec<[f64; 2]>,
-        /// How.
+        /// How the drift is discretised.
         difference: Difference,
     },
     /// Preferences: `v` is the normalised gradient of the converged harmonic field, up towards obstacles, and `epsilon`
@@ -83,7 +83,7 @@ pub enum Equation {
     Preference {
         /// One a cell.
         epsilon: Vec<f64>,
-        /// How.
+        /// How the drift is discretised.
         difference: Difference,
     },
     /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, `h` the mean of the four neighbours and
@@ -102,9 +102,9 @@ pub enum Equation {
 pub struct Influence {
     /// Its centre, as (fractions of) row and column; whole numbers are centres of cells.
     pub center: [f64; 2],
-    /// In cells.
+    /// Its radius, in cells.
     pub radius: f64,
-    /// `epsilon v`.
+    /// The drift `epsilon v` of its cells.
     pub drift: [f64; 2],
 }
 

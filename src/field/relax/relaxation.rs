@@ -19,7 +19,7 @@ pub struct Relaxation {
 /// With how many digits values are kept from one update to the next. Updates themselves are reckoned in doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Precision {
-    /// All.
+    /// All digits of a double.
     #[default]
     Double,
     /// Rounded to single precision, as by programs that store a `float`: what goes less than half a unit in its last place
@@ -47,7 +47,7 @@ pub enum Scheme {
 /// Factor of a successive relaxation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Factor {
-    /// This one.
+    /// The factor that is given.
     Given(f64),
     /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)`, `m x n` the number of cells: the best one for
     /// Laplace's equation in an empty rectangle (Young 1954).
@@ -107,7 +107,7 @@ impl Scan {
 }
 
 impl Relaxation {
-    /// Jacobi's.
+    /// Jacobi's relaxation: each cell goes all the way, all at once.
     pub const JACOBI: Self = Self::weighted_jacobi(1.0);
 
     /// Jacobi's with a factor.
@@ -122,7 +122,7 @@ impl Relaxation {
         Self::sor(Factor::Given(1.0), order)
     }
 
-    /// Successive over-relaxation.
+    /// Successive over-relaxation with this factor, cells in this order.
     #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
         Self { scheme: Scheme::Successive { factor, order }, clamp: None, precision: Precision::Double }

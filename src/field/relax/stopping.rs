@@ -10,7 +10,7 @@ pub enum Measure {
     /// Difference between the sum of `|change|` and that of the sweep before. (Two equal sums of any size end the
     /// relaxation: the literature uses it, that does not make it a good rule.)
     DifferenceOfSums,
-    /// Greatest `|change|`.
+    /// The greatest `|change|` of any cell.
     GreatestChange,
     /// Greatest `|change| / |value after|`: the only one that sees what happens where values are small.
     GreatestRelativeChange,

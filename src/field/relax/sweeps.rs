@@ -47,7 +47,7 @@ pub enum RelaxError {
         sweeps: usize,
         /// The first cell with such a value, as row and column.
         cell: [usize; 2],
-        /// That value.
+        /// The value of that cell.
         value: f64,
         /// What the reason may be, and what to do, in words.
         hint: String,
@@ -234,7 +234,7 @@ impl<'a> Engine<'a> {
         self.domain.boundaries().contains(&Boundary::Reflecting) || self.domain.cells().contains(&1)
     }
 
-    /// One stage.
+    /// Relaxes one stage, with the norm that the stopping rule asks for.
     fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
         match self.stopping.measure {
             Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, Sum>(stencil),

@@ -34,9 +34,9 @@ pub enum Ties {
 /// whatever their size in the configuration space. Exact, since it is kept as two integers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
-    /// Straight moves.
+    /// How many moves are straight.
     pub straight: u32,
-    /// Diagonal moves.
+    /// How many moves are diagonal.
     pub diagonal: u32,
 }
 

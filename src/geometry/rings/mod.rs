@@ -22,9 +22,9 @@ pub struct Polygon {
 /// A side of a ring, as given: ring 0 is the outer one, hole `k` is ring `k`; side `i` follows corner `i`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct RingSide {
-    /// The ring.
+    /// The number of the ring; 0 is the outer one.
     pub ring: usize,
-    /// The side.
+    /// The number of the side in the ring, from 0.
     pub side: usize,
 }
 
@@ -56,7 +56,7 @@ pub enum RingDefect {
     Cross {
         /// The one given first.
         first: RingSide,
-        /// The other.
+        /// The one given later.
         second: RingSide,
     },
     /// Two sides have more than a point in common.
@@ -64,13 +64,13 @@ pub enum RingDefect {
     Overlap {
         /// The one given first.
         first: RingSide,
-        /// The other.
+        /// The one given later.
         second: RingSide,
     },
     /// Where rings touch, one passes through the other or lies on its wrong side.
     #[error("the boundary crosses itself at ({}, {})", at.x, at.y)]
     CrossesAt {
-        /// Where.
+        /// The point at which it does.
         at: Point,
     },
     /// A hole does not lie inside the outer ring and outside all other holes.

@@ -32,9 +32,9 @@ pub const ROUNDING: f64 = 1e-9;
 /// For which values of a joint a part meets a piece.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Hits {
-    /// For none.
+    /// The shapes meet for no value.
     Never,
-    /// For all.
+    /// The shapes meet for every value.
     Always,
     /// For those in the intervals that were pushed. Angles: start in `[-pi, pi)`, end at least the start and less than a
     /// turn beyond it, disjoint, in the order of their starts.

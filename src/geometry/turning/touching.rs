@@ -35,7 +35,7 @@ pub(super) struct Placement<'a> {
     pub pivot: Point,
     /// Unit vector of angle 0.
     pub zero: Vector,
-    /// Fixed.
+    /// The shape that stands still.
     pub piece: &'a Features,
     /// Distance of the cores that counts as contact.
     pub radius: f64,

@@ -3,7 +3,7 @@
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
-    /// Seconds.
+    /// The time of the sample, seconds.
     Time,
     /// Values of the joint of this index.
     Of(usize, Quantity),

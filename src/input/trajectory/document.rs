@@ -67,7 +67,7 @@ impl Stamp {
     }
 }
 
-/// Reads JSON.
+/// Reads a result of cplan, or what others write as JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     let cure = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
     // A list would be taken for the members of an object in their order.
@@ -82,7 +82,7 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     Ok(samples(source, document)?)
 }
 
-/// Reads YAML.
+/// Reads a JointTrajectory as ROS 2 prints it.
 pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
     options.with_snippet = false;

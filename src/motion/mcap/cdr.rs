@@ -24,17 +24,17 @@ impl Cdr {
         self.bytes
     }
 
-    /// An `int32`.
+    /// Writes an `int32`, aligned to four bytes.
     pub fn i32(&mut self, value: i32) {
         self.put(value.to_le_bytes());
     }
 
-    /// A `uint32`.
+    /// Writes a `uint32`, aligned to four bytes.
     pub fn u32(&mut self, value: u32) {
         self.put(value.to_le_bytes());
     }
 
-    /// A `float64`.
+    /// Writes a `float64`, aligned to its size.
     pub fn f64(&mut self, value: f64) {
         self.put(value.to_le_bytes());
     }

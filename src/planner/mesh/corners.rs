@@ -9,7 +9,7 @@ use crate::planner::NONE;
 /// obstacles touch in a vertex it has several sectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
-    /// The vertex.
+    /// The vertex of the mesh that it is at.
     pub at: Point,
     /// The ends of the two sides: free space lies counter-clockwise from the one to the `right` to the one to the `left`.
     pub right: Point,

@@ -29,7 +29,7 @@ pub struct Picture {
 /// What the page is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Page<'a> {
-    /// The figures.
+    /// The figures that are shown.
     pub study: &'a Study,
     /// All paths, by planner and world.
     pub overlays: &'a [Overlay],

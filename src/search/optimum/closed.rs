@@ -54,7 +54,7 @@ pub(super) struct Closed<'a> {
     clearance: f64,
     parts: Vec<PreparedPart>,
     pairs: Vec<Prepared>,
-    /// Their numbers.
+    /// The pairs' places in that list.
     numbers: BTreeMap<Pair, usize>,
     scratch: Vec<[f64; 2]>,
 }

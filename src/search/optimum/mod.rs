@@ -140,7 +140,7 @@ pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMot
 /// A motion that is about the shortest.
 #[derive(Debug, Clone)]
 pub struct ShortMotion {
-    /// Certified.
+    /// The path of the motion, certified.
     pub path: CertifiedPath,
     /// The free stretch of each row that it passes, in order: at the least and at the greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
