@@ -1,24 +1,24 @@
-//! Configuration space from rows beside the same by parry2d's collision tests.
+//! Configuration space from slices beside the same by parry2d's collision tests.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use cplan::cspace::{Row, Rows, grid_from_rows, outer_grid, sampled_grid};
+use cplan::cspace::{Slice, Slices, grid_from_slices, outer_grid, sampled_grid};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 const CELLS: [usize; 2] = [1024, 1024];
 
-fn rows(c: &mut Criterion) {
+fn slices(c: &mut Criterion) {
     let scene = common::w20();
-    let rows = Rows::new(&scene);
-    let mut row = Row::default();
+    let slices = Slices::new(&scene);
+    let mut slice = Slice::default();
     let mut step = 0_u32;
     c.bench_function("one row of intervals, 20 obstacles", |b| {
         b.iter(|| {
             step = (step + 37) % 1024;
-            rows.row(black_box(f64::from(step) * 0.006 - 3.0), 0.0, &mut row);
-            row.merged.len()
+            slices.slice(black_box(f64::from(step) * 0.006 - 3.0), 0.0, &mut slice);
+            slice.merged.len()
         });
     });
 }
@@ -26,12 +26,12 @@ fn rows(c: &mut Criterion) {
 fn grids(c: &mut Criterion) {
     let scene = common::w20();
     let mut group = c.benchmark_group("W20, 1024 x 1024 cells");
-    group.bench_function("from rows", |b| b.iter(|| grid_from_rows(black_box(&scene), CELLS, 0.0)));
-    group.bench_function("from rows, outer", |b| b.iter(|| outer_grid(black_box(&scene), CELLS, 0.0)));
+    group.bench_function("from slices", |b| b.iter(|| grid_from_slices(black_box(&scene), CELLS, 0.0)));
+    group.bench_function("from slices, outer", |b| b.iter(|| outer_grid(black_box(&scene), CELLS, 0.0)));
     group.sample_size(10);
     group.bench_function("by parry2d", |b| b.iter(|| sampled_grid(black_box(&scene), CELLS, 0.0)));
     group.finish();
 }
 
-criterion_group!(benches, rows, grids);
+criterion_group!(benches, slices, grids);
 criterion_main!(benches);

@@ -7,7 +7,7 @@ mod wave;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, FreeCells, Lattice, harmonic};
 use cplan::planner::{PathKind, Planner, Query, Wavefront};
-use cplan::space::{Axis, Topology};
+use cplan::space::{JointRange, Topology};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -22,7 +22,7 @@ fn boxes(n: usize) -> Grid {
             blocked[i * n + left..i * n + (left + width).min(n)].fill(true);
         }
     }
-    Grid { topology: Topology { axes: [Axis::Circle; 2] }, proves: Proves::Sampled, cells: [n, n], blocked }
+    Grid { topology: Topology { ranges: [JointRange::Circle; 2] }, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
 /// The first and the middle free cell.
@@ -48,7 +48,7 @@ fn fields(c: &mut Criterion) {
 
     let n = 1001;
     let drawn = |n: usize, blocked: Vec<bool>| Grid {
-        topology: Topology { axes: [Axis::Interval { lower: 0.0, upper: 1.0 }; 2] },
+        topology: Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] },
         proves: Proves::Sampled,
         cells: [n, n],
         blocked,

@@ -5,12 +5,12 @@ mod common;
 
 use common::{Benchmark, benchmark, rr, scene, spiral, w20};
 use cplan::cspace::regions;
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Configuration, JointRange};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 fn build(c: &mut Criterion) {
-    let limited = Axis::Interval { lower: -2.8, upper: 2.8 };
+    let limited = JointRange::Interval { lower: -2.8, upper: 2.8 };
     let scenes = [
         ("torus, 4 obstacles", benchmark(Benchmark::A).0),
         ("limits, 5 obstacles", scene(rr([limited, limited]), spiral(5))),

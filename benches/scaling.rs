@@ -6,7 +6,7 @@ mod common;
 use cplan::cspace::regions;
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Heights, Obstacle, Shape, Workspace};
-use cplan::space::Axis;
+use cplan::space::JointRange;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -66,7 +66,7 @@ fn spaces(c: &mut Criterion) {
             let obstacle = Obstacle { name: name.into(), shape, pieces, heights: Heights::ALL };
             let workspace =
                 Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
-            let range = Axis::Interval { lower: -2.8, upper: 2.8 };
+            let range = JointRange::Interval { lower: -2.8, upper: 2.8 };
             let scene = common::placed(common::rr([range; 2]), workspace);
             group.throughput(Throughput::Elements(count as u64));
             group.bench_function(BenchmarkId::new(name, count), |b| {

@@ -4,7 +4,7 @@
 //! cargo run --release --example c_obstacle -- robots/planar_2r_continuous.urdf workspaces/wrap_around.toml torus.svg
 //! ```
 
-use cplan::cspace::{Rows, c_obstacles};
+use cplan::cspace::{Slices, c_obstacles};
 use cplan::draw::{Picture, svg};
 use cplan::input;
 use cplan::motion::write_whole;
@@ -22,10 +22,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // One row: with joint 1 at its start value, exactly which values of joint 2 collide, and with what.
     let start = loaded.problem.start();
-    let mut row = cplan::cspace::Row::default();
-    Rows::new(scene).row(start[0], 0.0, &mut row);
+    let mut slice = cplan::cspace::Slice::default();
+    Slices::new(scene).slice(start[0], 0.0, &mut slice);
     println!("with {} at {:.4}, {} must stay out of", scene.arm().joints[0].name, start[0], scene.arm().joints[1].name);
-    for interval in &row.merged {
+    for interval in &slice.merged {
         println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm().joints[1].unit());
     }
 

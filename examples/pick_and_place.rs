@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let world = args.next().unwrap_or_else(|| "workspaces/tasks/table_mission.toml".into());
     let task = input::load_scene(&urdf, &world)?.task(&Overrides::default())?.task;
 
-    // Postures, grips and turns of the wrist are chosen together, for the least time of the whole.
+    // IK solutions, grips and turns of the wrist are chosen together, for the least time of the whole.
     let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() };
     let answer = plan(&task, &manner, &mut |text| eprintln!("{text}"));
 

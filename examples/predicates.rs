@@ -1,14 +1,14 @@
 //! Do two convex polygons meet, and how deep? `cargo run --example predicates`
 
-use cplan::geometry::{Convex, ConvexDefect, Point, penetration_depth, point_penetration, polygon_test};
+use cplan::geometry::{Convex, ConvexError, Point, penetration_depth, point_penetration, polygon_test};
 
 /// An axis-parallel rectangle.
-fn rectangle(x: [f64; 2], y: [f64; 2]) -> Result<Convex, ConvexDefect> {
+fn rectangle(x: [f64; 2], y: [f64; 2]) -> Result<Convex, ConvexError> {
     let corners = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, k)| Point::new(x[i], y[k]));
     Convex::new(corners.to_vec(), 0.0)
 }
 
-fn main() -> Result<(), ConvexDefect> {
+fn main() -> Result<(), ConvexError> {
     let bar = rectangle([-3.0, 3.0], [-0.5, 0.5])?;
     let wall = Convex::segment(Point::new(0.0, -2.0), Point::new(0.0, 2.0))?;
     let cases = [

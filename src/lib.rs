@@ -7,7 +7,7 @@
 //! ```text
 //!  arm.urdf   world.toml
 //!      \        /
-//!      [input]            files -> MotionProblem, or one error with file, line and cure
+//!      [input]            files -> MotionProblem, or one error with file, line and help
 //!          |
 //!       [model]           Arm + Workspace = Scene; which pairs of shapes can meet
 //!          |

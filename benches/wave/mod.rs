@@ -3,7 +3,7 @@
 use super::boxes;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
-use cplan::space::{Axis, Topology};
+use cplan::space::{JointRange, Topology};
 use criterion::{Criterion, Throughput};
 use std::collections::VecDeque;
 use std::hint::black_box;
@@ -21,7 +21,7 @@ impl Numbers {
 }
 
 fn square(n: usize, blocked: Vec<bool>) -> Grid {
-    let topology = Topology { axes: [Axis::Interval { lower: 0.0, upper: 1.0 }; 2] };
+    let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] };
     Grid { topology, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
@@ -104,7 +104,7 @@ impl Plain {
     fn new(grid: &Grid) -> Self {
         let [rows, columns] = grid.cells;
         let stride = columns + 2;
-        let is_torus = grid.topology.axes[0].is_circle();
+        let is_torus = grid.topology.ranges[0].is_circle();
         let mut framed = vec![if is_torus { TWIN } else { WALL }; (rows + 2) * stride];
         for (cell, &blocked) in grid.blocked.iter().enumerate() {
             framed[(cell / columns + 1) * stride + cell % columns + 1] = if blocked { WALL } else { UNREACHED };

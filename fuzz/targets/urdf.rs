@@ -27,7 +27,7 @@ fuzz_target!(|bytes: &[u8]| {
                 assert!(!part.shape.core().is_empty() && part.shape.radius().is_finite());
                 assert!(part.shape.core().iter().all(|p| p.x.is_finite() && p.y.is_finite()));
             }
-            let _ = loaded.scene.clearance(loaded.scene.arm().topology().axes.map(|a| a.domain().0).into());
+            let _ = loaded.scene.clearance(loaded.scene.arm().topology().ranges.map(|a| a.domain().0).into());
         }
         Err(error) => assert!(!error.to_string().is_empty()),
     }

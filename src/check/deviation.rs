@@ -9,7 +9,7 @@
 //! slides along an obstacle, which shortest paths do; that one is the third bound, and the best one far away.
 
 use crate::geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, separation};
-use crate::model::{Arm, Motion, Pair, Scene};
+use crate::model::{Arm, JointType, Pair, Scene};
 use crate::space::Configuration;
 
 /// Rounding errors of one evaluation stay far below this share of the lengths involved (a few dozen operations at
@@ -166,25 +166,25 @@ impl<'a> Posture<'a> {
     /// Rate along `n`, for each joint, of the point of link `link` that is at `x` now.
     fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
-        let first = match arm.joints[0].motion {
-            Motion::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
-            Motion::Prismatic { direction } => n.dot(&direction),
+        let first = match arm.joints[0].joint_type {
+            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - arm.base)),
+            JointType::Prismatic { direction } => n.dot(&direction),
         };
-        let second = match arm.joints[1].motion {
+        let second = match arm.joints[1].joint_type {
             _ if link == 0 => 0.0,
-            Motion::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbow)),
-            Motion::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
+            JointType::Revolute { sign } => sign * n.dot(&perpendicular(x - self.elbow)),
+            JointType::Prismatic { direction } => n.dot(&(self.poses[0].rotation * direction)),
         };
         [first, second]
     }
 
     /// Bound on `|x''|` of the link's point `a` (link frame) in the plane, per squared parameter of the deviation.
     pub(crate) fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
-        use Motion::{Prismatic, Revolute};
+        use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
         let turn = turn_of_link_2(arm, deviation);
-        match (link, arm.joints[0].motion, arm.joints[1].motion) {
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => a.coords.norm() * d1 * d1,
             (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 * d1 + a.coords.norm() * turn * turn,
             (_, Revolute { .. }, Prismatic { direction }) => {
@@ -198,12 +198,12 @@ impl<'a> Posture<'a> {
 
     /// Bound on `|y''|` of the plane's point `p` seen from the link, per squared parameter of the deviation.
     pub(crate) fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
-        use Motion::{Prismatic, Revolute};
+        use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
         let turn = turn_of_link_2(arm, deviation);
         let from_base = (p - arm.base).norm();
-        match (link, arm.joints[0].motion, arm.joints[1].motion) {
+        match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => from_base * d1 * d1,
             // y = R(-phi) (p - base) - R(-q2) offset
             (_, Revolute { .. }, Revolute { .. }) => from_base * turn * turn + arm.offset.norm() * d2 * d2,
@@ -214,11 +214,11 @@ impl<'a> Posture<'a> {
 
     /// Bound on how far any point of the pair's link part moves.
     pub(crate) fn farthest_motion(&self, pair: Pair, deviation: Deviation) -> f64 {
-        use Motion::{Prismatic, Revolute};
+        use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let reach = self.scene.part(pair).reach_from(Point::origin());
         let [d1, d2] = deviation.each();
-        match (pair.link, arm.joints[0].motion, arm.joints[1].motion) {
+        match (pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,
             (0, Prismatic { .. }, _) => d1,
             (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),
@@ -245,9 +245,9 @@ fn disc(shape: &Convex) -> (Point, f64) {
 
 /// Greatest turn of link 2 against the plane when both joints turn.
 fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
-    let sign = |k: usize| match arm.joints[k].motion {
-        Motion::Revolute { sign } => sign,
-        Motion::Prismatic { .. } => 0.0,
+    let sign = |k: usize| match arm.joints[k].joint_type {
+        JointType::Revolute { sign } => sign,
+        JointType::Prismatic { .. } => 0.0,
     };
     deviation.linear([sign(0), sign(1)])
 }

@@ -1,8 +1,8 @@
 //! Whether a recorded motion keeps the joints' limits, between its samples too.
 
-use super::passage::Moment;
+use super::collision::Moment;
 use crate::model::Joint;
-use crate::space::{Axis, Configuration, Derivative, Piece, Recording};
+use crate::space::{Configuration, Derivative, JointRange, Piece, Recording};
 
 /// Share of a limit by which it may be exceeded: programs that plan up to a limit exceed it by what their arithmetic
 /// and six printed digits make of it, and no drive tells the two apart.
@@ -142,7 +142,7 @@ impl<'a> Judge<'a> {
     }
 
     fn positions(&mut self) {
-        let Axis::Interval { lower, upper } = self.joint.axis else { return };
+        let JointRange::Interval { lower, upper } = self.joint.range else { return };
         for (index, piece) in self.pieces.iter().enumerate() {
             let may = self.precision.position
                 + (piece.to - piece.from) * self.precision.velocity

@@ -7,7 +7,7 @@
 //!   [`CertifiedPath`]; [`blend`] cuts its corners by parabolas, each as large as is certified within the clearance: a
 //!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
 //! - [`recheck()`] judges a proof that there is no path: it joins what the stuck boxes leave by petgraph's union-find.
-//! - [`passage()`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
+//! - [`collision_check()`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
 //!   it leads from start to goal.
 //! - [`replay()`] does a recorded task again: it puts the recorded steps beside the task's (`order`), follows where the
 //!   objects are and what is carried from the recorded configurations (`state`), and judges each motion in the scene of
@@ -23,7 +23,7 @@ mod deviation;
 mod ends;
 mod limits;
 mod motion;
-mod passage;
+mod collision;
 mod proof;
 mod replay;
 mod vicinity;
@@ -32,13 +32,13 @@ mod wrist;
 pub use blends::{CertifiedCurve, blend};
 pub use cell::Cell;
 pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
+pub use collision::{CollisionCheck, Encounter, Moment, check_collision};
 pub(crate) use deviation::STUCK_ROUNDING;
 pub use deviation::{Bounded, Deviation, Posture};
 pub use ends::{ENDS_WITHIN, Miss, ends_kept};
 pub use limits::{Excess, Limit, limits_kept};
 pub use motion::{CertifiedPath, Nearest, Rejection, certify};
-pub use passage::{Encounter, Moment, Passage, passage};
-pub use proof::{CheckedProof, Disconnection, ProofBox, ProofDefect, ProofFormatError, StuckBox, read_proof};
+pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
 pub use replay::{Departure, Fault, Happening, Replay, ReplayedStep, ReplayedTurn, replay};
 pub(crate) use vicinity::Vicinity;
 pub use wrist::{TurnContact, WristTurn, given_turn, wrist_turn};

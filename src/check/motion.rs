@@ -1,8 +1,8 @@
 //! Continuous collision check of a path.
 
 use super::blends::CertifiedCurve;
+use super::collision::along;
 use super::deviation::{Deviation, Posture};
-use super::passage::along;
 use super::vicinity::Vicinity;
 use crate::interrupt::checkpoint;
 use crate::model::{Contact, Pair, Scene};
@@ -97,7 +97,7 @@ pub enum Rejection {
 pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
     let topology = scene.arm().topology();
     for (waypoint, q) in path.waypoints().iter().enumerate() {
-        if let Some(joint) = (0..2).find(|&k| !topology.axes[k].contains(q[k])) {
+        if let Some(joint) = (0..2).find(|&k| !topology.ranges[k].contains(q[k])) {
             return Err(Rejection::OutOfLimits { waypoint, joint });
         }
     }

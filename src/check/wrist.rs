@@ -2,7 +2,7 @@
 
 use crate::geometry::{Features, Hits, Point, ROUNDING, Vector, turning_from};
 use crate::model::{Arm, Payload, Workspace};
-use crate::space::{Axis, Configuration};
+use crate::space::{Configuration, JointRange};
 use nalgebra::Translation2;
 use std::f64::consts::TAU;
 
@@ -46,7 +46,7 @@ pub fn wrist_turn(
     q: Configuration,
     [from, to]: [f64; 2],
 ) -> Option<WristTurn> {
-    let way = Axis::Circle.displacement(from, to);
+    let way = JointRange::Circle.displacement(from, to);
     let ahead = if way < 0.0 { way + TAU } else { way };
     let mut ways = [from + ahead, from + ahead - TAU];
     if ahead > TAU / 2.0 {
@@ -107,7 +107,7 @@ impl Turning {
     fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
         // The same turn from the copy nearest to zero: contacts are known there, and shifted by turns of a double they would
         // be off by more than the margin.
-        let near = Axis::Circle.wrap(from);
+        let near = JointRange::Circle.wrap(from);
         match self.judge_near([near, near + (to - from)]) {
             Ok(free) => Ok(WristTurn { from, to, ..free }),
             Err(contact) => {

@@ -122,7 +122,7 @@ pub struct QueryArgs {
     /// Goal configuration instead of the world's.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "goal_tip")]
     pub goal: Option<JointValues>,
-    /// Goal position of the tip instead of the world's goal, metres: any posture that reaches it.
+    /// Goal position of the tip instead of the world's goal, metres: any IK solution that reaches it.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.

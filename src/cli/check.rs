@@ -108,7 +108,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
 
 fn findings(scene: &Scene, q: Configuration) -> Findings {
     let topology = scene.arm().topology();
-    let within_limits = [0, 1].map(|k| topology.axes[k].contains(q[k]));
+    let within_limits = [0, 1].map(|k| topology.ranges[k].contains(q[k]));
     let required = scene.workspace().clearance;
     let contacts: Vec<PairFinding> = scene.separations(q).filter_map(|contact| finding(scene, q, contact)).collect();
     let free = within_limits == [true, true] && contacts.is_empty();

@@ -1,10 +1,10 @@
 //! Errors for scripts: with `--json` they are JSON on stdout, too.
 
 use super::failure::Failure;
-use crate::input::{Defect, DefectKind};
+use crate::input::{Diagnostic, DiagnosticKind};
 use serde::Serialize;
 
-/// An error as an object. `file` to `cure` are those of the first defect; `defects` has all.
+/// An error as an object. `file` to `help` are those of the first diagnostic; `diagnostics` has all.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
     /// Always `error`, so that scripts tell it from a result.
@@ -12,37 +12,43 @@ pub struct ErrorJson {
     /// `usage` for a wrong command line, `start` or `goal` for one that is missing, out of range or not free, else `input`.
     kind: &'static str,
     #[serde(flatten)]
-    first: DefectJson,
+    first: DiagnosticJson,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    defects: Vec<DefectJson>,
+    #[serde(rename = "defects")]
+    diagnostics: Vec<DiagnosticJson>,
 }
 
 /// One thing that is wrong.
 #[derive(Debug, Serialize)]
-struct DefectJson {
+struct DiagnosticJson {
     /// None if it is in an option.
     file: Option<String>,
     line: Option<usize>,
     column: Option<usize>,
     message: String,
-    cure: Option<String>,
+    #[serde(rename = "cure")]
+    help: Option<String>,
 }
 
-impl DefectJson {
-    fn plain(message: String, cure: Option<String>) -> Self {
-        Self { file: None, line: None, column: None, message, cure }
+impl DiagnosticJson {
+    fn plain(message: String, help: Option<String>) -> Self {
+        Self { file: None, line: None, column: None, message, help }
     }
 }
 
-impl From<&Defect> for DefectJson {
-    fn from(defect: &Defect) -> Self {
-        let is_option = defect.origin.starts_with('-');
+impl From<&Diagnostic> for DiagnosticJson {
+    fn from(diagnostic: &Diagnostic) -> Self {
+        let is_option = diagnostic.origin.starts_with('-');
         Self {
-            file: (!is_option).then(|| defect.origin.clone()),
-            line: defect.position.map(|p| p.line),
-            column: defect.position.map(|p| p.column),
-            message: if is_option { format!("{}: {}", defect.origin, defect.message) } else { defect.message.clone() },
-            cure: defect.cure.clone(),
+            file: (!is_option).then(|| diagnostic.origin.clone()),
+            line: diagnostic.position.map(|p| p.line),
+            column: diagnostic.position.map(|p| p.column),
+            message: if is_option {
+                format!("{}: {}", diagnostic.origin, diagnostic.message)
+            } else {
+                diagnostic.message.clone()
+            },
+            help: diagnostic.help.clone(),
         }
     }
 }
@@ -50,19 +56,21 @@ impl From<&Defect> for DefectJson {
 impl ErrorJson {
     /// What ended a job.
     pub fn of_failure(failure: &Failure) -> Self {
-        let defects = match failure {
-            Failure::Input(error) => error.defects(),
+        let diagnostics = match failure {
+            Failure::Input(error) => error.diagnostics(),
             _ => &[],
         };
-        let kind = match (failure, defects.first().map(|defect| defect.kind)) {
+        let kind = match (failure, diagnostics.first().map(|diagnostic| diagnostic.kind)) {
             (Failure::Usage(_), _) => "usage",
-            (_, Some(DefectKind::Start)) => "start",
-            (_, Some(DefectKind::Goal)) => "goal",
+            (_, Some(DiagnosticKind::Start)) => "start",
+            (_, Some(DiagnosticKind::Goal)) => "goal",
             _ => "input",
         };
-        let first = defects.first().map_or_else(|| DefectJson::plain(failure.to_string(), None), DefectJson::from);
-        let defects = if defects.len() > 1 { defects.iter().map(DefectJson::from).collect() } else { Vec::new() };
-        Self { status: "error", kind, first, defects }
+        let first =
+            diagnostics.first().map_or_else(|| DiagnosticJson::plain(failure.to_string(), None), DiagnosticJson::from);
+        let diagnostics =
+            if diagnostics.len() > 1 { diagnostics.iter().map(DiagnosticJson::from).collect() } else { Vec::new() };
+        Self { status: "error", kind, first, diagnostics }
     }
 
     /// A command line that cannot be read.
@@ -72,8 +80,8 @@ impl ErrorJson {
             |mark: &str| text.lines().find_map(|line| Some(line.trim().strip_prefix(mark)?.trim().to_owned()));
         let message: Vec<&str> = text.lines().take_while(|line| !line.trim().is_empty()).map(str::trim).collect();
         let message = message.join(" ").trim_start_matches("error:").trim().to_owned();
-        let cure = line_after("tip:").or_else(|| line_after("Usage:").map(|usage| format!("usage: {usage}")));
-        Self { status: "error", kind: "usage", first: DefectJson::plain(message, cure), defects: Vec::new() }
+        let help = line_after("tip:").or_else(|| line_after("Usage:").map(|usage| format!("usage: {usage}")));
+        Self { status: "error", kind: "usage", first: DiagnosticJson::plain(message, help), diagnostics: Vec::new() }
     }
 
     /// A JSON document and a line feed.

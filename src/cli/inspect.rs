@@ -5,8 +5,8 @@ use super::args::InspectArgs;
 use super::failure::Failure;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
-use crate::draw::{AxesFrame, Posture};
-use crate::input::{self, Defect, Inspection};
+use crate::draw::{ArmPicture, AxesFrame};
+use crate::input::{self, Diagnostic, Inspection};
 use crate::space::Configuration;
 use serde::Serialize;
 
@@ -18,36 +18,38 @@ struct Json<'a> {
     #[serde(flatten)]
     inspection: &'a Inspection,
     /// All that prevents planning.
-    defects: Vec<DefectEntry<'a>>,
+    #[serde(rename = "defects")]
+    diagnostics: Vec<DiagnosticEntry<'a>>,
 }
 
 #[derive(Serialize)]
-struct DefectEntry<'a> {
+struct DiagnosticEntry<'a> {
     origin: &'a str,
     line: Option<usize>,
     column: Option<usize>,
     message: &'a str,
-    cure: Option<&'a str>,
+    #[serde(rename = "cure")]
+    help: Option<&'a str>,
 }
 
 /// Reports on stdout.
 ///
 /// # Errors
-/// I/O; and, after the report, the first defect of a robot that cannot be planned with.
+/// I/O; and, after the report, the first diagnostic of a robot that cannot be planned with.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let inspection = input::inspect(&args.urdf, args.world.as_deref());
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
-        match posture(&inspection) {
-            Some(posture) => sinks::save_picture(*format, path, &posture)?,
+        match arm_picture(&inspection) {
+            Some(arm_picture) => sinks::save_picture(*format, path, &arm_picture)?,
             None => sinks::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
         }
     }
     if args.json {
-        let defects = inspection.errors.iter().flat_map(|e| e.defects()).map(entry).collect();
-        let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, defects };
+        let diagnostics = inspection.errors.iter().flat_map(|e| e.diagnostics()).map(entry).collect();
+        let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, diagnostics };
         let json = serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))?;
         sinks::print_json(&(json + "\n"))?;
     } else {
@@ -60,25 +62,25 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
 }
 
-fn entry(defect: &Defect) -> DefectEntry<'_> {
-    DefectEntry {
-        origin: &defect.origin,
-        line: defect.position.map(|p| p.line),
-        column: defect.position.map(|p| p.column),
-        message: &defect.message,
-        cure: defect.cure.as_deref(),
+fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {
+    DiagnosticEntry {
+        origin: &diagnostic.origin,
+        line: diagnostic.position.map(|p| p.line),
+        column: diagnostic.position.map(|p| p.column),
+        message: &diagnostic.message,
+        help: diagnostic.help.as_deref(),
     }
 }
 
 /// The arm at zero, if there is one.
-fn posture(inspection: &Inspection) -> Option<Posture<'_>> {
+fn arm_picture(inspection: &Inspection) -> Option<ArmPicture<'_>> {
     let scene = inspection.scene.as_ref()?;
     let arm = scene.arm();
     let [first, second] = &arm.joints;
     let outlines: Vec<String> = inspection.outlines.iter().map(|o| format!("{}: {}", o.link, o.source)).collect();
     let outlines = if outlines.is_empty() { "none".into() } else { outlines.join(", ") };
     let frames = &inspection.frames;
-    Some(Posture {
+    Some(ArmPicture {
         title: vec![arm.name.clone(), format!("{} and {} at zero; outlines: {outlines}", first.name, second.name)],
         status: if inspection.is_plannable() { "can be planned with".into() } else { "cannot be planned with".into() },
         scene,

@@ -58,14 +58,14 @@ pub fn text(report: &Inspection) -> String {
     }
     report.ignored.iter().for_each(|i| lines.add("ignored", i));
     report.warnings.iter().for_each(|w| lines.add("warning", w));
-    for defect in report.errors.iter().flat_map(|e| e.defects()) {
-        lines.add("defect", &defect.to_string());
+    for diagnostic in report.errors.iter().flat_map(|e| e.diagnostics()) {
+        lines.add("defect", &diagnostic.to_string());
     }
-    if let Some(remedy) = &report.remedy {
+    if let Some(help) = &report.help {
         lines.add("remedy", "with these entries in the world file the robot loads; the numbers are placeholders:");
-        lines.add("remedy", &format!("[robot]\n{remedy}"));
+        lines.add("remedy", &format!("[robot]\n{help}"));
     }
-    let count: usize = report.errors.iter().map(|e| e.defects().len()).sum();
+    let count: usize = report.errors.iter().map(|e| e.diagnostics().len()).sum();
     lines.add(
         "result",
         &match count {

@@ -19,7 +19,7 @@ impl ValueEnum for Method {
                 "The first certified path that is found, or a proof that there is none: the quickest answer"
             }
             Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
-            Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and a taut string through it",
+            Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and the funnel path through it",
             Method::Wavefront => "Manhattan wavefront on a grid",
             Method::Harmonic => "Harmonic potential on a grid",
             Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",

@@ -20,7 +20,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let problem = &loaded.problem;
     let proof = claim
         .checked(problem.scene(), problem.start(), problem.goals(), problem.scene().workspace().clearance)
-        .map_err(|defect| failed(format!("the proof does not hold: {defect}")))?;
+        .map_err(|error| failed(format!("the proof does not hold: {error}")))?;
     sinks::print(&format!(
         "the proof holds: {} boxes of collisions separate the start from every goal\n",
         proof.stuck().len()

@@ -1,8 +1,8 @@
 //! A configuration space as bits.
 
-use super::rows::Rows;
+use super::slices::Slices;
 use crate::model::{Scene, on_axis};
-use crate::space::Axis;
+use crate::space::JointRange;
 use std::ops::Range;
 
 /// Cells as in [`super::Grid`], one bit each: set where the cell's *centre* comes within the clearance of an obstacle.
@@ -52,28 +52,28 @@ impl Bitmap {
     }
 }
 
-/// The bitmap of a scene: [`super::grid_from_rows`] in an eighth of the memory. Pair by pair, only in the rows where link
-/// 2 reaches the piece at all. `O(reached rows * contacts + cells / 64)`.
+/// The bitmap of a scene: [`super::grid_from_slices`] in an eighth of the memory. Pair by pair, only in the rows where link
+/// 2 reaches the piece at all. `O(reached slices * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
-    let rows = Rows::new(scene);
-    let axes: [Axis; 2] = scene.arm().topology().axes;
+    let slices = Slices::new(scene);
+    let axes: [JointRange; 2] = scene.arm().topology().ranges;
     let words = cells[1].div_ceil(WORD);
     let mut bits = vec![0_u64; words * cells[0]];
     let [lines, columns] = [0, 1].map(|k| Centers::new(axes[k], cells[k]));
 
-    let banned = rows.bands(clearance).merged;
+    let banned = slices.bands(clearance).merged;
     let banned: Vec<Range<usize>> = banned.into_iter().map(|band| lines.within(band)).collect();
     for band in &banned {
         for i in band.clone() {
             fill(&mut bits[i * words..(i + 1) * words], 0, cells[1]);
         }
     }
-    let elbows: Vec<_> = (0..cells[0]).map(|i| rows.elbow(lines.at(i))).collect();
+    let elbows: Vec<_> = (0..cells[0]).map(|i| slices.elbow(lines.at(i))).collect();
     let (mut reached, mut intervals) = (Vec::new(), Vec::new());
-    for index in rows.second_link_pairs() {
+    for index in slices.second_link_pairs() {
         reached.clear();
-        let hits = rows.reach_range(index, clearance, &mut reached);
+        let hits = slices.reach_range(index, clearance, &mut reached);
         on_axis(&scene.arm().joints[0], hits, &reached, |range| {
             // One row more at either end, for the rounding of the range.
             let range = lines.within(range);
@@ -82,7 +82,7 @@ pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
                 let (elbow, heading) = elbows[i];
                 let row = &mut bits[i * words..(i + 1) * words];
                 intervals.clear();
-                let hits = rows.at_elbow(index, elbow, heading, clearance, &mut intervals);
+                let hits = slices.at_elbow(index, elbow, heading, clearance, &mut intervals);
                 on_axis(&scene.arm().joints[1], hits, &intervals, |blocked| {
                     let blocked = columns.within(blocked);
                     fill(row, blocked.start, blocked.end);
@@ -102,9 +102,9 @@ struct Centers {
 }
 
 impl Centers {
-    fn new(axis: Axis, count: usize) -> Self {
-        let step = axis.extent() / count as f64;
-        Self { lower: axis.domain().0, step, per_cell: 1.0 / step, count }
+    fn new(range: JointRange, count: usize) -> Self {
+        let step = range.extent() / count as f64;
+        Self { lower: range.domain().0, step, per_cell: 1.0 / step, count }
     }
 
     fn at(&self, i: usize) -> f64 {

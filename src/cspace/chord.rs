@@ -1,7 +1,7 @@
 //! Proof that a straight motion between two configurations keeps a link part away from an obstacle piece.
 
 use crate::geometry::{Convex, Pose, Separation, Vector, separation};
-use crate::model::{Arm, Motion};
+use crate::model::{Arm, JointType};
 use crate::space::Configuration;
 use std::f64::consts::TAU;
 
@@ -62,10 +62,10 @@ impl<'a> PairMotion<'a> {
     /// For a turning joint 1 as seen from link 1: the piece turns about the base. When joint 2 turns too, link 2 does so
     /// within a fixed distance from the base, and the lesser of both counts.
     pub fn speed(&self) -> f64 {
-        match (self.arm.joints[0].motion, self.arm.joints[1].motion) {
-            (Motion::Prismatic { .. }, _) => 1.0,
-            (Motion::Revolute { .. }, Motion::Prismatic { .. }) => self.piece_reach,
-            (Motion::Revolute { .. }, Motion::Revolute { .. }) => {
+        match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
+            (JointType::Prismatic { .. }, _) => 1.0,
+            (JointType::Revolute { .. }, JointType::Prismatic { .. }) => self.piece_reach,
+            (JointType::Revolute { .. }, JointType::Revolute { .. }) => {
                 self.piece_reach.min(self.arm.offset.norm() + self.part_reach)
             }
         }
@@ -115,23 +115,23 @@ impl<'a> PairMotion<'a> {
     pub fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let d = to - from;
         let (offset, part, piece) = (self.arm.offset, self.part_reach, self.piece_reach);
-        match (self.arm.joints[0].motion, self.arm.joints[1].motion) {
-            (Motion::Revolute { sign: s1 }, Motion::Revolute { sign: s2 }) => {
+        match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
+            (JointType::Revolute { sign: s1 }, JointType::Revolute { sign: s2 }) => {
                 let turn2 = (s1 * d[0] + s2 * d[1]).powi(2);
                 let offset = offset.norm();
                 [offset * d[0] * d[0] + part * turn2, piece * turn2 + offset * d[1] * d[1]]
             }
-            (Motion::Prismatic { direction }, Motion::Revolute { .. }) => {
+            (JointType::Prismatic { direction }, JointType::Revolute { .. }) => {
                 let elbow = |q1: f64| (offset + q1 * direction).norm();
                 let arm = piece + elbow(from[0]).max(elbow(to[0]));
                 [part * d[1] * d[1], arm * d[1] * d[1] + 2.0 * (d[0] * d[1]).abs()]
             }
-            (Motion::Revolute { .. }, Motion::Prismatic { direction }) => {
+            (JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
                 let origin = |q2: f64| (offset + q2 * direction).norm();
                 let arm = part + origin(from[1]).max(origin(to[1]));
                 [arm * d[0] * d[0] + 2.0 * (d[0] * d[1]).abs(), piece * d[0] * d[0]]
             }
-            (Motion::Prismatic { .. }, Motion::Prismatic { .. }) => [0.0, 0.0],
+            (JointType::Prismatic { .. }, JointType::Prismatic { .. }) => [0.0, 0.0],
         }
     }
 }

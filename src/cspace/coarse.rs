@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// A scene whose shapes hold those of the given one and reach no farther than `within` metres beyond them, all in all; parts
 /// and pieces that have few corners are the same. Of obstacles with many pieces those may be left out that the arm keeps
-/// farther than `near` from in all postures. `O(n log n)`.
+/// farther than `near` from in all configurations. `O(n log n)`.
 ///
 /// What is free among coarse shapes is free among the true ones.
 pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
@@ -66,7 +66,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
 
 /// How far from the base anything of the arm gets, where that is plain: both joints turn and nothing is carried level.
 fn reach(scene: &Scene) -> Option<f64> {
-    let turns = scene.arm().joints.iter().all(|joint| joint.motion.is_revolute());
+    let turns = scene.arm().joints.iter().all(|joint| joint.joint_type.is_revolute());
     (turns && scene.payload().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
 }
 

@@ -1,9 +1,9 @@
-//! C-obstacles of link 2 where it turns, or is turned: the exact rows of a pair, flattened with proof.
+//! C-obstacles of link 2 where it turns, or is turned: the exact slices of a pair, flattened with proof.
 
 use super::chord::{Contact, PairMotion};
 use super::events::events;
 use super::outline::{Break, Flattening, Source, contours};
-use super::rows::Rows;
+use super::slices::Slices;
 use crate::geometry::{Hits, Point};
 use crate::space::Configuration;
 use std::f64::consts::{PI, TAU};
@@ -11,22 +11,22 @@ use std::f64::consts::{PI, TAU};
 /// Share of the tolerance that chords leave unused, so that strict inequalities survive rounding.
 const SPARE: f64 = 1.0 / 16.0;
 
-/// Rows to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse rows could
+/// Slices to begin with over a turn or a range of `q1`. Only shape and speed depend on it: what coarse slices could
 /// overlook is found by [`events`].
-const FIRST_ROWS: usize = 24;
+const FIRST_SLICES: usize = 24;
 
 /// Overlap of neighbouring contours, relative to the width of the narrowest strip: far above the rounding of the union
 /// and far below the tolerance.
 const OVERLAP: f64 = 1e-3;
 
-/// The rows of one pair of link 2, and what chords between them must keep.
+/// The slices of one pair of link 2, and what chords between them must keep.
 pub(super) struct Curves<'a> {
-    rows: &'a Rows<'a>,
+    slices: &'a Slices<'a>,
     index: usize,
     motion: PairMotion<'a>,
     /// Distance that chords must keep, at the least.
     floor: f64,
-    /// Distance on the boundary of the rows.
+    /// Distance on the boundary of the slices.
     level: f64,
     /// Distance that the middle of a chord may have, at the most.
     ceiling: f64,
@@ -35,48 +35,48 @@ pub(super) struct Curves<'a> {
 
 impl<'a> Curves<'a> {
     /// Pair `index` of the scene, to be covered where it is within `level`; see [`super::c_obstacles`].
-    pub fn new(rows: &'a Rows<'a>, index: usize, level: f64, tolerance: f64) -> Self {
-        let scene = rows.scene();
+    pub fn new(slices: &'a Slices<'a>, index: usize, level: f64, tolerance: f64) -> Self {
+        let scene = slices.scene();
         let pair = scene.pairs()[index];
         let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
         // Over half of this no distance changes by more than the tolerance.
         let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
         let (floor, ceiling) = (level + SPARE * tolerance, level + 2.0 * tolerance);
-        Self { rows, index, motion, floor, level: level + tolerance, ceiling, min_width }
+        Self { slices, index, motion, floor, level: level + tolerance, ceiling, min_width }
     }
 
     /// Contours that cover the pair's C-obstacle.
     pub fn contours(&self) -> Vec<Vec<Point>> {
-        if self.rows.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
+        if self.slices.reach_range(self.index, self.level, &mut Vec::new()) == Hits::Never {
             return Vec::new();
         }
-        let turning = self.rows.scene().arm().joints[1].motion.is_revolute();
+        let turning = self.slices.scene().arm().joints[1].joint_type.is_revolute();
         let overlap = OVERLAP * self.min_width;
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
-    /// Rows to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
+    /// Slices to begin with, in order: some all over the range of `q1`, and those where the pair begins or ceases to be at
     /// the floor, which are kept, or at the level. Of two no farther apart than contours overlap one does.
     fn breaks(&self) -> Vec<Break> {
-        let scene = self.rows.scene();
+        let scene = self.slices.scene();
         let pair = scene.pairs()[self.index];
         let arm = scene.arm();
         let levels = [(self.floor, true), (self.level, false)];
         let joint = &arm.joints[0];
-        let (start, end) = if joint.motion.is_revolute() {
-            let start = seam(self.rows, self.index, self.level);
+        let (start, end) = if joint.joint_type.is_revolute() {
+            let start = seam(self.slices, self.index, self.level);
             (start, start + TAU)
         } else {
-            joint.axis.domain()
+            joint.range.domain()
         };
-        let step = (end - start) / FIRST_ROWS as f64;
-        let mut breaks: Vec<Break> = (0..FIRST_ROWS)
+        let step = (end - start) / FIRST_SLICES as f64;
+        let mut breaks: Vec<Break> = (0..FIRST_SLICES)
             .map(|i| Break { q1: start + step * i as f64, keep: false })
             .chain([Break { q1: end, keep: false }])
             .collect();
         for (level, keep) in levels {
             for q1 in events(arm, scene.part(pair), scene.piece(pair), level) {
-                let q1 = if joint.motion.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
+                let q1 = if joint.joint_type.is_revolute() { start + (q1 - start).rem_euclid(TAU) } else { q1 };
                 if start <= q1 && q1 <= end {
                     breaks.push(Break { q1, keep });
                 }
@@ -92,12 +92,12 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first rows.
-fn seam(rows: &Rows, index: usize, level: f64) -> f64 {
+/// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first slices.
+fn seam(slices: &Slices, index: usize, level: f64) -> f64 {
     let mut intervals = Vec::new();
-    (0..FIRST_ROWS)
-        .map(|i| -PI + TAU / FIRST_ROWS as f64 * i as f64)
-        .find(|&q1| rows.second_link(index, q1, level, &mut intervals) == Hits::Never)
+    (0..FIRST_SLICES)
+        .map(|i| -PI + TAU / FIRST_SLICES as f64 * i as f64)
+        .find(|&q1| slices.second_link(index, q1, level, &mut intervals) == Hits::Never)
         .unwrap_or(-PI)
 }
 
@@ -105,7 +105,7 @@ impl Source for &Curves<'_> {
     type End = Contact;
 
     fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>) {
-        if self.rows.second_link(self.index, q1, self.level, out) == Hits::Always {
+        if self.slices.second_link(self.index, q1, self.level, out) == Hits::Always {
             out.push([-PI, PI]);
         }
     }

@@ -1,13 +1,13 @@
-//! Where the rows of a C-obstacle can change their structure: closed form.
+//! Where the slices of a C-obstacle can change their structure: closed form.
 
 use crate::geometry::{Convex, Point, Vector, cross, perpendicular, separation};
 use crate::interrupt::checkpoint;
-use crate::model::{Arm, Motion};
+use crate::model::{Arm, JointType};
 use crate::space::Configuration;
 use std::f64::consts::TAU;
 
 /// Slack, metres, in deciding whether a foot of a perpendicular lies on a side and whether a distance is the level. It
-/// can only add values that are no events, which cost a row each; leaving one out would cost the guarantee.
+/// can only add values that are no events, which cost a slice each; leaving one out would cost the guarantee.
 const SLACK: f64 = 1e-7;
 
 /// Values of `q1` among which is every one where an interval of `q2` within which `part` (of link 2, in its frame) and
@@ -20,16 +20,16 @@ const SLACK: f64 = 1e-7;
 /// are one equation in `q1` for each pair of features. Needs `level` plus both radii to be positive. `O(n m)`.
 pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Vec<f64> {
     let radius = level + part.radius() + piece.radius();
-    match arm.joints[1].motion {
-        Motion::Revolute { sign } => Turning { arm, sign, part, piece, level, radius, found: Vec::new() }.solve(),
-        Motion::Prismatic { direction } => sliding(arm, direction, part, piece, radius),
+    match arm.joints[1].joint_type {
+        JointType::Revolute { sign } => Turning { arm, sign, part, piece, level, radius, found: Vec::new() }.solve(),
+        JointType::Prismatic { direction } => sliding(arm, direction, part, piece, radius),
     }
 }
 
 /// Joint 2 slides: the piece passes the part sideways by exactly `radius`.
 fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
-    // Parallel slides keep the distance across them; others need no rows.
-    let Motion::Revolute { sign } = arm.joints[0].motion else { return Vec::new() };
+    // Parallel slides keep the distance across them; others need no slices.
+    let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
     // The part keeps its extent across the direction; that of the piece turns with joint 1.
     let track = part.core().iter().map(|a| cross(direction, arm.offset + a.coords));
     let (low, high) = extent(track);
@@ -131,9 +131,9 @@ impl Turning<'_> {
     fn consider(&mut self, q1: f64, heading: Vector, feature: &Radial) {
         if let (Some(at), true) = (feature.heading, heading.norm() > SLACK) {
             let turn = heading.y.atan2(heading.x) - at.y.atan2(at.x);
-            let first = match self.arm.joints[0].motion {
-                Motion::Revolute { sign } => sign * q1,
-                Motion::Prismatic { .. } => 0.0,
+            let first = match self.arm.joints[0].joint_type {
+                JointType::Revolute { sign } => sign * q1,
+                JointType::Prismatic { .. } => 0.0,
             };
             let pose = self.arm.pose(1, Configuration::new(q1, self.sign * (turn - first)));
             if separation(&self.part.at(&pose), self.piece).distance < self.level - SLACK {
@@ -146,11 +146,11 @@ impl Turning<'_> {
     /// Where the elbow crosses the line `normal . x = offset`.
     fn elbow_on_line(&self, normal: Vector, offset: f64) -> Vec<f64> {
         let arm = self.arm;
-        match arm.joints[0].motion {
-            Motion::Revolute { sign } => {
+        match arm.joints[0].joint_type {
+            JointType::Revolute { sign } => {
                 turns_to(arm.offset, normal, offset - normal.dot(&arm.base.coords)).map(|theta| sign * theta).to_vec()
             }
-            Motion::Prismatic { direction } => {
+            JointType::Prismatic { direction } => {
                 let speed = normal.dot(&direction);
                 let gap = offset - normal.dot(&(arm.base.coords + arm.offset));
                 if speed == 0.0 { Vec::new() } else { vec![gap / speed] }
@@ -164,13 +164,13 @@ impl Turning<'_> {
     /// Where the elbow is `distance` from `p`.
     fn elbow_on_circle(&self, p: Point, distance: f64) -> Vec<f64> {
         let arm = self.arm;
-        match arm.joints[0].motion {
-            Motion::Revolute { sign } => {
+        match arm.joints[0].joint_type {
+            JointType::Revolute { sign } => {
                 let to = p - arm.base;
                 let dot = (arm.offset.norm_squared() + to.norm_squared() - distance * distance) / 2.0;
                 turns_to(arm.offset, to, dot).map(|theta| sign * theta).to_vec()
             }
-            Motion::Prismatic { direction } => {
+            JointType::Prismatic { direction } => {
                 let to = p - (arm.base + arm.offset);
                 let (along, across) = (direction.dot(&to), cross(direction, to));
                 let half = (distance * distance - across * across).sqrt();
@@ -232,7 +232,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Hits, hull, sliding as slid, turning};
     use crate::model::{Joint, Link, OutlineSource, Plane};
-    use crate::space::Axis;
+    use crate::space::JointRange;
     use nalgebra::{Translation2, Vector3};
     use proptest::prelude::*;
 
@@ -259,15 +259,15 @@ mod tests {
         }
     }
 
-    fn motion() -> impl Strategy<Value = Motion> {
-        let slide = (0.0..TAU).prop_map(|t: f64| Motion::Prismatic { direction: Vector::new(t.cos(), t.sin()) });
-        prop_oneof![prop_oneof![Just(1.0), Just(-1.0)].prop_map(|sign| Motion::Revolute { sign }), slide]
+    fn motion() -> impl Strategy<Value = JointType> {
+        let slide = (0.0..TAU).prop_map(|t: f64| JointType::Prismatic { direction: Vector::new(t.cos(), t.sin()) });
+        prop_oneof![prop_oneof![Just(1.0), Just(-1.0)].prop_map(|sign| JointType::Revolute { sign }), slide]
     }
 
     proptest! {
         #![proptest_config(crate::random::cases(48))]
 
-        /// Between two near rows without an event, no interval appears away from all others.
+        /// Between two near slices without an event, no interval appears away from all others.
         #[test]
         fn no_interval_appears_without_an_event(
             motions in [motion(), motion()],
@@ -278,10 +278,10 @@ mod tests {
             prop_assume!(motions.iter().any(|m| m.is_revolute()));
             const STEP: f64 = 0.004;
             const NEAR: f64 = 0.05;
-            let joint = |motion: Motion| Joint {
+            let joint = |motion: JointType| Joint {
                 name: "joint".into(),
-                motion,
-                axis: if motion.is_revolute() { Axis::Circle } else { Axis::Interval { lower: -3.0, upper: 3.0 } },
+                joint_type: motion,
+                range: if motion.is_revolute() { JointRange::Circle } else { JointRange::Interval { lower: -3.0, upper: 3.0 } },
                 velocity: 1.0,
                 acceleration: 1.0,
                 jerk: None,
@@ -290,18 +290,18 @@ mod tests {
             let piece = Convex::trusted(core, piece.radius());
             let arm = arm(motions.map(joint), Vector::new(0.7, 0.1));
             let turns = motions[1].is_revolute();
-            let row = |q1: f64| {
+            let slice = |q1: f64| {
                 let pose = arm.pose(0, Configuration::new(q1, 0.0));
                 let pivot = pose * Point::from(arm.offset);
                 let mut out = Vec::new();
                 match motions[1] {
-                    Motion::Revolute { .. } => {
+                    JointType::Revolute { .. } => {
                         // Angles of the link rather than values of the joint: structure is the same.
                         if turning(&part, pivot, &piece, level, &mut out) == Hits::Always {
                             out.push([-4.0, 4.0]);
                         }
                     }
-                    Motion::Prismatic { direction } => {
+                    JointType::Prismatic { direction } => {
                         let moved = part.at(&(pose * Translation2::from(arm.offset)));
                         out.extend(slid(&moved, pose.rotation * direction, &piece, level));
                     }
@@ -312,8 +312,8 @@ mod tests {
             let (start, steps) = (-3.0, 1500);
             for k in 0..steps {
                 let (u, v) = (start + f64::from(k) * STEP, start + f64::from(k + 1) * STEP);
-                let before = row(u);
-                let appears = row(v).iter().any(|new| !before.iter().any(|old| {
+                let before = slice(u);
+                let appears = slice(v).iter().any(|new| !before.iter().any(|old| {
                     let shifts: &[f64] = if turns { &[-TAU, 0.0, TAU] } else { &[0.0] };
                     shifts.iter().any(|s| old[0] + s <= new[1] + NEAR && new[0] <= old[1] + s + NEAR)
                 }));
@@ -321,7 +321,7 @@ mod tests {
                     let q1 = if motions[0].is_revolute() { u + (q1 - u + 1e-6).rem_euclid(TAU) - 1e-6 } else { q1 };
                     u - 1e-6 <= q1 && q1 <= v + 1e-6
                 });
-                prop_assert!(!appears || event, "{u} {:?} {:?}", before, row(v));
+                prop_assert!(!appears || event, "{u} {:?} {:?}", before, slice(v));
             }
         }
     }

@@ -22,7 +22,7 @@ impl Grid {
     /// Side lengths of a cell.
     #[must_use]
     pub fn step(&self) -> [f64; 2] {
-        [0, 1].map(|k| self.topology.axes[k].extent() / self.cells[k] as f64)
+        [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
     }
 
     /// The middle of cell `index`, in the fundamental domain.
@@ -31,8 +31,8 @@ impl Grid {
         let step = self.step();
         let (i, j) = (index / self.cells[1], index % self.cells[1]);
         Configuration::new(
-            self.topology.axes[0].domain().0 + (i as f64 + 0.5) * step[0],
-            self.topology.axes[1].domain().0 + (j as f64 + 0.5) * step[1],
+            self.topology.ranges[0].domain().0 + (i as f64 + 0.5) * step[0],
+            self.topology.ranges[1].domain().0 + (j as f64 + 0.5) * step[1],
         )
     }
 
@@ -41,7 +41,7 @@ impl Grid {
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();
         let at = |k: usize| {
-            let axis = self.topology.axes[k];
+            let axis = self.topology.ranges[k];
             let steps = (axis.wrap(q[k]) - axis.domain().0) / step[k];
             (steps.max(0.0) as usize).min(self.cells[k] - 1)
         };
@@ -54,7 +54,7 @@ impl Grid {
         let [rows, columns] = self.cells;
         let (i, j) = (index / columns, index % columns);
         let step = |k: usize, at: usize, n: usize, up: bool| -> Option<usize> {
-            match (up, self.topology.axes[k].is_circle()) {
+            match (up, self.topology.ranges[k].is_circle()) {
                 (true, _) if at + 1 < n => Some(at + 1),
                 (false, _) if at > 0 => Some(at - 1),
                 (true, true) => Some(0),

@@ -1,7 +1,7 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
 //!
-//! [`Rows`] gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the rows of slabs;
-//! polygons follow the contact curves between the rows where they change their course (`events`). Outlines with many
+//! [`Slices`] gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the slices of slabs;
+//! polygons follow the contact curves between the slices where they change their course (`events`). Outlines with many
 //! corners are traced coarser, within the margin (`coarse`); what is ragged is covered by cells of that size
 //! (`covering`), and contours are united with their neighbours first, so that time grows with the outline (`union`).
 //!
@@ -18,7 +18,7 @@ mod grid;
 mod nearest;
 mod outline;
 mod regions;
-mod rows;
+mod slices;
 mod sampled;
 mod slabs;
 mod stretches;
@@ -30,9 +30,9 @@ pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
 pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions, traced_pairs};
-pub use rows::{Forbidden, Row, Rows};
 pub use sampled::sampled_grid;
-pub use slabs::{grid_from_rows, outer_grid};
+pub use slabs::{grid_from_slices, outer_grid};
+pub use slices::{Forbidden, Slice, Slices};
 pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 

@@ -1,9 +1,9 @@
 //! The free configuration nearest to one that is not.
 
-use super::rows::{Row, Rows};
+use super::slices::{Slice, Slices};
 use crate::geometry::ROUNDING;
 use crate::model::Scene;
-use crate::space::{Axis, Configuration};
+use crate::space::{Configuration, JointRange};
 use std::f64::consts::{PI, TAU};
 
 /// A free configuration and how far it is.
@@ -16,27 +16,27 @@ pub struct NearestFree {
     /// Least distance to an obstacle there, metres: positive, and not below the workspace's clearance. Infinite if
     /// nothing can be hit.
     pub clearance: f64,
-    /// Distance between neighbouring rows, in units of joint 1: see [`nearest_free`].
+    /// Distance between neighbouring slices, in units of joint 1: see [`nearest_free`].
     pub spacing: f64,
 }
 
-/// Rows on the whole range of joint 1, or on a turn if it has more.
-const ROWS: f64 = 4096.0;
+/// Slices on the whole range of joint 1, or on a turn if it has more.
+const SLICES: f64 = 4096.0;
 /// Local minima that are refined, best first.
 const MINIMA: usize = 8;
-/// Refinement ends when the rows are this close, in units of joint 1.
+/// Refinement ends when the slices are this close, in units of joint 1.
 const FINEST: f64 = 1e-10;
-/// Rows on either side of the best one, in each step of the refinement.
+/// Slices on either side of the best one, in each step of the refinement.
 const FAN: i32 = 8;
 
 /// The free configuration nearest to `q` in joint space (Euclidean, round a circle the short way).
 ///
-/// Joint 1 runs through rows, [`NearestFree::spacing`] apart and out from `q`, with the ends of what link 1 forbids among
-/// them; in each the nearest free value of joint 2 is exact. The rows about the best local minima are then refined to
-/// 1e-10. The result is free by the scene's own measure, and no free configuration on any row is nearer: one that is
-/// lies between two rows, less than a spacing from either.
+/// Joint 1 runs through slices, [`NearestFree::spacing`] apart and out from `q`, with the ends of what link 1 forbids among
+/// them; in each the nearest free value of joint 2 is exact. The slices about the best local minima are then refined to
+/// 1e-10. The result is free by the scene's own measure, and no free configuration on any slice is nearer: one that is
+/// lies between two slices, less than a spacing from either.
 ///
-/// None if no row has a free configuration. `O(rows * pairs)`.
+/// None if no slice has a free configuration. `O(slices * pairs)`.
 #[must_use]
 pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
     Search::new(scene, q).run()
@@ -44,12 +44,12 @@ pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
 
 struct Search<'a> {
     scene: &'a Scene,
-    rows: Rows<'a>,
+    slices: Slices<'a>,
     /// Values of joint 1 that link 1 forbids, on the axis's domain.
-    bands: Row,
-    row: Row,
+    bands: Slice,
+    slice: Slice,
     from: Configuration,
-    /// Growth of the obstacles: what is left out of a row is then free for certain.
+    /// Growth of the obstacles: what is left out of a slice is then free for certain.
     grow: f64,
     best: Option<NearestFree>,
     spacing: f64,
@@ -58,30 +58,30 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, from: Configuration) -> Self {
         let grow = scene.workspace().clearance + 2.0 * ROUNDING;
-        let rows = Rows::new(scene);
-        let bands = rows.bands(grow);
+        let slices = Slices::new(scene);
+        let bands = slices.bands(grow);
         let first = &scene.arm().joints[0];
-        let extent = first.axis.extent();
-        let spacing = if first.motion.is_revolute() { extent.min(TAU) } else { extent } / ROWS;
-        Self { scene, rows, bands, row: Row::default(), from, grow, best: None, spacing }
+        let extent = first.range.extent();
+        let spacing = if first.joint_type.is_revolute() { extent.min(TAU) } else { extent } / SLICES;
+        Self { scene, slices, bands, slice: Slice::default(), from, grow, best: None, spacing }
     }
 
     fn run(mut self) -> Option<NearestFree> {
         let first = &self.scene.arm().joints[0];
-        let start = match first.axis {
-            Axis::Interval { lower, upper } => self.from[0].clamp(lower, upper),
-            Axis::Circle => self.from[0],
+        let start = match first.range {
+            JointRange::Interval { lower, upper } => self.from[0].clamp(lower, upper),
+            JointRange::Circle => self.from[0],
         };
-        // Beyond these every row repeats one that was nearer.
-        let farthest = match first.axis {
-            Axis::Circle => PI,
-            Axis::Interval { .. } if first.motion.is_revolute() => TAU,
-            axis @ Axis::Interval { .. } => axis.extent(),
+        // Beyond these every slice repeats one that was nearer.
+        let farthest = match first.range {
+            JointRange::Circle => PI,
+            JointRange::Interval { .. } if first.joint_type.is_revolute() => TAU,
+            axis @ JointRange::Interval { .. } => axis.extent(),
         };
         let mut samples = Vec::new();
         let ends: Vec<f64> = self.bands.merged.iter().flatten().copied().collect();
         for end in ends {
-            let q1 = first.axis.lift(end, start);
+            let q1 = first.range.lift(end, start);
             samples.extend(self.look(q1).map(|distance| (q1, distance)));
         }
         for k in 0.. {
@@ -103,7 +103,7 @@ impl<'a> Search<'a> {
         self.best
     }
 
-    /// Looks at ever closer rows about one.
+    /// Looks at ever closer slices about one.
     fn refine(&mut self, q1: f64) {
         let (mut middle, mut step) = (q1, self.spacing);
         while step > FINEST {
@@ -117,19 +117,19 @@ impl<'a> Search<'a> {
 
     /// Distance of the nearest free configuration with this value of joint 1, if it is allowed and there is one.
     fn look(&mut self, q1: f64) -> Option<f64> {
-        let [first, second] = self.scene.arm().topology().axes;
+        let [first, second] = self.scene.arm().topology().ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
         if !first.contains(q1) || self.bands.merged.iter().any(|band| inside(band, first.wrap(q1))) {
             return None;
         }
-        self.rows.row(q1, self.grow, &mut self.row);
+        self.slices.slice(q1, self.grow, &mut self.slice);
         let (lower, upper) = second.domain();
         let wanted = match second {
-            Axis::Interval { .. } => self.from[1].clamp(lower, upper),
-            Axis::Circle => second.wrap(self.from[1]),
+            JointRange::Interval { .. } => self.from[1].clamp(lower, upper),
+            JointRange::Circle => second.wrap(self.from[1]),
         };
-        let ends = self.row.merged.iter().flat_map(|&[start, end]| [start, end]);
-        let mut values: Vec<f64> = ends.chain((!self.row.forbids(wanted)).then_some(wanted)).collect();
+        let ends = self.slice.merged.iter().flat_map(|&[start, end]| [start, end]);
+        let mut values: Vec<f64> = ends.chain((!self.slice.forbids(wanted)).then_some(wanted)).collect();
         let away = |value: &f64| second.displacement(self.from[1], *value).abs();
         values.sort_by(|a, b| away(a).total_cmp(&away(b)));
         let q1 = first.lift(q1, self.from[0]);

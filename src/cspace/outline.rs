@@ -1,4 +1,4 @@
-//! Contours of a C-obstacle from its rows: adaptive flattening of curves that are known at each `q1` exactly.
+//! Contours of a C-obstacle from its slices: adaptive flattening of curves that are known at each `q1` exactly.
 
 use crate::geometry::Point;
 use crate::interrupt::checkpoint;
@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 /// All of `q2` where that turns.
 const TURN: [f64; 2] = [-PI, PI];
 
-/// A C-obstacle, row by row, and a judge of its chords.
+/// A C-obstacle, slice by slice, and a judge of its chords.
 pub(super) trait Source {
     /// A point of the boundary.
     type End: Copy;
@@ -25,10 +25,10 @@ pub(super) trait Source {
     /// The same point on another turn of joint 2.
     fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
 
-    /// Whether the intervals with these ends in two rows can be linked by straight lines.
+    /// Whether the intervals with these ends in two slices can be linked by straight lines.
     fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
 
-    /// Whether the straight line between two boundary points can stand for the lines by way of the rows between.
+    /// Whether the straight line between two boundary points can stand for the lines by way of the slices between.
     fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
 }
 
@@ -37,7 +37,7 @@ pub(super) trait Source {
 pub(super) struct Flattening {
     /// Whether `q2` lives on turns (arcs that differ by whole turns are one).
     pub turning: bool,
-    /// Strips no wider than this may be covered by rectangles over the intervals of both their rows.
+    /// Strips no wider than this may be covered by rectangles over the intervals of both their slices.
     pub min_width: f64,
     /// Length by which neighbouring contours overlap, so that their union has no cracks.
     pub overlap: f64,
@@ -48,31 +48,31 @@ pub(super) struct Flattening {
 pub(super) struct Break {
     /// The value of joint 1 there.
     pub q1: f64,
-    /// Whether contours keep a vertex here: an end or a split of the C-obstacle may hide between other rows.
+    /// Whether contours keep a vertex here: an end or a split of the C-obstacle may hide between other slices.
     pub keep: bool,
 }
 
 /// Contours, each simple and counter-clockwise, whose union covers the C-obstacle over the span of `breaks` (ascending).
 ///
-/// Each strip between two rows is bisected until its intervals match one to one and the chords between their ends are
+/// Each strip between two slices is bisected until its intervals match one to one and the chords between their ends are
 /// accepted, or it is `min_width` wide. Matched intervals form chains, each a contour; a narrow strip without a match is
 /// covered by rectangles. Last, corners are dropped from the chains as far as the longer chords are accepted.
 pub(super) fn contours<S: Source>(source: &mut S, breaks: &[Break], how: Flattening) -> Vec<Vec<Point>> {
     let mut tracer = Tracer { source, how, open: Vec::new(), done: Vec::new(), scratch: Vec::new() };
     let Some((first, rest)) = breaks.split_first() else { return Vec::new() };
-    let mut row = tracer.row(*first);
-    tracer.start_chains(&row);
+    let mut slice = tracer.slice(*first);
+    tracer.start_chains(&slice);
     for &next in rest {
-        let next = tracer.row(next);
-        tracer.strip(&row, &next);
-        row = next;
+        let next = tracer.slice(next);
+        tracer.strip(&slice, &next);
+        slice = next;
     }
     tracer.close_chains();
     tracer.done
 }
 
-/// The blocked intervals of one row with the boundary points at their ends.
-struct Row<E> {
+/// The blocked intervals of one slice with the boundary points at their ends.
+struct Slice<E> {
     at: Break,
     intervals: Vec<[E; 2]>,
     /// All of `q2`, a whole turn, is blocked: `intervals` is then empty.
@@ -81,22 +81,22 @@ struct Row<E> {
 
 /// A run of matched intervals, in unwrapped values.
 struct Chain<E> {
-    rows: Vec<([E; 2], bool)>,
-    /// Turns by which the chain is ahead of its last row's own values.
+    slices: Vec<([E; 2], bool)>,
+    /// Turns by which the chain is ahead of its last slice's own values.
     turns: f64,
 }
 
 struct Tracer<'r, S: Source> {
     source: &'r mut S,
     how: Flattening,
-    /// One for each interval of the current row.
+    /// One for each interval of the current slice.
     open: Vec<Chain<S::End>>,
     done: Vec<Vec<Point>>,
     scratch: Vec<[f64; 2]>,
 }
 
 impl<S: Source> Tracer<'_, S> {
-    fn row(&mut self, at: Break) -> Row<S::End> {
+    fn slice(&mut self, at: Break) -> Slice<S::End> {
         checkpoint();
         self.scratch.clear();
         self.source.intervals(at.q1, &mut self.scratch);
@@ -106,15 +106,15 @@ impl<S: Source> Tracer<'_, S> {
         } else {
             self.scratch.iter().map(|i| i.map(|q2| self.source.end(at.q1, q2))).collect()
         };
-        Row { at, intervals, full }
+        Slice { at, intervals, full }
     }
 
     fn q2(&self, end: &S::End) -> f64 {
         self.source.point(end).y
     }
 
-    /// Extends the chains from row `u` to row `v`, through as many rows between as it takes.
-    fn strip(&mut self, u: &Row<S::End>, v: &Row<S::End>) {
+    /// Extends the chains from slice `u` to slice `v`, through as many slices between as it takes.
+    fn strip(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         if u.full && v.full {
             self.rectangle(u.at.q1, v.at.q1, TURN);
         } else if let Some(links) = self.matching(u, v) {
@@ -122,14 +122,14 @@ impl<S: Source> Tracer<'_, S> {
         } else if v.at.q1 - u.at.q1 <= self.how.min_width {
             self.cover(u, v);
         } else {
-            let middle = self.row(Break { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
+            let middle = self.slice(Break { q1: f64::midpoint(u.at.q1, v.at.q1), keep: false });
             self.strip(u, &middle);
             self.strip(&middle, v);
         }
     }
 
     /// For every interval of `u` its partner in `v` and the turns to add to that, if chords may link them.
-    fn matching(&self, u: &Row<S::End>, v: &Row<S::End>) -> Option<Vec<(usize, f64)>> {
+    fn matching(&self, u: &Slice<S::End>, v: &Slice<S::End>) -> Option<Vec<(usize, f64)>> {
         let n = u.intervals.len();
         if u.full || v.full || n != v.intervals.len() {
             return None;
@@ -161,22 +161,23 @@ impl<S: Source> Tracer<'_, S> {
         self.q2(&a[0]) <= self.q2(&b[1]) && self.q2(&b[0]) <= self.q2(&a[1])
     }
 
-    fn start_chains(&mut self, row: &Row<S::End>) {
-        self.open = row.intervals.iter().map(|&ends| Chain { rows: vec![(ends, row.at.keep)], turns: 0.0 }).collect();
+    fn start_chains(&mut self, slice: &Slice<S::End>) {
+        self.open =
+            slice.intervals.iter().map(|&ends| Chain { slices: vec![(ends, slice.at.keep)], turns: 0.0 }).collect();
     }
 
-    fn extend(&mut self, v: &Row<S::End>, links: &[(usize, f64)]) {
+    fn extend(&mut self, v: &Slice<S::End>, links: &[(usize, f64)]) {
         let mut next: Vec<Option<Chain<S::End>>> = links.iter().map(|_| None).collect();
         for (mut chain, &(to, turns)) in std::mem::take(&mut self.open).into_iter().zip(links) {
             chain.turns += turns;
-            chain.rows.push((v.intervals[to].map(|end| self.source.shifted(&end, chain.turns)), v.at.keep));
+            chain.slices.push((v.intervals[to].map(|end| self.source.shifted(&end, chain.turns)), v.at.keep));
             next[to] = Some(chain);
         }
         self.open = next.into_iter().flatten().collect();
     }
 
-    /// Covers the narrow strip between two rows that do not match.
-    fn cover(&mut self, u: &Row<S::End>, v: &Row<S::End>) {
+    /// Covers the narrow strip between two slices that do not match.
+    fn cover(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         self.close_chains();
         let spans = if u.full || v.full {
             vec![TURN]
@@ -199,13 +200,13 @@ impl<S: Source> Tracer<'_, S> {
 
     fn close_chains(&mut self) {
         for chain in std::mem::take(&mut self.open) {
-            // A single row lies within the rectangles on both its sides.
-            if chain.rows.len() < 2 {
+            // A single slice lies within the rectangles on both its sides.
+            if chain.slices.len() < 2 {
                 continue;
             }
             let sides = [0, 1].map(|side| self.simplified(&chain, side));
             let whole =
-                || [0, 1].map(|side| chain.rows.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
+                || [0, 1].map(|side| chain.slices.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
             let sides = if ordered(&sides) { sides } else { whole() };
             let contour = outline(&sides, self.how.overlap);
             // Between two tips a single chord may do for both sides: then there is nothing in between to cover.
@@ -217,16 +218,18 @@ impl<S: Source> Tracer<'_, S> {
 
     /// One side of a chain with as few corners as accepted chords allow.
     fn simplified(&self, chain: &Chain<S::End>, side: usize) -> Vec<Point> {
-        let rows = &chain.rows;
-        let mut corners = vec![self.source.point(&rows[0].0[side])];
+        let slices = &chain.slices;
+        let mut corners = vec![self.source.point(&slices[0].0[side])];
         let mut from = 0;
-        while from + 1 < rows.len() {
+        while from + 1 < slices.len() {
             let mut to = from + 1;
-            while to + 1 < rows.len() && !rows[to].1 && self.source.shortens(&rows[from].0[side], &rows[to + 1].0[side])
+            while to + 1 < slices.len()
+                && !slices[to].1
+                && self.source.shortens(&slices[from].0[side], &slices[to + 1].0[side])
             {
                 to += 1;
             }
-            corners.push(self.source.point(&rows[to].0[side]));
+            corners.push(self.source.point(&slices[to].0[side]));
             from = to;
         }
         corners

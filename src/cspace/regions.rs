@@ -2,13 +2,13 @@
 
 use super::coarse::coarse;
 use super::curves::Curves;
-use super::rows::Rows;
+use super::slices::Slices;
 use super::union::free_space;
 use super::{Proves, translation};
 use crate::geometry::{Hits, Point, cross};
 use crate::interrupt::checkpoint;
 use crate::model::{Joint, Scene};
-use crate::space::{Axis, Configuration, Topology};
+use crate::space::{Configuration, JointRange, Topology};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
@@ -126,14 +126,14 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm().topology();
     let turns = TAU * periods as f64;
-    [0, 1].map(|k| match topology.axes[k] {
-        Axis::Interval { lower, upper } => (lower, upper),
-        Axis::Circle => (center[k] - turns, center[k] + turns),
+    [0, 1].map(|k| match topology.ranges[k] {
+        JointRange::Interval { lower, upper } => (lower, upper),
+        JointRange::Circle => (center[k] - turns, center[k] + turns),
     })
 }
 
 fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
-    let periods = [0, 1].map(|k| scene.arm().joints[k].motion.is_revolute().then_some(TAU));
+    let periods = [0, 1].map(|k| scene.arm().joints[k].joint_type.is_revolute().then_some(TAU));
     let free = free_space(window, periods, obstacles.iter().map(|o| o.contour.as_slice()));
     Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
 }
@@ -144,11 +144,11 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
 /// unless the margin is 0, contours may be another two margins away: details that small are not traced.
 ///
 /// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, exact up to arcs: with margin,
-/// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact rows, and
+/// clearance and radii zero they are the exact C-obstacles. For the rest curves are flattened between exact slices, and
 /// that they cover what they should is proven, not sampled: no point of the set `S` to be covered lies on the boundary of
-/// the union, since chords keep their distance (as the module `chord` proves) and rows are exact; so every
+/// the union, since chords keep their distance (as the module `chord` proves) and slices are exact; so every
 /// connected part of `S` is all inside or all outside. And each has a point inside: it either reaches the end of the
-/// range of `q1`, where there is a row, or has a point of least `q1`, where there is one too (module `events`).
+/// range of `q1`, where there is a slice, or has a point of least `q1`, where there is one too (module `events`).
 ///
 /// # Panics
 /// If `tolerance` is not positive.
@@ -157,18 +157,18 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
     let level = scene.workspace().clearance + margin;
     let scene = &*coarsened(scene, margin, tolerance);
-    let rows = Rows::new(scene);
+    let slices = Slices::new(scene);
     let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();
     for (index, pair) in scene.pairs().iter().enumerate() {
         checkpoint();
         let contours = match (pair.link, &map) {
-            (0, _) => bands(&rows, index, level + tolerance, OVERLAP * level.min(1.0)),
+            (0, _) => bands(&slices, index, level + tolerance, OVERLAP * level.min(1.0)),
             (_, Some(map)) => {
                 let (part, piece) = (scene.part(*pair), scene.piece(*pair));
                 vec![translation::contour(scene.arm(), map, part, piece, level, tolerance)]
             }
-            (_, None) => Curves::new(&rows, index, level, tolerance).contours(),
+            (_, None) => Curves::new(&slices, index, level, tolerance).contours(),
         };
         let (obstacle, link) = (pair.obstacle, pair.link);
         obstacles.extend(contours.into_iter().map(|contour| CObstacle { obstacle, link, contour }));
@@ -189,11 +189,11 @@ pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
 
 /// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
 /// closes the seam between the copies of a whole turn.
-fn bands(rows: &Rows, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
-    let domain = |joint: &Joint| if joint.motion.is_revolute() { (-PI, PI) } else { joint.axis.domain() };
-    let [first, second] = &rows.scene().arm().joints;
+fn bands(slices: &Slices, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
+    let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
+    let [first, second] = &slices.scene().arm().joints;
     let mut spans = Vec::new();
-    if rows.first_link(index, level, &mut spans) == Hits::Always {
+    if slices.first_link(index, level, &mut spans) == Hits::Always {
         spans = vec![<[f64; 2]>::from(domain(first))];
     }
     let (lower, upper) = domain(second);

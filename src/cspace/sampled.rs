@@ -1,4 +1,4 @@
-//! The grid by collision tests: parry2d's verdict at every centre. Slow, and an oracle that shares no code with rows.
+//! The grid by collision tests: parry2d's verdict at every centre. Slow, and an oracle that shares no code with slices.
 
 use super::{Grid, Proves};
 use crate::geometry::{self, Convex};

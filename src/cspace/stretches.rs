@@ -1,6 +1,6 @@
 //! Which stretches of a segment along one joint are free, exactly.
 
-use super::rows::{Row, Rows};
+use super::slices::{Slice, Slices};
 use crate::geometry::{Features, Vector, merge_in_place};
 use crate::model::{Carried, Scene, on_axis};
 use crate::space::{Configuration, Segment};
@@ -8,7 +8,7 @@ use crate::space::{Configuration, Segment};
 /// The stretches of a segment in the domain that keep more than `grow` from contact, from its lesser end on. Exact up to
 /// [`crate::geometry::ROUNDING`] where only one joint moves along it; a slanted segment is returned as it is.
 ///
-/// With joint 1 at rest that is what a row leaves. With joint 2 at rest link 2 is a part of link 1, and the contact angles
+/// With joint 1 at rest that is what a slice leaves. With joint 2 at rest link 2 is a part of link 1, and the contact angles
 /// of joint 1 tell. `O(m log m)` in the contacts.
 #[must_use]
 pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
@@ -38,13 +38,13 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
 
 /// The forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
 fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
-    let rows = Rows::new(scene);
-    if rows.bands(grow).forbids(q1) {
+    let slices = Slices::new(scene);
+    if slices.bands(grow).forbids(q1) {
         return vec![[f64::NEG_INFINITY, f64::INFINITY]];
     }
-    let mut row = Row::default();
-    rows.row(q1, grow, &mut row);
-    row.merged
+    let mut slice = Slice::default();
+    slices.slice(q1, grow, &mut slice);
+    slice.merged
 }
 
 /// The forbidden values of joint 1 at a value of joint 2.
@@ -57,9 +57,9 @@ fn along_first(scene: &Scene, q2: f64, grow: f64) -> Vec<[f64; 2]> {
     for &pair in scene.pairs() {
         let part = scene.part(pair);
         let part = if pair.link == 0 {
-            Carried::new(joint.motion, part)
+            Carried::new(joint.joint_type, part)
         } else {
-            Carried::new(joint.motion, &part.at(&in_first))
+            Carried::new(joint.joint_type, &part.at(&in_first))
         };
         scratch.clear();
         let hits = part.hits(arm.base, Vector::x(), &Features::new(scene.piece(pair)), grow, &mut scratch);

@@ -1,7 +1,7 @@
 //! C-obstacles of an arm that only translates link 2: Minkowski differences, exact but for rounded corners.
 
 use crate::geometry::{Convex, Point, Vector, cross, minkowski_difference, perpendicular};
-use crate::model::{Arm, Motion};
+use crate::model::{Arm, JointType};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
 
@@ -11,8 +11,8 @@ const PARALLEL: f64 = 1e-9;
 
 /// The map from displacements in the plane to joint values, for a gantry whose slides are not parallel.
 pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
-    let [Motion::Prismatic { direction: first }, Motion::Prismatic { direction: second }] =
-        [arm.joints[0].motion, arm.joints[1].motion]
+    let [JointType::Prismatic { direction: first }, JointType::Prismatic { direction: second }] =
+        [arm.joints[0].joint_type, arm.joints[1].joint_type]
     else {
         return None;
     };

@@ -31,10 +31,10 @@ impl Chart {
     #[must_use]
     pub fn new(arm: &Arm, area: Rect) -> Self {
         let topology = arm.topology();
-        let ranges = topology.axes.map(|axis| axis.domain());
+        let ranges = topology.ranges.map(|axis| axis.domain());
         let units = units(arm);
         let frame = Frame::fitted(area, ranges[0], ranges[1], one_scale(arm).is_some());
-        let paths = Window { ranges, repeats: topology.axes.map(|axis| axis.is_circle()) };
+        let paths = Window { ranges, repeats: topology.ranges.map(|axis| axis.is_circle()) };
         // A turning link meets an obstacle again after each turn, limits or not.
         let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
         Self { frame, units, topology, paths, obstacles }
@@ -80,13 +80,13 @@ impl Chart {
 
 /// What the axes measure.
 fn units(arm: &Arm) -> [Unit; 2] {
-    [0, 1].map(|k| if arm.joints[k].motion.is_revolute() { Unit::Degrees } else { Unit::Meters })
+    [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
 }
 
 /// The ratio of height to width of the whole joint space if both axes are drawn to one scale.
 #[must_use]
 pub fn one_scale(arm: &Arm) -> Option<f64> {
-    let [width, height] = arm.topology().axes.map(|axis| axis.extent());
+    let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
     let [first, second] = units(arm);
     (first == second && width <= ONE_SCALE * height && height <= ONE_SCALE * width).then(|| height / width)
 }
@@ -99,7 +99,7 @@ pub fn titles(arm: &Arm) -> [String; 2] {
 
 fn title(joint: &Joint) -> String {
     let name = super::figure::shortened(&joint.name, 14.0, 260.0);
-    match (joint.motion.is_revolute(), joint.axis.is_circle()) {
+    match (joint.joint_type.is_revolute(), joint.range.is_circle()) {
         (true, true) => format!("{name} (degrees, wraps around)"),
         (true, false) => format!("{name} (degrees)"),
         (false, _) => format!("{name} (m)"),

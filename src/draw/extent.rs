@@ -46,7 +46,7 @@ fn swept(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
         }
     };
     include(arm.base, 0.0);
-    let [first, second] = arm.topology().axes.map(|axis| {
+    let [first, second] = arm.topology().ranges.map(|axis| {
         let (lower, upper) = axis.domain();
         (0..SAMPLES).map(move |i| lower + (upper - lower) * i as f64 / (SAMPLES - 1) as f64)
     });

@@ -3,7 +3,7 @@
 use super::Picture;
 use super::color::{self, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Label, Pen, Rect, Step, Style, rectangle, shortened, text_width};
-use super::{boxes, cspace, page, posture, preferences, shapes, trace};
+use super::{arm, boxes, cspace, page, preferences, shapes, trace};
 use crate::model::Payload;
 
 /// Height of a row, pixels.
@@ -53,9 +53,8 @@ pub fn keys(picture: &Picture) -> Vec<Key> {
     if lying.clone().count() <= NAMED {
         keys.extend(lying.map(|(i, o)| (Sign::Swatch(color::obstacle(i)), o.name.clone())));
     }
-    let carried = |payload: &Payload| {
-        (Sign::Swatch(posture::payload_color(picture.scene)), format!("{}, carried", payload.object))
-    };
+    let carried =
+        |payload: &Payload| (Sign::Swatch(arm::payload_color(picture.scene)), format!("{}, carried", payload.object));
     keys.extend(picture.scene.payload().map(carried));
     keys
 }

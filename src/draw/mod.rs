@@ -24,7 +24,7 @@ mod legend;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
-mod posture;
+mod arm;
 mod preferences;
 mod shapes;
 mod svg_writer;
@@ -100,7 +100,7 @@ pub struct AxesFrame {
 
 /// An arm in one configuration among its obstacles, with frames.
 #[derive(Debug, Clone)]
-pub struct Posture<'a> {
+pub struct ArmPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
     /// A word or two in the corner.
@@ -113,7 +113,7 @@ pub struct Posture<'a> {
     pub frames: Vec<AxesFrame>,
 }
 
-impl<'a> Posture<'a> {
+impl<'a> ArmPicture<'a> {
     /// The same without its frames and with nowhere to go.
     fn picture(&self) -> Picture<'a> {
         Picture {
@@ -159,8 +159,8 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(svg, scale)
 }
 
-/// The posture as an SVG document of 1400 x 720 pixels: the workspace alone.
+/// The arm as an SVG document of 1400 x 720 pixels: the workspace alone.
 #[must_use]
-pub fn posture_svg(posture: &Posture) -> String {
-    svg_writer::write(&page::compose_posture(posture))
+pub fn arm_svg(arm_picture: &ArmPicture) -> String {
+    svg_writer::write(&page::compose_arm(arm_picture))
 }

@@ -2,7 +2,7 @@
 
 use super::color::{GREY, INK, Rgb};
 use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
-use super::{Picture, Posture, color, cspace, frames, legend, workspace};
+use super::{ArmPicture, Picture, color, cspace, frames, legend, workspace};
 
 /// Width of every picture, pixels.
 pub const WIDTH: f64 = 1400.0;
@@ -55,13 +55,13 @@ pub fn compose(picture: &Picture) -> Figure {
 
 /// Draws an arm in one configuration: the workspace takes the whole page.
 #[must_use]
-pub fn compose_posture(posture: &Posture) -> Figure {
-    let picture = posture.picture();
+pub fn compose_arm(arm_picture: &ArmPicture) -> Figure {
+    let picture = arm_picture.picture();
     let mut items = titles(&picture.title, &picture.status);
     let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;
     let area = Rect { x: 84.0, y: top, width: WIDTH - 84.0 - MARGIN, height: HEIGHT - 58.0 - top };
     items.extend(workspace::panel(&picture, area));
-    items.extend(frames::items(&workspace::frame(&picture, area), &posture.frames));
+    items.extend(frames::items(&workspace::frame(&picture, area), &arm_picture.frames));
     Figure { width: WIDTH, height: HEIGHT, items }
 }
 

@@ -48,7 +48,7 @@ pub fn below(trace: &Trace, frame: &Frame, window: &Window) -> Vec<Item> {
 #[must_use]
 pub fn above(trace: &Trace, frame: &Frame, topology: &Topology, window: &Window) -> Vec<Item> {
     match trace {
-        Trace::Roadmap { edges, .. } | Trace::Rows { free: edges } => {
+        Trace::Roadmap { edges, .. } | Trace::Slices { free: edges } => {
             let pieces = edges.iter().flat_map(|edge| window.pieces(edge));
             let steps = pieces.flat_map(|p| chain(p.iter().map(|q| frame.at(q[0], q[1])), false)).collect();
             vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))]
@@ -74,7 +74,7 @@ pub fn keys(trace: &Trace) -> Vec<Key> {
             let extent = if *whole { "" } else { ", as far as searched" };
             vec![(line(EDGE), format!("visibility graph{extent}"))]
         }
-        Trace::Rows { .. } => vec![(line(EDGE), "rows that the path passes".to_owned())],
+        Trace::Slices { .. } => vec![(line(EDGE), "slices that the path passes".to_owned())],
         Trace::Channel { channel, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
             [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()
@@ -103,7 +103,9 @@ pub fn color_bar(trace: &Trace, frame: &Frame) -> Vec<Item> {
             Some((low, high)) => ("potential", format!("{:.2}", -low), format!("{:.2}", -high)),
             None => return Vec::new(),
         },
-        Trace::Roadmap { .. } | Trace::Rows { .. } | Trace::Channel { .. } | Trace::Boxes { .. } => return Vec::new(),
+        Trace::Roadmap { .. } | Trace::Slices { .. } | Trace::Channel { .. } | Trace::Boxes { .. } => {
+            return Vec::new();
+        }
     };
     let (x, height) = (frame.rect.right() + 16.0, frame.rect.height.min(200.0));
     let rect = Rect { x, y: frame.rect.bottom() - height, width: 12.0, height };
@@ -246,7 +248,7 @@ fn equipotentials(slope: &Slope, frame: &Frame) -> Vec<Item> {
 fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
     const MOST: usize = 256;
     let [x, y] = [0, 1].map(|k| {
-        let axis = topology.axes[k];
+        let axis = topology.ranges[k];
         let (n, extent) = (cells[k], axis.extent());
         let place = |i: usize| axis.domain().0 + (i as f64 + 0.5) / n as f64 * extent;
         let mut all: Vec<(usize, f64)> = (0..n).step_by(n.div_ceil(MOST).max(1)).map(|i| (i, place(i))).collect();
@@ -266,7 +268,7 @@ fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Axis;
+    use crate::space::JointRange;
 
     fn frame() -> Frame {
         Frame::filling(Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 }, (0.0, 1.0), (0.0, 1.0))
@@ -288,7 +290,7 @@ mod tests {
 
     #[test]
     fn lines_cross_the_seam_of_a_circle() {
-        let topology = Topology { axes: [Axis::Circle, Axis::Interval { lower: 0.0, upper: 1.0 }] };
+        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: 0.0, upper: 1.0 }] };
         let cells = [8, 4];
         let potential: Vec<f64> = (0..32).map(|k| f64::from(k % 4)).collect();
         let all = samples(cells, &potential, &topology);
@@ -310,7 +312,7 @@ mod tests {
 
     #[test]
     fn a_field_without_values_has_no_lines() {
-        let topology = Topology { axes: [Axis::Circle; 2] };
+        let topology = Topology { ranges: [JointRange::Circle; 2] };
         let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
         assert_eq!(Slope::new(&trace, &topology), None);
         assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], TAIL), Some((-3.0, 0.0)));

@@ -1,12 +1,12 @@
 //! The left panel: the workspace, with the arm in it.
 
+use super::arm::{self, GHOST, GOAL, START};
 use super::axes::{Frame, Unit};
 use super::color::{self, PALE};
 use super::figure::{Item, Rect, Step, Style, chain};
-use super::posture::{self, GHOST, GOAL, START};
 use super::{Picture, extent, page, preferences, shapes};
 use crate::geometry::{Convex, cross};
-use crate::model::{Arm, Motion, Plane};
+use crate::model::{Arm, JointType, Plane};
 use crate::space::{Configuration, Path};
 use nalgebra::Vector3;
 
@@ -26,12 +26,12 @@ pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
     inside.extend(preferences::in_workspace(&scene.workspace().preferences, &frame));
     if let [(_, path)] = picture.paths[..] {
         for q in between(path, GHOSTS) {
-            inside.extend(posture::items(&frame, scene, q, &GHOST));
+            inside.extend(arm::items(&frame, scene, q, &GHOST));
         }
     }
-    inside.extend(posture::items(&frame, scene, picture.start, &START));
+    inside.extend(arm::items(&frame, scene, picture.start, &START));
     let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.single_goals().first().copied());
-    inside.extend(goal.into_iter().flat_map(|q| posture::items(&frame, scene, q, &GOAL)));
+    inside.extend(goal.into_iter().flat_map(|q| arm::items(&frame, scene, q, &GOAL)));
     let traces = picture.paths.iter().map(|(_, path)| tip_trace(&frame, scene.arm(), path)).collect();
     inside.extend(page::path_items(traces));
     inside.extend(extent::hidden_note(&frame, obstacles));
@@ -75,18 +75,18 @@ pub fn titles(plane: &Plane) -> [String; 2] {
 /// places that the slides reach, grown by the reach of a turning second link.
 fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
-    let [first, second] = topology.axes.map(|axis| axis.domain());
-    if arm.joints[0].motion.is_revolute() {
+    let [first, second] = topology.ranges.map(|axis| axis.domain());
+    if arm.joints[0].joint_type.is_revolute() {
         const FINE: usize = 720;
         let at = |i: usize| second.0 + (second.1 - second.0) * i as f64 / FINE as f64;
         let distance = |i: usize| (arm.tip_at(Configuration::new(first.0, at(i))) - arm.base).norm();
         return Convex::trusted(vec![arm.base], (0..=FINE).map(distance).fold(0.0, f64::max));
     }
-    match arm.joints[1].motion {
-        Motion::Revolute { .. } => {
+    match arm.joints[1].joint_type {
+        JointType::Revolute { .. } => {
             Convex::trusted(vec![arm.elbow_at(first.0), arm.elbow_at(first.1)], arm.tip.coords.norm())
         }
-        Motion::Prismatic { .. } => {
+        JointType::Prismatic { .. } => {
             let tip = |q1, q2| arm.tip_at(Configuration::new(q1, q2));
             let mut corners =
                 vec![tip(first.0, second.0), tip(first.1, second.0), tip(first.1, second.1), tip(first.0, second.1)];
@@ -119,7 +119,7 @@ pub fn tip_trace(frame: &Frame, arm: &Arm, path: &Path) -> Vec<Step> {
     /// Radians; a chord of such an arc is off by 2e-5 of the reach at most, a hundredth of a pixel.
     const STEP: f64 = 0.0125;
     const MOST: f64 = 2000.0;
-    let turns = [0, 1].map(|k| arm.joints[k].motion.is_revolute());
+    let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());
     let mut spots = vec![path.start()];
     for (a, b) in path.segments() {
         let angle = (0..2).filter(|&k| turns[k]).map(|k| (b[k] - a[k]).abs()).fold(0.0, f64::max);

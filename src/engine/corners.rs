@@ -132,10 +132,10 @@ fn is_about(q: Configuration, others: &[Configuration; 3]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Axis;
+    use crate::space::JointRange;
     use std::f64::consts::FRAC_PI_2;
 
-    const WIDE: Topology = Topology { axes: [Axis::Interval { lower: -2.0, upper: 2.0 }; 2] };
+    const WIDE: Topology = Topology { ranges: [JointRange::Interval { lower: -2.0, upper: 2.0 }; 2] };
 
     /// A quarter of a circle in so many chords, led up to and away from along its tangents.
     fn quarter(chords: usize) -> Vec<Configuration> {
@@ -181,7 +181,10 @@ mod tests {
         let all = drawn_out(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
         assert_eq!(all, [arc[0], Configuration::new(1.0, 1.0), arc[arc.len() - 1]]);
         let narrow = Topology {
-            axes: [Axis::Interval { lower: -2.0, upper: 1.01 }, Axis::Interval { lower: -2.0, upper: 1.0 }],
+            ranges: [
+                JointRange::Interval { lower: -2.0, upper: 1.01 },
+                JointRange::Interval { lower: -2.0, upper: 1.0 },
+            ],
         };
         assert!(drawn_out(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
         // The corner that all would go to is where an obstacle was met.

@@ -21,7 +21,7 @@ pub(super) fn answer(method: Method, verdict: Verdict, stages: Stages) -> Answer
         Verdict::Infeasible(_) => Proposal::NoPath,
         Verdict::Unknown(reason) => Proposal::GaveUp(reason.clone()),
     };
-    let run = Run { outcome, trace: Trace::Rows { free: Vec::new() }, size: Size::Nothing, note: None };
+    let run = Run { outcome, trace: Trace::Slices { free: Vec::new() }, size: Size::Nothing, note: None };
     let (history, witness, bound) = (Vec::new(), None, None);
     Answer { method, verdict, path: PathKind::Taut, witness, bound, history, run, space: Space::Scene, stages }
 }

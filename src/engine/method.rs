@@ -7,13 +7,13 @@ use std::str::FromStr;
 /// A planner by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Method {
-    /// The shortest path by slabs, rows and the search that bounds the optimum, with that bound.
+    /// The shortest path by slabs, slices and the search that bounds the optimum, with that bound.
     Shortest,
     /// The first certified path that slabs lead to, or a proof that there is none: the quickest answer.
     First,
     /// Visibility graph and A*: the shortest path, up to the margin.
     Visibility,
-    /// Trapezoidal decomposition: a channel of cells, and a taut string through it.
+    /// Trapezoidal decomposition: a channel of cells, and a funnel path through it.
     Trapezoid,
     /// Manhattan wavefront on a grid.
     Wavefront,

@@ -7,7 +7,7 @@
 //! # The ladder
 //!
 //! A rung is a space: for roadmaps `cspace::regions` with a margin (a quarter of it on the next rung), for fields
-//! `cspace::outer_grid`, whose free cells are wholly free, then `cspace::grid_from_rows` with as many cells free at their
+//! `cspace::outer_grid`, whose free cells are wholly free, then `cspace::grid_from_slices` with as many cells free at their
 //! centres (passages look some three cells wider, and the certificate judges the path), then twice the cells. The cells
 //! of fields are square in joint space unless their number is given, so that the equation is that of the configuration
 //! space (`rungs`). A start or goal nearer to an obstacle than the margin is free, but not in such a space: `admission`
@@ -21,7 +21,7 @@
 //!
 //! [`decide`], and the planner `first`, is that question by itself, within one budget (among thousands of pieces it is
 //! put to some of them first: what these close is closed). The planner `subdivision` is the search of boxes itself: it
-//! judges the scene, so it has no representation to build or to refine, and `planner` lends it only the taut string.
+//! judges the scene, so it has no representation to build or to refine, and `planner` lends it only the funnel path.
 //!
 //! The planner `shortest`, the default, is the search that bounds the optimum, twice. Slabs give a first path, which says
 //! how far to look; among obstacles that are grown by a hair the way keeps off the true ones and is certified; the same

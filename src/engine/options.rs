@@ -197,7 +197,7 @@ impl Planner {
     }
 
     /// What of it makes no sense, by name.
-    fn defect(&self) -> Option<String> {
+    fn error(&self) -> Option<String> {
         let positive = |name: &str, value: f64| {
             (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
         };
@@ -284,12 +284,12 @@ impl Options {
     }
 
     /// What makes no sense, by name. `has_steps` says whether they are for a sequence of steps.
-    pub(crate) fn defect(&self, has_steps: bool) -> Option<String> {
+    pub(crate) fn error(&self, has_steps: bool) -> Option<String> {
         let Drive { period, blend, tip_speed } = self.drive;
         let jerks = self.jerk.into_iter().flatten().flatten();
         let not_positive = |value: &f64| !value.is_finite() || *value <= 0.0;
-        if let Some(defect) = self.planner.defect() {
-            Some(defect)
+        if let Some(error) = self.planner.error() {
+            Some(error)
         } else if !LEVELS.contains(&self.levels) {
             Some(format!("levels: {} is not from {} to {}", self.levels, LEVELS.start(), LEVELS.end()))
         } else if !(period.is_finite() && period >= SHORTEST_INTERVAL) {

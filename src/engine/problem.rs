@@ -1,7 +1,7 @@
 //! What is asked: a motion, or a sequence of steps, of a robot in a world.
 
 use crate::input::{self, InputError, Loaded, LoadedScene, LoadedTask, Overrides, RobotReport};
-use crate::model::{Arm, MotionProblem, ProblemDefect, RobotJoints, Scene, SceneDefect, Task, Workspace};
+use crate::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
 use crate::space::{Configuration, GoalSet};
 use std::path::Path;
 use std::sync::Arc;
@@ -24,17 +24,17 @@ pub struct Problem {
 pub enum ProblemError {
     /// The arm or the workspace.
     #[error(transparent)]
-    Scene(#[from] SceneDefect),
+    Scene(#[from] SceneError),
     /// The start or a goal.
     #[error(transparent)]
-    Ends(#[from] ProblemDefect),
+    Ends(#[from] MotionProblemError),
 }
 
 /// What is to be done.
 #[derive(Debug)]
 pub(crate) enum Asked {
     /// A single motion.
-    Motion(MotionProblem),
+    JointType(MotionProblem),
     /// The steps of a task. The arm, empty-handed, among obstacles and objects where they lie at first, is for pictures.
     Task(Task, Scene),
 }
@@ -102,7 +102,7 @@ impl Problem {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         match &*self.what {
-            Asked::Motion(motion) => motion.scene(),
+            Asked::JointType(motion) => motion.scene(),
             Asked::Task(_, scene) => scene,
         }
     }
@@ -110,7 +110,7 @@ impl Problem {
     /// The motion, if it is a single one.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
-        if let Asked::Motion(motion) = &*self.what { Some(motion) } else { None }
+        if let Asked::JointType(motion) = &*self.what { Some(motion) } else { None }
     }
 
     /// The task, if it is one.
@@ -138,7 +138,7 @@ impl Problem {
 
 impl From<Loaded> for Problem {
     fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(Asked::Motion(problem), robot, notes)
+        Self::read(Asked::JointType(problem), robot, notes)
     }
 }
 
@@ -153,6 +153,6 @@ impl From<MotionProblem> for Problem {
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(Asked::Motion(motion), robot, Vec::new())
+        Self::read(Asked::JointType(motion), robot, Vec::new())
     }
 }

@@ -1,7 +1,7 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
 use super::{Effort, Space};
-use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_rows, outer_grid, regions, traced_pairs};
+use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, traced_pairs};
 use crate::model::MotionProblem;
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
@@ -44,7 +44,7 @@ pub(super) fn polygons(problem: &MotionProblem, effort: &Effort, level: usize) -
 /// The level's margin, metres.
 fn margin(problem: &MotionProblem, effort: &Effort, level: usize) -> f64 {
     let arm = problem.scene().arm();
-    let strokes = arm.joints.iter().filter(|joint| !joint.motion.is_revolute()).map(|joint| joint.axis.extent());
+    let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
     let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
     effort.margin * scale * 0.25_f64.powi(level as i32)
 }
@@ -67,7 +67,7 @@ pub(super) fn field_cells(problem: &MotionProblem, effort: &Effort, level: usize
         return cells(problem, effort, level);
     }
     let n = side(effort, level)? as f64;
-    let [a, b] = problem.scene().arm().topology().axes.map(|axis| axis.extent());
+    let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
     Some(grid(problem, level, shape))
@@ -85,7 +85,7 @@ fn side(effort: &Effort, level: usize) -> Option<usize> {
 }
 
 fn grid(problem: &MotionProblem, level: usize, shape: [usize; 2]) -> Grid {
-    let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_rows };
+    let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_slices };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }
 

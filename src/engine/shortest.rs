@@ -2,7 +2,7 @@
 //!
 //! Slabs say whether there is a path; the first one bounds how far to look. The search that bounds the optimum from below is
 //! run among obstacles that are grown by a hair: its way keeps off the true ones, and is certified. Then it is run among the
-//! true ones with the same rows, for the bound. No polygons, graphs or grids are built unless that fails.
+//! true ones with the same slices, for the bound. No polygons, graphs or grids are built unless that fails.
 
 use super::bound::{Bound, motions};
 use super::corners::fewer_corners;
@@ -88,9 +88,9 @@ fn shorter(problem: &MotionProblem, effort: &Effort, first: CertifiedPath, mut s
     let length = |path: &CertifiedPath| effort.metric.length(path.path());
     let mut bound = Bound { metric: effort.metric, lower: 0.0, upper: length(&first) };
     let (mut path, mut free) = (first, Vec::new());
-    let close = |bound: &Bound, rows: &[f64], stages: &mut Stages| {
+    let close = |bound: &Bound, slices: &[f64], stages: &mut Stages| {
         let clock = Instant::now();
-        let lower = least_length(&motions, bound.upper, PART * gap, rows);
+        let lower = least_length(&motions, bound.upper, PART * gap, slices);
         stages.bound += clock.elapsed();
         Bound { lower: lower.max(bound.lower), ..*bound }
     };
@@ -115,7 +115,7 @@ fn shorter(problem: &MotionProblem, effort: &Effort, first: CertifiedPath, mut s
             break;
         }
         if bound.gap() > gap {
-            bound = close(&bound, &found.rows, &mut stages);
+            bound = close(&bound, &found.slices, &mut stages);
         }
     }
     if effort.bounded && bound.lower == 0.0 {
@@ -131,8 +131,8 @@ fn shorter(problem: &MotionProblem, effort: &Effort, first: CertifiedPath, mut s
     let mut answer = answer(Method::Shortest, Verdict::Found(path), stages);
     answer.bound = effort.bounded.then_some(bound);
     if !free.is_empty() {
-        answer.run.size = Size::Rows { rows: free.len() };
-        answer.run.trace = Trace::Rows { free };
+        answer.run.size = Size::Slices { slices: free.len() };
+        answer.run.trace = Trace::Slices { free };
     }
     answer
 }

@@ -7,7 +7,7 @@ use crate::check::CertifiedPath;
 use crate::check::{Rejection, certify};
 use crate::geometry::Point;
 use crate::model::MotionProblem;
-use crate::planner::{Passage, PathKind, Proposal, Run, Size, Trace, nearest_end, taut_string};
+use crate::planner::{PathKind, Portal, Proposal, Run, Size, Trace, funnel_path, nearest_end};
 use crate::search::{Channel, Connectivity, Exploration, Occupancy, explore};
 use crate::space::{Configuration, Path};
 use std::time::Instant;
@@ -77,11 +77,11 @@ pub(super) fn certified(problem: &MotionProblem, channel: &Channel) -> Result<Ce
 
 /// The channel's shortest path.
 pub(super) fn taut(channel: &Channel) -> Path {
-    let passage = |[left, right]: &[Configuration; 2]| Passage { left: Point::from(*left), right: Point::from(*right) };
-    let passages: Vec<Passage> = channel.doors().iter().map(passage).collect();
+    let portal = |[left, right]: &[Configuration; 2]| Portal { left: Point::from(*left), right: Point::from(*right) };
+    let portals: Vec<Portal> = channel.portals().iter().map(portal).collect();
     let start = Point::from(channel.start());
-    let string = taut_string(start, nearest_end(start, channel.goals(), &passages), &passages);
-    Path::new(string.into_iter().map(|p| p.coords).collect())
+    let path = funnel_path(start, nearest_end(start, channel.goals(), &portals), &portals);
+    Path::new(path.into_iter().map(|p| p.coords).collect())
 }
 
 fn trace(exploration: &Exploration) -> Trace {

@@ -65,13 +65,13 @@ impl Lattice {
             }
         }
         let twin = |cell: Site| if cell == Site::Free { Site::Twin } else { Site::Wall };
-        if grid.topology.axes[0].is_circle() {
+        if grid.topology.ranges[0].is_circle() {
             for j in 1..=columns {
                 sites[j] = twin(sites[rows * stride + j]);
                 sites[(rows + 1) * stride + j] = twin(sites[stride + j]);
             }
         }
-        if grid.topology.axes[1].is_circle() {
+        if grid.topology.ranges[1].is_circle() {
             for i in 1..=rows {
                 sites[i * stride] = twin(sites[i * stride + columns]);
                 sites[i * stride + columns + 1] = twin(sites[i * stride + 1]);

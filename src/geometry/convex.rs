@@ -5,7 +5,7 @@ use super::{Bounds, Point, Pose, Vector};
 
 /// Why corners and a radius are no convex shape. Corners are counted from 1 in messages, from 0 here.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ConvexDefect {
+pub enum ConvexError {
     /// There is no corner.
     #[error("it has no corner")]
     NoCorner,
@@ -56,19 +56,19 @@ impl Convex {
     /// # Errors
     /// When the corners are none of that, are none at all or not finite, or the radius is negative or not finite. Corners in
     /// any order go through [`super::hull`] first.
-    pub fn new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexDefect> {
+    pub fn new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexError> {
         if core.is_empty() {
-            return Err(ConvexDefect::NoCorner);
+            return Err(ConvexError::NoCorner);
         }
         if !(radius.is_finite() && radius >= 0.0) {
-            return Err(ConvexDefect::Radius { radius });
+            return Err(ConvexError::Radius { radius });
         }
         if let Some(corner) = core.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
-            return Err(ConvexDefect::NotFinite { corner });
+            return Err(ConvexError::NotFinite { corner });
         }
         let n = core.len();
         if let Some(corner) = (0..n).find(|&i| n > 1 && core[i] == core[(i + 1) % n]) {
-            return Err(ConvexDefect::Repeated { corner });
+            return Err(ConvexError::Repeated { corner });
         }
         let turn = |i: usize| orientation(core[i], core[(i + 1) % n], core[(i + 2) % n]);
         let rises = |i: usize| {
@@ -79,8 +79,8 @@ impl Convex {
         let rounds = (0..n).filter(|&i| rises(i) && !rises(i + 1)).count();
         let is_flat = (0..n).all(|i| turn(i) == Orientation::Collinear);
         match (0..n).find(|&i| n > 2 && turn(i) == Orientation::Clockwise) {
-            Some(corner) => Err(ConvexDefect::NotConvex { corner: (corner + 1) % n }),
-            None if n > 2 && (is_flat || rounds != 1) => Err(ConvexDefect::NotConvex { corner: 0 }),
+            Some(corner) => Err(ConvexError::NotConvex { corner: (corner + 1) % n }),
+            None if n > 2 && (is_flat || rounds != 1) => Err(ConvexError::NotConvex { corner: 0 }),
             None => Ok(Self { core, radius }),
         }
     }
@@ -89,7 +89,7 @@ impl Convex {
     ///
     /// # Errors
     /// When a number is not finite, or the radius negative.
-    pub fn disc(center: Point, radius: f64) -> Result<Self, ConvexDefect> {
+    pub fn disc(center: Point, radius: f64) -> Result<Self, ConvexError> {
         Self::new(vec![center], radius)
     }
 
@@ -97,7 +97,7 @@ impl Convex {
     ///
     /// # Errors
     /// When a coordinate is not finite.
-    pub fn segment(a: Point, b: Point) -> Result<Self, ConvexDefect> {
+    pub fn segment(a: Point, b: Point) -> Result<Self, ConvexError> {
         Self::new(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
 

@@ -27,7 +27,7 @@ mod sliding;
 mod turning;
 
 pub use box_tree::{Bounds, BoxTree};
-pub use convex::{Convex, ConvexDefect};
+pub use convex::{Convex, ConvexError};
 pub use decompose::{MOST_CORNERS, decompose};
 pub(crate) use galloping::farthest;
 pub use hull::hull;
@@ -40,9 +40,9 @@ pub use ordered::Ordered;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };
-pub use polygon::{PolygonDefect, SimplePolygon};
+pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
-pub use rings::{Polygon, RingDefect, RingSide};
+pub use rings::{Polygon, RingError, RingSide};
 pub(crate) use seams::seams;
 pub use separation::{Separation, separation};
 pub use sliding::sliding;

@@ -8,7 +8,7 @@ use super::{Convex, Point, cross, decompose};
 ///
 /// Indices refer to the list as it was given; side `i` runs from corner `i` to corner `i + 1` (the last to the first).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-pub enum PolygonDefect {
+pub enum PolygonError {
     /// Fewer than three corners.
     #[error("a polygon needs at least three corners, this one has {count}")]
     TooFewCorners {
@@ -70,9 +70,9 @@ impl SimplePolygon {
     /// All conditions are decided exactly. `O(n log n)`, and another factor of `log n` to say which sides meet.
     ///
     /// # Errors
-    /// The first defect found, in the order of [`PolygonDefect`]'s variants; of sides that meet the first in the list that
+    /// The first defect found, in the order of [`PolygonError`]'s variants; of sides that meet the first in the list that
     /// meets an earlier one.
-    pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonDefect> {
+    pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonError> {
         check_corners(&corners)?;
         check_neighbours(&corners)?;
         check_sides(&corners)?;
@@ -143,27 +143,27 @@ pub(super) fn turn(corners: &[Point], i: usize) -> Orientation {
 }
 
 /// What a ring that may touch itself has to have: corners, coordinates, area.
-pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonDefect> {
+pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     check_coordinates(corners)?;
     match (0..corners.len()).all(|i| turn(corners, i) == Orientation::Collinear) {
-        true => Err(PolygonDefect::NoArea),
+        true => Err(PolygonError::NoArea),
         false => Ok(()),
     }
 }
 
 /// Number of corners, coordinates.
-fn check_coordinates(corners: &[Point]) -> Result<(), PolygonDefect> {
+fn check_coordinates(corners: &[Point]) -> Result<(), PolygonError> {
     if corners.len() < 3 {
-        return Err(PolygonDefect::TooFewCorners { count: corners.len() });
+        return Err(PolygonError::TooFewCorners { count: corners.len() });
     }
     if let Some(corner) = corners.iter().position(|p| !p.x.is_finite() || !p.y.is_finite()) {
-        return Err(PolygonDefect::NotFinite { corner });
+        return Err(PolygonError::NotFinite { corner });
     }
     Ok(())
 }
 
 /// Number of corners, coordinates, repetitions.
-fn check_corners(corners: &[Point]) -> Result<(), PolygonDefect> {
+fn check_corners(corners: &[Point]) -> Result<(), PolygonError> {
     check_coordinates(corners)?;
     let mut order: Vec<usize> = (0..corners.len()).collect();
     // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would tell apart.
@@ -174,36 +174,36 @@ fn check_corners(corners: &[Point]) -> Result<(), PolygonDefect> {
     });
     let repeated = order.windows(2).filter(|w| corners[w[0]] == corners[w[1]]).map(|w| (w[0], w[1])).min();
     match repeated {
-        Some((first, second)) => Err(PolygonDefect::RepeatedCorner { first, second }),
+        Some((first, second)) => Err(PolygonError::RepeatedCorner { first, second }),
         None => Ok(()),
     }
 }
 
 /// Area and spikes: what a corner and its neighbours tell.
-fn check_neighbours(corners: &[Point]) -> Result<(), PolygonDefect> {
+fn check_neighbours(corners: &[Point]) -> Result<(), PolygonError> {
     let n = corners.len();
     if (0..n).all(|i| turn(corners, i) == Orientation::Collinear) {
-        return Err(PolygonDefect::NoArea);
+        return Err(PolygonError::NoArea);
     }
     let spike = |&i: &usize| {
         let (before, after) = (corners[(i + n - 1) % n], corners[(i + 1) % n]);
         turn(corners, i) == Orientation::Collinear && !point_on_segment(corners[i], before, after)
     };
     match (0..n).find(spike) {
-        Some(corner) => Err(PolygonDefect::Spike { corner }),
+        Some(corner) => Err(PolygonError::Spike { corner }),
         None => Ok(()),
     }
 }
 
 /// No two sides meet but neighbours in their common corner. Neighbours are without spikes already.
-fn check_sides(corners: &[Point]) -> Result<(), PolygonDefect> {
+fn check_sides(corners: &[Point]) -> Result<(), PolygonError> {
     let Some((first, second)) = first_meeting(corners) else { return Ok(()) };
     let side = |i: usize| (corners[i], corners[(i + 1) % corners.len()]);
     let ((a, b), (c, d)) = (side(first), side(second));
     Err(if segments_cross(a, b, c, d) {
-        PolygonDefect::SidesCross { first, second }
+        PolygonError::SidesCross { first, second }
     } else {
-        PolygonDefect::SidesTouch { first, second }
+        PolygonError::SidesTouch { first, second }
     })
 }
 
@@ -225,25 +225,25 @@ mod tests {
         list.iter().map(|&(x, y)| Point::new(x, y)).collect()
     }
 
-    fn defect(list: &[(f64, f64)]) -> PolygonDefect {
+    fn error(list: &[(f64, f64)]) -> PolygonError {
         SimplePolygon::new(points(list)).unwrap_err()
     }
 
     #[test]
-    fn names_the_defect() {
-        use PolygonDefect::*;
-        assert_eq!(defect(&[(0., 0.), (1., 0.)]), TooFewCorners { count: 2 });
-        assert_eq!(defect(&[(0., 0.), (1., f64::NAN), (1., 1.)]), NotFinite { corner: 1 });
-        assert_eq!(defect(&[(0., 0.), (1., 0.), (1., 1.), (-0., 0.)]), RepeatedCorner { first: 0, second: 3 });
-        assert_eq!(defect(&[(0., 0.), (3., 3.), (1., 1.), (2., 2.)]), NoArea);
-        assert_eq!(defect(&[(0., 0.), (4., 0.), (2., 0.), (2., 2.)]), Spike { corner: 1 });
-        assert_eq!(defect(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]), SidesCross { first: 0, second: 2 });
+    fn names_the_error() {
+        use PolygonError::*;
+        assert_eq!(error(&[(0., 0.), (1., 0.)]), TooFewCorners { count: 2 });
+        assert_eq!(error(&[(0., 0.), (1., f64::NAN), (1., 1.)]), NotFinite { corner: 1 });
+        assert_eq!(error(&[(0., 0.), (1., 0.), (1., 1.), (-0., 0.)]), RepeatedCorner { first: 0, second: 3 });
+        assert_eq!(error(&[(0., 0.), (3., 3.), (1., 1.), (2., 2.)]), NoArea);
+        assert_eq!(error(&[(0., 0.), (4., 0.), (2., 0.), (2., 2.)]), Spike { corner: 1 });
+        assert_eq!(error(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]), SidesCross { first: 0, second: 2 });
         // A corner on the opposite side.
         let pinched = [(0., 0.), (4., 0.), (4., 4.), (2., 0.), (0., 4.)];
-        assert_eq!(defect(&pinched), SidesTouch { first: 0, second: 2 });
+        assert_eq!(error(&pinched), SidesTouch { first: 0, second: 2 });
         // Two sides that overlap.
         let overlap = [(0., 0.), (4., 0.), (4., 2.), (3., 2.), (3., 0.), (1., 0.), (1., 2.), (0., 2.)];
-        assert!(matches!(defect(&overlap), SidesTouch { first: 0, .. }));
+        assert!(matches!(error(&overlap), SidesTouch { first: 0, .. }));
     }
 
     #[test]

@@ -1,13 +1,13 @@
-//! Errors in what the user wrote: where, what, and the cure.
+//! Errors in what the user wrote: where, what, and what to do about it.
 
 use super::source::Position;
 use crate::model::{plain, plain_line};
 use std::fmt;
 use thiserror::Error;
 
-/// What a defect is about, for scripts.
+/// What a diagnostic is about, for scripts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum DefectKind {
+pub enum DiagnosticKind {
     /// A file or an option.
     #[default]
     Input,
@@ -19,7 +19,7 @@ pub enum DefectKind {
 
 /// One thing that is wrong with the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Defect {
+pub struct Diagnostic {
     /// The file, or the command-line option, that it is in.
     pub origin: String,
     /// Where in the file, if that is known.
@@ -28,14 +28,14 @@ pub struct Defect {
     pub excerpt: Option<Box<str>>,
     /// What is wrong, naming the joint, link or obstacle.
     pub message: String,
-    /// What to do about it; each defect that reaches the user has one.
-    pub cure: Option<String>,
+    /// What to do about it; each diagnostic that reaches the user has one.
+    pub help: Option<String>,
     /// What it is about.
-    pub kind: DefectKind,
+    pub kind: DiagnosticKind,
 }
 
-impl Defect {
-    /// A defect of a whole file or option.
+impl Diagnostic {
+    /// A diagnostic of a whole file or option.
     #[must_use]
     pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
@@ -43,25 +43,25 @@ impl Defect {
             position: None,
             excerpt: None,
             message: message.into(),
-            cure: None,
-            kind: DefectKind::Input,
+            help: None,
+            kind: DiagnosticKind::Input,
         }
     }
 
-    /// The same with a cure.
+    /// The same with help.
     #[must_use]
-    pub fn cure(self, cure: impl Into<String>) -> Self {
-        Self { cure: Some(cure.into()), ..self }
+    pub fn help(self, help: impl Into<String>) -> Self {
+        Self { help: Some(help.into()), ..self }
     }
 
     /// The same about something else.
     #[must_use]
-    pub fn about(self, kind: DefectKind) -> Self {
+    pub fn about(self, kind: DiagnosticKind) -> Self {
         Self { kind, ..self }
     }
 }
 
-impl fmt::Display for Defect {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", plain_line(&self.origin))?;
         if let Some(Position { line, column }) = self.position {
@@ -71,63 +71,66 @@ impl fmt::Display for Defect {
         if let Some(excerpt) = &self.excerpt {
             write!(f, "\n{excerpt}")?;
         }
-        if let Some(cure) = &self.cure {
-            write!(f, "\n  cure: {}", plain(cure))?;
+        if let Some(help) = &self.help {
+            write!(f, "\n  cure: {}", plain(help))?;
         }
         Ok(())
     }
 }
 
-/// Input that cannot be used. Displays every defect with its file, line and column, the source line, and the cure.
+/// Input that cannot be used. Displays every diagnostic with its file, line and column, the source line, and what to do about it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{}", listed(.defects))]
+#[error("{}", listed(.diagnostics))]
 pub struct InputError {
-    defects: Vec<Defect>,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl InputError {
-    /// What is wrong: at least one defect, in the order of the file where that makes sense.
+    /// What is wrong: at least one diagnostic, in the order of the file where that makes sense.
     #[must_use]
-    pub fn defects(&self) -> &[Defect] {
-        &self.defects
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
     }
 
     /// The same about something else.
-    pub(super) fn about(self, kind: DefectKind) -> Self {
-        Self { defects: self.defects.into_iter().map(|defect| defect.about(kind)).collect() }
+    pub(super) fn about(self, kind: DiagnosticKind) -> Self {
+        Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }
     }
 
     /// All of these; at least one.
-    pub(super) fn of(defects: Vec<Defect>) -> Self {
-        debug_assert!(!defects.is_empty(), "an error without a defect");
-        debug_assert!(defects.iter().all(|defect| defect.cure.is_some()), "a defect without a cure: {defects:?}");
-        Self { defects }
+    pub(super) fn of(diagnostics: Vec<Diagnostic>) -> Self {
+        debug_assert!(!diagnostics.is_empty(), "an error without a diagnostic");
+        debug_assert!(
+            diagnostics.iter().all(|diagnostic| diagnostic.help.is_some()),
+            "a diagnostic without help: {diagnostics:?}"
+        );
+        Self { diagnostics }
     }
 
-    /// `Ok` when there are no defects.
-    pub(super) fn check(defects: Vec<Defect>) -> Result<(), Self> {
-        if defects.is_empty() { Ok(()) } else { Err(Self::of(defects)) }
-    }
-}
-
-impl From<Defect> for InputError {
-    fn from(defect: Defect) -> Self {
-        Self::of(vec![defect])
+    /// `Ok` when there are no diagnostics.
+    pub(super) fn check(diagnostics: Vec<Diagnostic>) -> Result<(), Self> {
+        if diagnostics.is_empty() { Ok(()) } else { Err(Self::of(diagnostics)) }
     }
 }
 
-/// More defects than this are counted, not shown: the first ones usually cause the rest.
+impl From<Diagnostic> for InputError {
+    fn from(diagnostic: Diagnostic) -> Self {
+        Self::of(vec![diagnostic])
+    }
+}
+
+/// More diagnostics than this are counted, not shown: the first ones usually cause the rest.
 const SHOWN: usize = 8;
 
-fn listed(defects: &[Defect]) -> String {
-    let mut lines: Vec<String> = defects.iter().take(SHOWN).map(ToString::to_string).collect();
-    if defects.len() > SHOWN {
-        lines.push(format!("... and {} more", defects.len() - SHOWN));
+fn listed(diagnostics: &[Diagnostic]) -> String {
+    let mut lines: Vec<String> = diagnostics.iter().take(SHOWN).map(ToString::to_string).collect();
+    if diagnostics.len() > SHOWN {
+        lines.push(format!("... and {} more", diagnostics.len() - SHOWN));
     }
     lines.join("\n")
 }
 
-/// More names than this are counted, not listed: nobody reads them, and each defect may have its own list.
+/// More names than this are counted, not listed: nobody reads them, and each diagnostic may have its own list.
 const NAMED: usize = 64;
 
 /// Names in quotes, separated by commas, for messages.
@@ -141,7 +144,7 @@ pub(super) fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> Strin
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
-/// A parser's message without the place at its end, which a defect gives at the beginning.
+/// A parser's message without the place at its end, which a diagnostic gives at the beginning.
 pub(super) fn without_place(message: &str) -> String {
     let message = message.lines().next().unwrap_or_default();
     message.split(" at line ").next().unwrap_or(message).to_owned()

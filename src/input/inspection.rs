@@ -6,7 +6,7 @@ use crate::model::{OutlineSource, Scene};
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// The report on a robot. What could not be found out for the defects of the file is empty or none.
+/// The report on a robot. What could not be found out for the diagnostics of the file is empty or none.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Inspection {
     /// The path of the URDF, as it was given.
@@ -41,7 +41,8 @@ pub struct Inspection {
     pub warnings: Vec<String>,
     /// A `[robot]` table for the world file with which the robot loads, where that is all that is missing. Ranges, speeds
     /// and radii in it are placeholders.
-    pub remedy: Option<String>,
+    #[serde(rename = "remedy")]
+    pub help: Option<String>,
     /// What prevents planning, in the order of the stages; the first is what planning would report.
     #[serde(skip)]
     pub errors: Vec<InputError>,

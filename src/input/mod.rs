@@ -1,4 +1,4 @@
-//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and the cure.
+//! Files and options to a planning problem or a task: URDF, world TOML, and errors that name the place and what to do about it.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
@@ -13,10 +13,10 @@
 //! ```
 //!
 //! [`load`] reads both files, finds the plane and the two joints, projects the geometry of all that each joint moves,
-//! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every defect at once.
+//! decomposes polygons into convex pieces, and checks start and goal. Out comes a problem, or every diagnostic at once.
 //! [`load_recording`] makes a recording of anyone's motion, and of a result of a task its steps, too.
 
-mod cure;
+mod help;
 mod ends;
 mod error;
 mod group;
@@ -30,7 +30,7 @@ mod obstacle;
 mod occupancy;
 mod pallet;
 mod polygon;
-mod posture;
+mod reasons;
 mod preference;
 mod preference_map;
 mod problem;
@@ -52,7 +52,7 @@ mod world;
 mod world_map;
 mod wrist;
 
-pub use error::{Defect, DefectKind, InputError};
+pub use error::{Diagnostic, DiagnosticKind, InputError};
 pub use identity::{FileIdentity, read_from};
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
@@ -164,7 +164,7 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
 }
 
 /// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
-/// overridden; what a world would have to decide is then among the defects and in [`Inspection::remedy`].
+/// overridden; what a world would have to decide is then among the diagnostics and in [`Inspection::help`].
 #[must_use]
 pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
     let mut unread = None;
@@ -189,7 +189,7 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
             false => l.problem(&overrides).err().map(|e| ("start and goal", e)),
         });
         if let Some((what, error)) = query {
-            inspection.warnings.extend(error.defects().iter().map(|d| format!("{what}: {}", d.message)));
+            inspection.warnings.extend(error.diagnostics().iter().map(|d| format!("{what}: {}", d.message)));
         }
     }
     inspection

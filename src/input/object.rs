@@ -1,6 +1,6 @@
 //! The world file's `[[object]]`.
 
-use super::error::{Defect, quoted};
+use super::error::{Diagnostic, quoted};
 use super::obstacle::{CircleTable, circle};
 use super::pallet::Pallets;
 use super::polygon::{Ring, polygon};
@@ -102,7 +102,7 @@ const LISTED: usize = 12;
 impl<'a> Names<'a> {
     /// # Errors
     /// When two objects, or an object and an obstacle, have the same name.
-    fn of(reader: &Reader, placed: &[Placed<'a>], obstacles: &'a [Obstacle]) -> Result<Self, Defect> {
+    fn of(reader: &Reader, placed: &[Placed<'a>], obstacles: &'a [Obstacle]) -> Result<Self, Diagnostic> {
         let mut names = Self {
             objects: BTreeMap::new(),
             families: BTreeMap::new(),
@@ -128,8 +128,8 @@ impl<'a> Names<'a> {
             if is_obstacle || is_object {
                 let other = if is_object { "a second object" } else { "an obstacle" };
                 let message = format!("{other} is named \"{}\"", if is_object { name.as_str() } else { family });
-                let cure = "steps refer to objects by name: give each a name of its own";
-                return Err(reader.source.defect_at(given.span(), message).cure(cure));
+                let help = "steps refer to objects by name: give each a name of its own";
+                return Err(reader.source.diagnostic_at(given.span(), message).help(help));
             }
         }
         Ok(names)
@@ -139,13 +139,13 @@ impl<'a> Names<'a> {
     ///
     /// # Errors
     /// When there is none.
-    pub fn object(&self, reader: &Reader, name: &Spanned<String>) -> Result<usize, Defect> {
+    pub fn object(&self, reader: &Reader, name: &Spanned<String>) -> Result<usize, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(number) = self.objects.get(wanted) {
             return Ok(*number);
         }
         let message = format!("there is no object \"{wanted}\"");
-        let cure = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
+        let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
             (true, _) => "that is an obstacle, which stays where it is: make it an [[object]]".to_owned(),
             (_, Some(all)) => format!(
                 "there are {} on a pallet: name one, as \"{wanted} 1,1\"; transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }} moves all",
@@ -153,25 +153,25 @@ impl<'a> Names<'a> {
             ),
             _ => format!("the objects are {}", self.all()),
         };
-        Err(reader.source.defect_at(name.span(), message).cure(cure))
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
     /// The objects on a pallet that have this in common, row by row.
     ///
     /// # Errors
     /// When there are none.
-    pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Defect> {
+    pub fn family(&self, reader: &Reader, name: &Spanned<String>) -> Result<Range<usize>, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(family) = self.families.get(wanted) {
             return Ok(family.clone());
         }
         let message = format!("there are no objects \"{wanted}\" on a pallet");
-        let cure = match self.objects.contains_key(wanted) {
+        let help = match self.objects.contains_key(wanted) {
             true => format!("that is a single object: pick = \"{wanted}\", then place it"),
             false if self.families.is_empty() => "give an [[object]] of this name pallet = \"PALLET\"".into(),
             false => format!("the objects on pallets are {}", listed(self.families.keys().copied())),
         };
-        Err(reader.source.defect_at(name.span(), message).cure(cure))
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
     /// The names to choose from: those on a pallet together.
@@ -184,7 +184,7 @@ impl<'a> Names<'a> {
     ///
     /// # Errors
     /// When there is none of such a name.
-    pub fn supports(&self, reader: &Reader, list: &NameList) -> Result<Supports, Defect> {
+    pub fn supports(&self, reader: &Reader, list: &NameList) -> Result<Supports, Diagnostic> {
         let mut numbers = Vec::new();
         for name in list.get_ref() {
             let wanted = name.get_ref().as_str();
@@ -195,8 +195,8 @@ impl<'a> Names<'a> {
                 (None, None, None) => {
                     let message = format!("there is no obstacle and no object \"{wanted}\" to rest on");
                     let names = self.obstacles.keys().copied().chain(self.objects.keys().map(String::as_str));
-                    let cure = format!("there are {}", listed(names));
-                    return Err(reader.source.defect_at(name.span(), message).cure(cure));
+                    let help = format!("there are {}", listed(names));
+                    return Err(reader.source.diagnostic_at(name.span(), message).help(help));
                 }
             }
         }
@@ -224,7 +224,7 @@ fn placed<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
     pallets: &Pallets,
-) -> Result<Vec<Placed<'a>>, Defect> {
+) -> Result<Vec<Placed<'a>>, Diagnostic> {
     let mut all = Vec::new();
     for table in tables {
         let given = table.get_ref();
@@ -249,8 +249,8 @@ fn placed<'a>(
             (at, _) => {
                 let found = if at.is_some() { "both" } else { "neither" };
                 let message = format!("{what} needs either `at` or `pallet`, it has {found}");
-                let cure = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
-                return Err(reader.source.defect_at(table.span(), message).cure(cure));
+                let help = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help));
             }
         }
     }
@@ -268,7 +268,7 @@ pub(super) fn read<'a>(
     pallets: &Pallets,
     obstacles: &'a [Obstacle],
     default: Holding,
-) -> Result<(Vec<Movable>, Names<'a>), Defect> {
+) -> Result<(Vec<Movable>, Names<'a>), Diagnostic> {
     let placed = placed(reader, tables, pallets)?;
     let names = Names::of(reader, &placed, obstacles)?;
     let objects = placed.into_iter().enumerate().map(|(i, placed)| movable(reader, placed, i, &names, default));
@@ -281,7 +281,7 @@ fn movable(
     index: usize,
     names: &Names,
     default: Holding,
-) -> Result<Movable, Defect> {
+) -> Result<Movable, Diagnostic> {
     let given = table.get_ref();
     let what = format!("object \"{name}\"");
     let (shape, pieces) = match (&given.polygon, &given.circle) {
@@ -292,7 +292,7 @@ fn movable(
         (polygon, _) => {
             let count = if polygon.is_some() { 2 } else { 0 };
             let message = format!("{what} needs exactly one shape, it has {count}");
-            return Err(reader.source.defect_at(table.span(), message).cure("give it a polygon or a circle"));
+            return Err(reader.source.diagnostic_at(table.span(), message).help("give it a polygon or a circle"));
         }
     };
     let lift = given.lift.as_ref().map(|l| reader.not_negative(l, &format!("{what}: lift"))).transpose()?;
@@ -316,21 +316,21 @@ fn movable(
     Ok(Movable { object, grasp: grasp.unwrap_or_else(Point::origin), supports, is_renewed: given.renew })
 }
 
-/// The defect of an object that is among its own supports.
-pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Defect {
+/// The diagnostic of an object that is among its own supports.
+pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Diagnostic {
     let message = format!("object \"{name}\" cannot rest on itself");
-    reader.source.defect_at(supports.at.clone(), message).cure("remove it from `supports`")
+    reader.source.diagnostic_at(supports.at.clone(), message).help("remove it from `supports`")
 }
 
 /// How objects are held: `"rigid"` or `"level"`.
-pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Defect> {
+pub(super) fn holding(reader: &Reader, word: &Spanned<String>) -> Result<Holding, Diagnostic> {
     match word.get_ref().as_str() {
         "rigid" => Ok(Holding::Rigid),
         "level" => Ok(Holding::Level),
         other => {
             let message = format!("a payload is \"rigid\" or \"level\", not \"{other}\"");
-            let cure = "rigid: it turns with link 2; level: a wrist keeps its orientation";
-            Err(reader.source.defect_at(word.span(), message).cure(cure))
+            let help = "rigid: it turns with link 2; level: a wrist keeps its orientation";
+            Err(reader.source.diagnostic_at(word.span(), message).help(help))
         }
     }
 }

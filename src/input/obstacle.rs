@@ -1,6 +1,6 @@
 //! The world file's `[[obstacle]]`.
 
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
 use super::schema::{Corners, Positive, Rings, Two, UnknownAs};
@@ -83,18 +83,18 @@ impl ObstacleTable {
                 let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
                 let count = given.iter().filter(|x| **x).count();
                 let message = format!("{what} needs exactly one shape, it has {count}");
-                let cure =
+                let help =
                     "give it one of polygon, circle, polyline, image; a second shape is an [[obstacle]] of its own";
-                return Err(reader.source.defect_at(table.span(), message).cure(cure).into());
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help).into());
             }
         };
         if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
             let message = format!("{what}: only an image has unknown cells");
-            return Err(reader.source.defect_at(unknown.span(), message).cure("remove the key").into());
+            return Err(reader.source.diagnostic_at(unknown.span(), message).help("remove the key").into());
         }
         if let (Some(holes), None) = (&obstacle.holes, &obstacle.polygon) {
             let message = format!("{what}: only a polygon has holes");
-            return Err(reader.source.defect_at(holes.span(), message).cure("remove the key").into());
+            return Err(reader.source.diagnostic_at(holes.span(), message).help("remove the key").into());
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
         Ok(Obstacle { name, shape, pieces, heights })
@@ -112,33 +112,33 @@ fn image(
         Some(("free", _)) => true,
         Some((other, at)) => {
             let message = format!("{what}: unknown cells are \"solid\" or \"free\", not \"{other}\"");
-            return Err(reader.source.defect_at(at, message).cure("unknown = \"solid\", or leave it out").into());
+            return Err(reader.source.diagnostic_at(at, message).help("unknown = \"solid\", or leave it out").into());
         }
     };
     let path = reader.beside(image, what)?;
     if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
         let message = format!("{what}: an image needs the YAML of ROS's map server, which says how large it is");
-        let cure = "name the YAML; it names the picture";
-        return Err(reader.source.defect_at(image.span(), message).cure(cure).into());
+        let help = "name the YAML; it names the picture";
+        return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }
     let pieces = OccupancyMap::read(&path)?.pieces(unknown_is_free, MOST_PIECES).ok_or_else(|| {
         let message = format!("{what}: its pixels make more than {MOST_PIECES} rectangles");
-        let cure = "remove single pixels from the picture, or make its pixels larger";
-        reader.source.defect_at(image.span(), message).cure(cure)
+        let help = "remove single pixels from the picture, or make its pixels larger";
+        reader.source.diagnostic_at(image.span(), message).help(help)
     })?;
     Ok((Shape::Pieces, pieces))
 }
 
 /// A disc.
-pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+pub(super) fn circle(reader: &Reader, circle: &CircleTable, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
     let center = reader.point(&circle.center, &format!("{what}, center"))?;
     let radius = reader.finite(&circle.radius, &format!("{what}, radius"))?;
     if radius <= 0.0 {
         let message = format!("{what}: the radius must be positive, is {radius}");
         return Err(reader
             .source
-            .defect_at(circle.radius.span(), message)
-            .cure("a radius is in metres; leave out what has none"));
+            .diagnostic_at(circle.radius.span(), message)
+            .help("a radius is in metres; leave out what has none"));
     }
     Ok((Shape::Circle { center, radius }, vec![Convex::trusted(vec![center], radius)]))
 }

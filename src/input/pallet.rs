@@ -1,6 +1,6 @@
 //! The world file's `[[pallet]]`: places in rows and columns.
 
-use super::error::{Defect, quoted};
+use super::error::{Diagnostic, quoted};
 use super::quantity::Written;
 use super::schema::{AngleOrLength, Two};
 use super::world::{Numbers, Reader};
@@ -84,7 +84,7 @@ pub(super) struct Pallets<'a> {
 impl<'a> Pallets<'a> {
     /// # Errors
     /// On two of one name, on none or too many places, and on places that coincide.
-    pub fn read(reader: &Reader, tables: &'a [Spanned<PalletTable>]) -> Result<Self, Defect> {
+    pub fn read(reader: &Reader, tables: &'a [Spanned<PalletTable>]) -> Result<Self, Diagnostic> {
         let mut pallets = Self::default();
         for table in tables.iter().map(Spanned::get_ref) {
             let name = table.name.get_ref().as_str();
@@ -93,8 +93,9 @@ impl<'a> Pallets<'a> {
                 pallet.places().map(|(place, pose)| (format!("{name} {place}"), pose.translation.vector.into()));
             pallets.places.extend(places);
             if pallets.by_name.insert(name, pallet).is_some() {
-                let defect = reader.source.defect_at(table.name.span(), format!("a second pallet is named \"{name}\""));
-                return Err(defect.cure("objects and steps refer to pallets by name: give each a name of its own"));
+                let diagnostic =
+                    reader.source.diagnostic_at(table.name.span(), format!("a second pallet is named \"{name}\""));
+                return Err(diagnostic.help("objects and steps refer to pallets by name: give each a name of its own"));
             }
         }
         Ok(pallets)
@@ -104,11 +105,11 @@ impl<'a> Pallets<'a> {
     ///
     /// # Errors
     /// When there is none.
-    pub fn named(&self, reader: &Reader, name: &Spanned<String>) -> Result<&Pallet, Defect> {
+    pub fn named(&self, reader: &Reader, name: &Spanned<String>) -> Result<&Pallet, Diagnostic> {
         let wanted = name.get_ref().as_str();
         self.by_name.get(wanted).ok_or_else(|| {
-            let defect = reader.source.defect_at(name.span(), format!("there is no pallet \"{wanted}\""));
-            defect.cure(self.names())
+            let diagnostic = reader.source.diagnostic_at(name.span(), format!("there is no pallet \"{wanted}\""));
+            diagnostic.help(self.names())
         })
     }
 
@@ -116,20 +117,20 @@ impl<'a> Pallets<'a> {
     ///
     /// # Errors
     /// When there is none.
-    pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Defect> {
+    pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(place) = self.places.get(wanted) {
             return Ok(*place);
         }
         let of = |name: &str| wanted.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
-        let cure = match self.by_name.iter().find(|(name, _)| of(name)) {
+        let help = match self.by_name.iter().find(|(name, _)| of(name)) {
             Some((name, Pallet { rows, columns, .. })) => format!(
                 "pallet \"{name}\" has rows 1 to {rows} and columns 1 to {columns}: \"{name} 1,1\" to \"{name} {rows},{columns}\""
             ),
             None => self.names(),
         };
         let message = format!("there is no place \"{wanted}\" on a pallet");
-        Err(reader.source.defect_at(name.span(), message).cure(cure))
+        Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
     fn names(&self) -> String {
@@ -141,25 +142,28 @@ impl<'a> Pallets<'a> {
 }
 
 impl PalletTable {
-    fn pallet(&self, reader: &Reader) -> Result<Pallet, Defect> {
+    fn pallet(&self, reader: &Reader) -> Result<Pallet, Diagnostic> {
         let what = format!("pallet \"{}\"", self.name.get_ref());
         let counted = |number: &Spanned<i64>, of: &str| {
             usize::try_from(*number.get_ref()).ok().filter(|count| *count > 0).ok_or_else(|| {
                 let message = format!("{what}: {of} must be 1 or more, is {}", number.get_ref());
-                reader.source.defect_at(number.span(), message).cure("a single row or column counts as 1")
+                reader.source.diagnostic_at(number.span(), message).help("a single row or column counts as 1")
             })
         };
         let (rows, columns) = (counted(&self.rows, "rows")?, counted(&self.columns, "columns")?);
         if rows.saturating_mul(columns) > MOST_PLACES {
             let message = format!("{what} has {} places (at most {MOST_PLACES})", rows.saturating_mul(columns));
-            return Err(reader.source.defect_at(self.rows.span(), message).cure("give it fewer rows or columns"));
+            return Err(reader.source.diagnostic_at(self.rows.span(), message).help("give it fewer rows or columns"));
         }
         let pitch = reader.two(&self.pitch, &format!("{what}, pitch"))?;
         for (pitch, count, along) in [(pitch[0], columns, "column"), (pitch[1], rows, "row")] {
             if count > 1 && pitch == 0.0 {
                 let message =
                     format!("{what}, pitch: places would lie on each other, as a {along} is 0 m from the next");
-                return Err(reader.source.defect_at(self.pitch.span(), message).cure("pitch = [by column, by row], m"));
+                return Err(reader
+                    .source
+                    .diagnostic_at(self.pitch.span(), message)
+                    .help("pitch = [by column, by row], m"));
             }
         }
         let at = reader.point(&self.at, &format!("{what}, at"))?;

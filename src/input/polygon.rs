@@ -1,8 +1,8 @@
 //! Polygons and polylines of the world file, as people and exporters write them.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::world::{Number, Reader};
-use crate::geometry::{Convex, Point, Polygon, RingDefect, SimplePolygon};
+use crate::geometry::{Convex, Point, Polygon, RingError, SimplePolygon};
 use crate::model::Shape;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -73,14 +73,14 @@ impl Coordinates {
     }
 }
 
-/// A polygon without crossings; `cure` is for one that has some.
+/// A polygon without crossings; `help` is for one that has some.
 pub(super) fn polygon(
     reader: &Reader,
     given: &Ring,
     holes: Option<&Spanned<Vec<Ring>>>,
     what: &str,
-    cure: &str,
-) -> Result<(Shape, Vec<Convex>), Defect> {
+    help: &str,
+) -> Result<(Shape, Vec<Convex>), Diagnostic> {
     let rings: Vec<&Ring> =
         if given.get_ref().is_nested() { given.get_ref().list().iter().collect() } else { vec![given] };
     let rings: Vec<&Ring> = rings.into_iter().chain(holes.iter().flat_map(|holes| holes.get_ref())).collect();
@@ -91,14 +91,14 @@ pub(super) fn polygon(
     }
     let outer = corners.remove(0);
     let has_holes = !corners.is_empty();
-    let polygon = Polygon::new(outer, corners).map_err(|defect| {
-        let place = match defect {
-            RingDefect::Hole { hole, .. } | RingDefect::Misplaced { hole } => rings[hole.min(rings.len() - 1)].span(),
-            RingDefect::Cross { second, .. } | RingDefect::Overlap { second, .. } => rings[second.ring].span(),
-            RingDefect::Outer(_) | RingDefect::CrossesAt { .. } => rings[0].span(),
+    let polygon = Polygon::new(outer, corners).map_err(|error| {
+        let place = match error {
+            RingError::Hole { hole, .. } | RingError::Misplaced { hole } => rings[hole.min(rings.len() - 1)].span(),
+            RingError::Cross { second, .. } | RingError::Overlap { second, .. } => rings[second.ring].span(),
+            RingError::Outer(_) | RingError::CrossesAt { .. } => rings[0].span(),
         };
         let kind = if has_holes { "not a polygon with holes" } else { "not a simple polygon" };
-        reader.source.defect_at(place, format!("{what} is {kind}: {defect}")).cure(cure)
+        reader.source.diagnostic_at(place, format!("{what} is {kind}: {error}")).help(help)
     })?;
     match polygon.parts() {
         [simple] if !has_holes => Ok((Shape::Polygon(simple.corners().to_vec()), polygon.convex_pieces())),
@@ -111,27 +111,32 @@ pub(super) fn polygon(
     }
 }
 
-/// A polygon whose boundary does not touch itself; `cure` is for one that does.
-pub(super) fn simple_polygon(reader: &Reader, given: &Ring, what: &str, cure: &str) -> Result<SimplePolygon, Defect> {
-    SimplePolygon::new(ring_of(reader, given, what)?).map_err(|defect| {
-        reader.source.defect_at(given.span(), format!("{what} is not a simple polygon: {defect}")).cure(cure)
+/// A polygon whose boundary does not touch itself; `help` is for one that does.
+pub(super) fn simple_polygon(
+    reader: &Reader,
+    given: &Ring,
+    what: &str,
+    help: &str,
+) -> Result<SimplePolygon, Diagnostic> {
+    SimplePolygon::new(ring_of(reader, given, what)?).map_err(|error| {
+        reader.source.diagnostic_at(given.span(), format!("{what} is not a simple polygon: {error}")).help(help)
     })
 }
 
 /// A thin wall.
-pub(super) fn polyline(reader: &Reader, given: &Ring, what: &str) -> Result<(Shape, Vec<Convex>), Defect> {
+pub(super) fn polyline(reader: &Reader, given: &Ring, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
     let points = without_repeats(reader, points(reader, given, what)?, what);
     if points.len() < 2 {
         let message =
             format!("{what}: a polyline needs at least two points in different places, it has {}", points.len());
-        return Err(reader.source.defect_at(given.span(), message).cure("polyline = [[x, y], [x, y], ...]"));
+        return Err(reader.source.diagnostic_at(given.span(), message).help("polyline = [[x, y], [x, y], ...]"));
     }
     let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
     Ok((Shape::Polyline(points), pieces))
 }
 
 /// The corners of a ring, each once.
-fn ring_of(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Defect> {
+fn ring_of(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Diagnostic> {
     let mut corners = without_repeats(reader, points(reader, given, what)?, what);
     if corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();
@@ -149,18 +154,18 @@ fn without_repeats(reader: &Reader, mut points: Vec<Point>, what: &str) -> Vec<P
     points
 }
 
-fn points(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Defect> {
+fn points(reader: &Reader, given: &Ring, what: &str) -> Result<Vec<Point>, Diagnostic> {
     let Coordinates::List(items) = given.get_ref() else {
         let message = format!("{what}: expected a list of points, found a number");
-        return Err(reader.source.defect_at(given.span(), message).cure("write points as [[x, y], [x, y], ...]"));
+        return Err(reader.source.diagnostic_at(given.span(), message).help("write points as [[x, y], [x, y], ...]"));
     };
     items.iter().enumerate().map(|(i, item)| point(reader, item, &format!("{what}, point {}", i + 1))).collect()
 }
 
-fn point(reader: &Reader, given: &Ring, what: &str) -> Result<Point, Defect> {
+fn point(reader: &Reader, given: &Ring, what: &str) -> Result<Point, Diagnostic> {
     let wrong = |found: String| {
         let message = format!("{what}: expected two numbers, found {found}");
-        reader.source.defect_at(given.span(), message).cure("write a point as [x, y], metres")
+        reader.source.diagnostic_at(given.span(), message).help("write a point as [x, y], metres")
     };
     let number = |coordinate: &Ring| match coordinate.get_ref() {
         Coordinates::Number(value) => reader.finite(&Number::new(coordinate.span(), *value), what),

@@ -1,6 +1,6 @@
 //! The world file's `[[preference]]`.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::polygon::{Ring, simple_polygon};
 use super::schema::{Corners, Two};
 use super::world::{Number, Numbers, Reader};
@@ -34,7 +34,7 @@ pub(super) struct PreferenceTable {
 /// Widest region in configurations, radians or metres: it is looked up copy by copy on a circle.
 const WIDEST: f64 = 100.0;
 
-/// The cure for regions that are no simple polygons.
+/// Help for regions that are no simple polygons.
 const ORDERED: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
@@ -42,7 +42,7 @@ impl PreferenceTable {
     ///
     /// # Errors
     /// On values that are not finite, a direction without length, and not exactly one region, which is a simple polygon.
-    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Defect> {
+    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Diagnostic> {
         let given = table.get_ref();
         let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
         let what = format!("preference \"{name}\"");
@@ -54,26 +54,26 @@ impl PreferenceTable {
             (configurations, _) => {
                 let found = if configurations.is_some() { "both" } else { "neither" };
                 let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
-                let cure = "configurations = [[q1, q2], ...] in joint values, or polygon = [[x, y], ...] for the tip";
-                return Err(reader.source.defect_at(table.span(), message).cure(cure));
+                let help = "configurations = [[q1, q2], ...] in joint values, or polygon = [[x, y], ...] for the tip";
+                return Err(reader.source.diagnostic_at(table.span(), message).help(help));
             }
         };
         Ok(Preference { name, region, epsilon, direction })
     }
 }
 
-fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
+fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
     let vector = reader.two(numbers, &format!("{what}, direction"))?;
     let length = vector[0].hypot(vector[1]);
     // Below the square root of the least normal number its components would lose their digits.
     if length < 1e-150 {
-        let defect = reader.source.defect_at(numbers.span(), format!("{what}: the direction has no length"));
-        return Err(defect.cure("direction = [q1, q2], such as [1, 0]; leave it out where there is none"));
+        let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction has no length"));
+        return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave it out where there is none"));
     }
     Ok(vector.map(|x| x / length))
 }
 
-fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimplePolygon, Defect> {
+fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimplePolygon, Diagnostic> {
     let polygon = simple_polygon(reader, corners, what, ORDERED)?;
     let is_wide = |k: usize| {
         let values = || polygon.corners().iter().map(|corner| corner[k]);
@@ -83,8 +83,8 @@ fn configurations(reader: &Reader, corners: &Ring, what: &str) -> Result<SimpleP
         let message = format!("{what} is too wide (at most {WIDEST} in joint values)");
         return Err(reader
             .source
-            .defect_at(corners.span(), message)
-            .cure("angles are radians; circles repeat themselves"));
+            .diagnostic_at(corners.span(), message)
+            .help("angles are radians; circles repeat themselves"));
     }
     Ok(polygon)
 }

@@ -49,8 +49,8 @@ impl PreferenceMap {
         let bounds = text.bounds()?;
         let (count, at) = text.count("NumGoal")?;
         if count != 1 {
-            let defect = text.source.defect_at(at, format!("NumGoal is {count}, but a plan has one goal"));
-            return Err(defect.cure("keep one goal rectangle").into());
+            let diagnostic = text.source.diagnostic_at(at, format!("NumGoal is {count}, but a plan has one goal"));
+            return Err(diagnostic.help("keep one goal rectangle").into());
         }
         text.word("GOAL")?;
         let goal = text.numbers::<4>("the goal rectangle")?;
@@ -63,8 +63,8 @@ impl PreferenceMap {
         for line in list {
             let corners = ordered(text.corners(&line.values, &line.at, &bounds)?);
             if (0..2).any(|k| corners[0][k] == corners[1][k]) {
-                let defect = text.source.defect_at(line.at, "the rectangle has no area");
-                return Err(defect.cure("give two opposite corners").into());
+                let diagnostic = text.source.diagnostic_at(line.at, "the rectangle has no area");
+                return Err(diagnostic.help("give two opposite corners").into());
             }
             rectangles.push(PreferenceRectangle { corners, epsilon: line.values[4] });
         }

@@ -1,8 +1,8 @@
-//! Start and goal: within the limits, free, and for a goal of the tip every posture that reaches it.
+//! Start and goal: within the limits, free, and for a goal of the tip every IK solution that reaches it.
 
-use super::error::{Defect, DefectKind, InputError};
-use super::posture::{
-    CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, cure_for_contact, describe, describe_segment, obstructions,
+use super::error::{Diagnostic, DiagnosticKind, InputError};
+use super::reasons::{
+    HELP_FOR_LIMITS, HELP_FOR_REACH, beyond_limits, describe, describe_segment, help_for_contact, obstructions,
     out_of_reach, within_limits,
 };
 use super::{Loaded, LoadedScene, Overrides};
@@ -18,10 +18,10 @@ pub(super) enum Place<'a> {
 }
 
 impl Place<'_> {
-    pub(super) fn defect(&self, message: String) -> Defect {
+    pub(super) fn diagnostic(&self, message: String) -> Diagnostic {
         match self {
-            Place::Option(name) => Defect::new(*name, message),
-            Place::World(loaded, at) => loaded.world.source.defect_at(at.clone(), message),
+            Place::Option(name) => Diagnostic::new(*name, message),
+            Place::World(loaded, at) => loaded.world.source.diagnostic_at(at.clone(), message),
         }
     }
 }
@@ -31,7 +31,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// When the world has steps; when either is missing, outside the joint limits, in contact with an obstacle or nearer to one than the
-    /// clearance, or when no posture puts the tip at the goal. The message says which link hits which obstacle and how
+    /// clearance, or when no IK solution puts the tip at the goal. The message says which link hits which obstacle and how
     /// deep.
     pub fn problem(self, overrides: &Overrides) -> Result<Loaded, InputError> {
         if self.has_steps() {
@@ -40,16 +40,16 @@ impl LoadedScene {
         let loaded = self.keeping(overrides.clearance)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
-        loaded.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
-        let about = |defect: Defect| defect.about(DefectKind::Goal);
-        let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DefectKind::Goal))?;
+        loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
+        let about = |diagnostic: Diagnostic| diagnostic.about(DiagnosticKind::Goal);
+        let (goal, place) = loaded.goal(overrides).map_err(|error| error.about(DiagnosticKind::Goal))?;
         let goals = match goal {
             Goal::Joints(q) => {
                 let q = loaded.at_limits("the goal", q, &mut notes);
                 loaded.require("the goal", q, &place).map_err(about)?;
                 GoalSet::from(q)
             }
-            Goal::Tip(tip) => loaded.postures(tip, start, &place, &mut notes).map_err(about)?,
+            Goal::Tip(tip) => loaded.ik_solutions(tip, start, &place, &mut notes).map_err(about)?,
         };
         Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
@@ -57,8 +57,8 @@ impl LoadedScene {
     fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
-                let defect = Defect::new("--goal and --goal-tip", "both give a goal");
-                return Err(defect.cure("give one of them").into());
+                let diagnostic = Diagnostic::new("--goal and --goal-tip", "both give a goal");
+                return Err(diagnostic.help("give one of them").into());
             }
             (Some(values), None) => {
                 let q = values.resolve(&self.scene.arm().joints, "--goal")?;
@@ -70,60 +70,60 @@ impl LoadedScene {
         match &self.world.goal {
             Some((goal, at)) => Ok((*goal, Place::World(self, at.clone()))),
             None => {
-                let cure =
+                let help =
                     "[goal] joints = [q1, q2] or tip = [x, y] in the world file, or --goal q1,q2, or --goal-tip x,y";
-                Err(self.missing("goal", cure).into())
+                Err(self.missing("goal", help).into())
             }
         }
     }
 
-    /// The defect of asking for the goal of a world that has steps.
-    pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Defect {
+    /// The diagnostic of asking for the goal of a world that has steps.
+    pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         let message = "this world has steps, not a goal";
         let option = match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), _) => "--goal",
             (None, Some(_)) => "--goal-tip",
             (None, None) => {
                 let at = self.world.steps.as_ref().map_or(0..0, |steps| steps.at.clone());
-                let cure = "only `cplan ROBOT WORLD` plans steps; for other commands put a [goal] in their place";
-                return self.world.source.defect_at(at, message).cure(cure);
+                let help = "only `cplan ROBOT WORLD` plans steps; for other commands put a [goal] in their place";
+                return self.world.source.diagnostic_at(at, message).help(help);
             }
         };
-        Defect::new(option, message).cure("leave the option out, or remove the steps from the world")
+        Diagnostic::new(option, message).help("leave the option out, or remove the steps from the world")
     }
 
-    pub(super) fn missing(&self, what: &str, cure: &str) -> Defect {
-        self.world.source.defect(format!("there is no {what}")).cure(cure)
+    pub(super) fn missing(&self, what: &str, help: &str) -> Diagnostic {
+        self.world.source.diagnostic(format!("there is no {what}")).help(help)
     }
 
     /// Refuses a configuration outside the limits or not free.
-    pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Defect> {
+    pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
             let message = format!("{what} is outside the joint limits: {}", outside.join("; "));
-            return Err(place.defect(message).cure(CURE_FOR_LIMITS));
+            return Err(place.diagnostic(message).help(HELP_FOR_LIMITS));
         }
         let hits = obstructions(&self.scene, q);
         if !hits.is_empty() {
             let message = format!("{what} ({}) is not free: {}", describe(&self.scene, q), hits.join("; "));
-            return Err(place.defect(message).cure(cure_for_contact(&self.scene)));
+            return Err(place.diagnostic(message).help(help_for_contact(&self.scene)));
         }
         Ok(())
     }
 
-    /// Every posture that puts the tip at `tip`, within the limits, but for those that are proven not to be free.
-    fn postures(
+    /// Every IK solution that puts the tip at `tip`, within the limits, but for those that are proven not to be free.
+    fn ik_solutions(
         &self,
         tip: Point,
         start: Configuration,
         place: &Place,
         notes: &mut Vec<String>,
-    ) -> Result<GoalSet, Defect> {
+    ) -> Result<GoalSet, Diagnostic> {
         let scene = &self.scene;
         let solved = inverse(scene.arm(), tip, start);
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.defect(out_of_reach(scene, "the goal", tip)).cure(CURE_FOR_REACH));
+            return Err(place.diagnostic(out_of_reach(scene, "the goal", tip)).help(HELP_FOR_REACH));
         }
         notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
         let (allowed, mut blocked) = within_limits(scene, &solved);
@@ -135,10 +135,11 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            let message = format!("no posture that puts the tip at {at} is allowed and free: {}", blocked.join("; "));
-            return Err(place.defect(message).cure(cure_for_contact(scene)));
+            let message =
+                format!("no IK solution that puts the tip at {at} is allowed and free: {}", blocked.join("; "));
+            return Err(place.diagnostic(message).help(help_for_contact(scene)));
         }
-        notes.extend(blocked.into_iter().map(|b| format!("a posture with the tip at {at} is ruled out: {b}")));
+        notes.extend(blocked.into_iter().map(|b| format!("an IK solution with the tip at {at} is ruled out: {b}")));
         Ok(goals.into_iter().collect())
     }
 }

@@ -1,6 +1,6 @@
 //! Values of joints and angles as the world file has them: `0.5`, or `"30deg"`.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::source::Source;
 use super::world::{Number, Reader};
 use crate::model::Joint;
@@ -64,11 +64,13 @@ impl JointPair {
     ///
     /// # Errors
     /// At the first such value.
-    pub fn check(&self, source: &Source, joints: &[Joint; 2]) -> Result<(), Defect> {
+    pub fn check(&self, source: &Source, joints: &[Joint; 2]) -> Result<(), Diagnostic> {
         for (joint, at) in joints.iter().zip(&self.degrees) {
-            if let Some(at) = at.as_ref().filter(|_| !joint.motion.is_revolute()) {
+            if let Some(at) = at.as_ref().filter(|_| !joint.joint_type.is_revolute()) {
                 let message = format!("joint \"{}\" slides: its value cannot be in degrees", joint.name);
-                return Err(source.defect_at(at.clone(), message).cure("write its value in metres, without \"deg\""));
+                return Err(source
+                    .diagnostic_at(at.clone(), message)
+                    .help("write its value in metres, without \"deg\""));
             }
         }
         Ok(())
@@ -77,15 +79,15 @@ impl JointPair {
 
 impl Reader<'_> {
     /// An angle, or a joint's value.
-    pub fn quantity(&self, written: &Written, what: &str) -> Result<f64, Defect> {
+    pub fn quantity(&self, written: &Written, what: &str) -> Result<f64, Diagnostic> {
         self.finite(&Number::new(written.span(), written.get_ref().value), what)
     }
 
     /// Values of both joints.
-    pub fn joint_pair(&self, written: &Spanned<Vec<Written>>, what: &str) -> Result<JointPair, Defect> {
+    pub fn joint_pair(&self, written: &Spanned<Vec<Written>>, what: &str) -> Result<JointPair, Diagnostic> {
         let [a, b] = &written.get_ref()[..] else {
             let message = format!("{what}: expected two numbers, found {}", written.get_ref().len());
-            return Err(self.source.defect_at(written.span(), message).cure("joints = [q1, q2], base to tip"));
+            return Err(self.source.diagnostic_at(written.span(), message).help("joints = [q1, q2], base to tip"));
         };
         let values = [self.quantity(a, what)?, self.quantity(b, what)?];
         Ok(JointPair { values, degrees: [a, b].map(|w| w.get_ref().in_degrees.then(|| w.span())) })

@@ -1,6 +1,6 @@
 //! Steps written out: repetitions one by one, and what is carried and where it lies after each of them.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, Names, Supports, rests_on_itself};
 
@@ -38,7 +38,7 @@ pub(super) fn write_out(
     has_wrist: bool,
     steps: &Group,
     at: Range<usize>,
-) -> Result<Sequence, Defect> {
+) -> Result<Sequence, Diagnostic> {
     let lying = objects.iter().map(Lying::at_first).collect();
     let mut writer = Writer {
         reader,
@@ -59,7 +59,7 @@ pub(super) fn write_out(
 #[derive(Clone, Copy)]
 struct Lying {
     at: Point,
-    /// None when it depends on the posture in which a rigid payload was let go of.
+    /// None when it depends on the configuration in which a rigid payload was let go of.
     angle: Option<f64>,
     /// The tip when it was let go of, which has been required already.
     tip: Option<Point>,
@@ -102,7 +102,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn group(&mut self, group: &Group) -> Result<(), Defect> {
+    fn group(&mut self, group: &Group) -> Result<(), Diagnostic> {
         let at_first = self.carried.map(|c| c.object);
         for repetition in 0..group.repeat {
             if repetition > 0 {
@@ -122,7 +122,7 @@ impl Writer<'_> {
                 }
                 Body::AnyOrder(pairs) => {
                     let pairs = pairs.iter().map(|[pick, place]| Ok([self.step(pick)?, self.step(place)?]));
-                    let pairs = pairs.collect::<Result<_, Defect>>()?;
+                    let pairs = pairs.collect::<Result<_, Diagnostic>>()?;
                     self.items.push(Item::AnyOrder(pairs));
                 }
             }
@@ -131,7 +131,7 @@ impl Writer<'_> {
     }
 
     /// Comes back to the beginning of a group that began with this object carried.
-    fn repeat(&mut self, group: &Group, at_first: Option<usize>) -> Result<(), Defect> {
+    fn repeat(&mut self, group: &Group, at_first: Option<usize>) -> Result<(), Diagnostic> {
         let carried = self.carried.map(|c| c.object);
         if carried != at_first {
             let message = format!(
@@ -139,14 +139,14 @@ impl Writer<'_> {
                 self.in_words(at_first),
                 self.in_words(carried)
             );
-            let cure = "let them end with what they begin with";
-            return Err(self.reader.source.defect_at(group.at.clone(), message).cure(cure));
+            let help = "let them end with what they begin with";
+            return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
         if let Some(object) = carried.filter(|object| group.renewed.contains(object)) {
             let name = self.in_words(Some(object));
             let message = format!("object {name} is carried when it would be renewed");
-            let cure = "place it before the steps are repeated, or remove its `renew`";
-            return Err(self.reader.source.defect_at(group.at.clone(), message).cure(cure));
+            let help = "place it before the steps are repeated, or remove its `renew`";
+            return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
         if !group.renewed.is_empty() {
             for object in &group.renewed {
@@ -161,7 +161,7 @@ impl Writer<'_> {
         object.map_or_else(|| "nothing".to_owned(), |o| format!("\"{}\"", self.objects[o].object.name))
     }
 
-    fn step(&mut self, leaf: &Leaf) -> Result<Step, Defect> {
+    fn step(&mut self, leaf: &Leaf) -> Result<Step, Diagnostic> {
         let action = match &leaf.action {
             LeafAction::Pick { object, grasp, supports } => self.pick(leaf, *object, *grasp, supports)?,
             LeafAction::Place { at, angle, supports } => self.place(leaf, *at, angle.as_ref(), supports.as_ref())?,
@@ -189,7 +189,7 @@ impl Writer<'_> {
         })
     }
 
-    fn pick(&mut self, leaf: &Leaf, object: usize, grasp: Point, supports: &Supports) -> Result<Action, Defect> {
+    fn pick(&mut self, leaf: &Leaf, object: usize, grasp: Point, supports: &Supports) -> Result<Action, Diagnostic> {
         if let Some(carried) = self.carried {
             let message = format!(
                 "step {} picks {} while {} is carried",
@@ -197,8 +197,8 @@ impl Writer<'_> {
                 self.in_words(Some(object)),
                 self.in_words(Some(carried.object))
             );
-            let defect = self.reader.source.defect_at(leaf.at.clone(), message);
-            return Err(defect.cure("place what is carried first"));
+            let diagnostic = self.reader.source.diagnostic_at(leaf.at.clone(), message);
+            return Err(diagnostic.help("place what is carried first"));
         }
         self.rest(leaf, object, supports)?;
         let lying = self.lying[object];
@@ -215,10 +215,10 @@ impl Writer<'_> {
         at: Point,
         angle: Option<&(f64, Range<usize>)>,
         supports: Option<&Supports>,
-    ) -> Result<Action, Defect> {
+    ) -> Result<Action, Diagnostic> {
         let Some(Carried { object, grasp }) = self.carried.take() else {
             let message = format!("step {} places something, but nothing is carried", leaf.number);
-            return Err(self.reader.source.defect_at(leaf.at.clone(), message).cure("pick an object first"));
+            return Err(self.reader.source.diagnostic_at(leaf.at.clone(), message).help("pick an object first"));
         };
         let supports = supports.unwrap_or(&self.objects[object].supports);
         self.rest(leaf, object, supports)?;
@@ -236,15 +236,16 @@ impl Writer<'_> {
     }
 
     /// The orientation that an object gets: the one it has, if that is the same.
-    fn turned(&self, leaf: &Leaf, object: usize, angle: f64, place: &Range<usize>) -> Result<f64, Defect> {
-        let refuse = |message: String, cure: &str| {
+    fn turned(&self, leaf: &Leaf, object: usize, angle: f64, place: &Range<usize>) -> Result<f64, Diagnostic> {
+        let refuse = |message: String, help: &str| {
             let message = format!("step {}: {message}", leaf.number);
-            Err(self.reader.source.defect_at(place.clone(), message).cure(cure))
+            Err(self.reader.source.diagnostic_at(place.clone(), message).help(help))
         };
         let name = self.in_words(Some(object));
         // Only a rigid payload's orientation can be unknown.
         let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.lying[object].angle) else {
-            let message = format!("object {name} is held rigidly, so its orientation follows from the arm's posture");
+            let message =
+                format!("object {name} is held rigidly, so its orientation follows from the arm's configuration");
             return refuse(message, "payload = \"level\" for the object, or leave the angle out");
         };
         let turn = (angle - before).rem_euclid(TAU);
@@ -259,7 +260,7 @@ impl Writer<'_> {
     }
 
     /// Notes that an object rests on something.
-    fn rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Defect> {
+    fn rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
         if supports.numbers.contains(&self.names.as_obstacle(object)) {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));
         }

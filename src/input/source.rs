@@ -1,6 +1,6 @@
 //! A text file and positions in it.
 
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
 use super::identity::note_read;
 use std::fs::File;
 use std::io::{self, Read};
@@ -89,10 +89,10 @@ const MILE: usize = 4096;
 ///
 /// # Errors
 /// As [`read_bounded`].
-pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Defect> {
+pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
     read_bounded(path).map_err(|error| {
-        Defect::new(path.display().to_string(), format!("cannot be read: {error}"))
-            .cure("check the path and the file's permissions")
+        Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}"))
+            .help("check the path and the file's permissions")
     })
 }
 
@@ -127,11 +127,11 @@ impl Source {
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let bytes = read_bytes(path)?;
         let text = String::from_utf8(bytes).map_err(|error| {
-            Defect::new(
+            Diagnostic::new(
                 path.display().to_string(),
                 format!("is not UTF-8 text (byte {})", error.utf8_error().valid_up_to()),
             )
-            .cure("save it as UTF-8")
+            .help("save it as UTF-8")
         })?;
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         Ok(Self { path: path.to_owned(), text, is_file: true, milestones: OnceLock::new() })
@@ -167,31 +167,31 @@ impl Source {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }
 
-    /// A defect of the file as a whole.
-    pub(super) fn defect(&self, message: impl Into<String>) -> Defect {
-        Defect::new(self.name(), message)
+    /// A diagnostic of the file as a whole.
+    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+        Diagnostic::new(self.name(), message)
     }
 
-    /// A defect at a range of bytes, with the source line and carets below it.
-    pub(super) fn defect_at(&self, range: Range<usize>, message: impl Into<String>) -> Defect {
+    /// A diagnostic at a range of bytes, with the source line and carets below it.
+    pub(super) fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
         let position = self.position(range.start);
-        Defect {
+        Diagnostic {
             position: Some(position),
             excerpt: Some(self.excerpt(position, range).into()),
-            ..Defect::new(self.name(), message)
+            ..Diagnostic::new(self.name(), message)
         }
     }
 
-    /// A defect at a line and column, both counted from 1, as parsers name places; 0 is unknown.
-    pub(super) fn defect_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Defect {
+    /// A diagnostic at a line and column, both counted from 1, as parsers name places; 0 is unknown.
+    pub(super) fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
         if line == 0 {
-            return self.defect(message);
+            return self.diagnostic(message);
         }
         let mut lines = self.text.split_inclusive('\n');
         let before: usize = lines.by_ref().take(line - 1).map(str::len).sum();
         let inside = lines.next().unwrap_or("");
         let at = inside.char_indices().nth(column.saturating_sub(1)).map_or(inside.trim_end().len(), |(i, _)| i);
-        self.defect_at(before + at..before + at + 1, message)
+        self.diagnostic_at(before + at..before + at + 1, message)
     }
 
     /// As much of the line as is near a place in it, with carets below the place.
@@ -236,20 +236,20 @@ mod tests {
     #[test]
     fn the_caret_stands_below_the_place() {
         let s = source("first\n  radius = -1\n");
-        let shown = s.defect_at(17..19, "bad").to_string();
+        let shown = s.diagnostic_at(17..19, "bad").to_string();
         assert_eq!(shown, "a.toml: line 2, column 12: bad\n  2 |   radius = -1\n    |            ^^");
     }
 
     #[test]
     fn carets_count_characters() {
-        let shown = source("\"\u{e4}\" = 1\n").defect_at(0..4, "bad").to_string();
+        let shown = source("\"\u{e4}\" = 1\n").diagnostic_at(0..4, "bad").to_string();
         assert!(shown.ends_with("| ^^^"), "{shown}");
     }
 
     #[test]
     fn a_long_line_is_cut_around_the_place() {
         let s = source(&format!("{}X{}", "a".repeat(500), "b".repeat(500)));
-        let shown = s.defect_at(500..501, "bad").to_string();
+        let shown = s.diagnostic_at(500..501, "bad").to_string();
         let lines: Vec<&str> = shown.lines().collect();
         assert!(lines[1].len() < 140);
         assert_eq!(lines[1].find('X'), lines[2].find('^'));

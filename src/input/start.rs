@@ -1,20 +1,20 @@
-//! Where the arm is at first: joint values, or the only posture that puts the tip somewhere.
+//! Where the arm is at first: joint values, or the only IK solution that puts the tip somewhere.
 
-use super::error::{Defect, DefectKind, InputError};
-use super::posture::{
-    CURE_FOR_LIMITS, CURE_FOR_REACH, cure_for_contact, describe, obstructions, out_of_reach, within_limits,
-};
+use super::error::{Diagnostic, DiagnosticKind, InputError};
 use super::problem::Place;
+use super::reasons::{
+    HELP_FOR_LIMITS, HELP_FOR_REACH, describe, help_for_contact, obstructions, out_of_reach, within_limits,
+};
 use super::{LoadedScene, Overrides};
 use crate::geometry::Point;
 use crate::model::{Goal, inverse};
-use crate::space::{Axis, Configuration};
+use crate::space::{Configuration, JointRange};
 
 /// Values beyond a limit by no more than this, radians or metres, are the limit: what is left of it after it was written
 /// with nine digits, and far below what any drive can do.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// More postures than this are counted, not listed.
+/// More IK solutions than this are counted, not listed.
 const LISTED: usize = 6;
 
 impl LoadedScene {
@@ -24,7 +24,7 @@ impl LoadedScene {
         overrides: &Overrides,
         notes: &mut Vec<String>,
     ) -> Result<(Configuration, Place<'_>), InputError> {
-        let (start, place) = self.given_start(overrides, notes).map_err(|error| error.about(DefectKind::Start))?;
+        let (start, place) = self.given_start(overrides, notes).map_err(|error| error.about(DiagnosticKind::Start))?;
         Ok((self.at_limits("the start", start, notes), place))
     }
 
@@ -42,7 +42,7 @@ impl LoadedScene {
         let place = Place::World(self, at.clone());
         let q = match start {
             Goal::Joints(q) => *q,
-            Goal::Tip(tip) => self.only_posture(*tip, &place, notes)?,
+            Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
         };
         Ok((q, place))
     }
@@ -51,7 +51,7 @@ impl LoadedScene {
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
-            let Axis::Interval { lower, upper } = joints[i].axis else { return q[i] };
+            let JointRange::Interval { lower, upper } = joints[i].range else { return q[i] };
             let nearest = q[i].clamp(lower, upper);
             if nearest == q[i] || (q[i] - nearest).abs() > LIMIT_ROUNDING {
                 return q[i];
@@ -65,41 +65,49 @@ impl LoadedScene {
         })
     }
 
-    /// The posture that puts the tip at a point, if it is the only one that is within the limits and free.
-    fn only_posture(&self, tip: Point, place: &Place, notes: &mut Vec<String>) -> Result<Configuration, Defect> {
+    /// The IK solution that puts the tip at a point, if it is the only one that is within the limits and free.
+    fn only_ik_solution(
+        &self,
+        tip: Point,
+        place: &Place,
+        notes: &mut Vec<String>,
+    ) -> Result<Configuration, Diagnostic> {
         let scene = &self.scene;
         let solved = inverse(scene.arm(), tip, Configuration::zeros());
         let at = format!("({}, {})", tip.x, tip.y);
         if solved.branches.is_empty() {
-            return Err(place.defect(out_of_reach(scene, "the start", tip)).cure(CURE_FOR_REACH));
+            return Err(place.diagnostic(out_of_reach(scene, "the start", tip)).help(HELP_FOR_REACH));
         }
         if solved.free.is_some() {
-            let message = format!("the start puts the tip at {at}, which leaves a joint free: many postures do");
-            return Err(place.defect(message).cure("give the start's joint values: joints = [q1, q2]"));
+            let message = format!("the start puts the tip at {at}, which leaves a joint free: many IK solutions do");
+            return Err(place.diagnostic(message).help("give the start's joint values: joints = [q1, q2]"));
         }
         let (allowed, outside) = within_limits(scene, &solved);
         // No joint is free, so these are points.
-        let allowed: Vec<Configuration> = allowed.iter().map(|posture| posture.ends()[0]).collect();
+        let allowed: Vec<Configuration> = allowed.iter().map(|ik_solution| ik_solution.ends()[0]).collect();
         let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
         match free[..] {
             [only] => {
-                notes.push(format!("the start is the only posture with the tip at {at}: {}", describe(scene, only)));
+                notes
+                    .push(format!("the start is the only IK solution with the tip at {at}: {}", describe(scene, only)));
                 Ok(only)
             }
             [] => {
                 let hits =
                     |q: &Configuration| format!("({}): {}", describe(scene, *q), obstructions(scene, *q).join("; "));
-                let cure = if blocked.is_empty() { CURE_FOR_LIMITS } else { cure_for_contact(scene) };
+                let help = if blocked.is_empty() { HELP_FOR_LIMITS } else { help_for_contact(scene) };
                 let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
-                let message = format!("no posture that puts the tip at {at} is allowed and free: {}", why.join("; "));
-                Err(place.defect(message).cure(cure))
+                let message =
+                    format!("no IK solution that puts the tip at {at} is allowed and free: {}", why.join("; "));
+                Err(place.diagnostic(message).help(help))
             }
             _ => {
                 let listed: Vec<String> =
                     free.iter().take(LISTED).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
                 let more = if free.len() > LISTED { ", ..." } else { "" };
-                let message = format!("{} postures put the tip at {at}, and which is meant is not said", free.len());
-                Err(place.defect(message).cure(format!("give joint values: {}{more}", listed.join(", or "))))
+                let message =
+                    format!("{} IK solutions put the tip at {at}, and which is meant is not said", free.len());
+                Err(place.diagnostic(message).help(format!("give joint values: {}{more}", listed.join(", or "))))
             }
         }
     }

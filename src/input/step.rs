@@ -1,6 +1,6 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::object::{Movable, NameList, Names};
 use super::pallet::Pallets;
@@ -158,7 +158,7 @@ impl<'a> StepReader<'a> {
     /// # Errors
     /// On steps that do not do exactly one thing, keys in the wrong place, values that are none, unknown objects and
     /// supports, groups in free order of anything but picks and places, and more than [`MOST_STEPS`] steps.
-    pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Defect> {
+    pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
         let pace = task.map_or(Ok(pace), |t| self.pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
         let manner =
@@ -173,16 +173,16 @@ impl<'a> StepReader<'a> {
         manner: &Manner,
         pace: Pace,
         at: Range<usize>,
-    ) -> Result<Group, Defect> {
+    ) -> Result<Group, Diagnostic> {
         let source = self.reader.source;
         if tables.is_empty() {
-            let defect = source.defect_at(at, "this group has no steps");
-            return Err(defect.cure("give it [[step.steps]], or remove it"));
+            let diagnostic = source.diagnostic_at(at, "this group has no steps");
+            return Err(diagnostic.help("give it [[step.steps]], or remove it"));
         }
         let repeat = manner.repeat.map_or(Ok(1), |repeat| {
             usize::try_from(*repeat.get_ref()).ok().filter(|n| *n > 0).ok_or_else(|| {
                 let message = format!("steps can be repeated 1 time or more often, not {}", repeat.get_ref());
-                source.defect_at(repeat.span(), message).cure("remove the key for steps that are done once")
+                source.diagnostic_at(repeat.span(), message).help("remove the key for steps that are done once")
             })
         })?;
         let nodes = tables.iter().map(|table| self.nodes(table, pace)).collect::<Result<Vec<_>, _>>()?;
@@ -191,7 +191,7 @@ impl<'a> StepReader<'a> {
         let length = nodes.iter().map(Node::length).fold(0, usize::saturating_add).saturating_mul(repeat);
         if length > MOST_STEPS {
             let message = format!("written out these are {length} steps (at most {MOST_STEPS})");
-            return Err(source.defect_at(at, message).cure("repeat them less often"));
+            return Err(source.diagnostic_at(at, message).help("repeat them less often"));
         }
         let renewed = nodes.iter().flat_map(|node| self.renewed(node)).collect();
         let body = match manner.order.map(|order| (order.get_ref().as_str(), order.span())) {
@@ -199,7 +199,7 @@ impl<'a> StepReader<'a> {
             Some(("free", _)) => Body::AnyOrder(self.pairs(nodes)?),
             Some((other, at)) => {
                 let message = format!("an order is \"fixed\" or \"free\", not \"{other}\"");
-                return Err(source.defect_at(at, message).cure("order = \"free\", or leave it out"));
+                return Err(source.diagnostic_at(at, message).help("order = \"free\", or leave it out"));
             }
         };
         Ok(Group { body, repeat, at, renewed, length })
@@ -216,28 +216,28 @@ impl<'a> StepReader<'a> {
     }
 
     /// The steps of a group in free order.
-    fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Defect> {
+    fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
-        let cure = "steps in free order are pick, place, pick, place, and so on";
+        let help = "steps in free order are pick, place, pick, place, and so on";
         let mut picked = BTreeSet::new();
         let mut pairs = Vec::new();
         let mut nodes = nodes.into_iter();
         while let Some(first) = nodes.next() {
             let pick = match first {
                 Node::Step(pick @ Leaf { action: LeafAction::Pick { .. }, .. }) => pick,
-                other => return Err(source.defect_at(other.at(), "this step has to be a pick").cure(cure)),
+                other => return Err(source.diagnostic_at(other.at(), "this step has to be a pick").help(help)),
             };
             let place = match nodes.next() {
                 Some(Node::Step(place @ Leaf { action: LeafAction::Place { .. }, .. })) => place,
-                Some(other) => return Err(source.defect_at(other.at(), "this step has to be a place").cure(cure)),
-                None => return Err(source.defect_at(pick.at, "this pick has no place after it").cure(cure)),
+                Some(other) => return Err(source.diagnostic_at(other.at(), "this step has to be a place").help(help)),
+                None => return Err(source.diagnostic_at(pick.at, "this pick has no place after it").help(help)),
             };
             if let LeafAction::Pick { object, .. } = pick.action
                 && !picked.insert(object)
             {
                 let name = &self.objects[object].object.name;
                 let message = format!("object \"{name}\" is picked twice in one group in free order");
-                return Err(source.defect_at(pick.at, message).cure("pick it once, or use a group in fixed order"));
+                return Err(source.diagnostic_at(pick.at, message).help("pick it once, or use a group in fixed order"));
             }
             pairs.push([pick, place]);
         }
@@ -245,7 +245,7 @@ impl<'a> StepReader<'a> {
     }
 
     /// What a table stands for: a step, a group, or the steps of a transfer.
-    fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Defect> {
+    fn nodes(&mut self, table: &Spanned<StepTable>, pace: Pace) -> Result<Vec<Node>, Diagnostic> {
         let step = table.get_ref();
         let pace = self.pace(pace, step.speed.as_ref(), step.dwell.as_ref())?;
         self.require_fitting_keys(step)?;
@@ -270,9 +270,9 @@ impl<'a> StepReader<'a> {
                 let message = format!(
                     "a step needs exactly one of `pick`, `place`, `move`, `transfer` and `steps`, this has {count}"
                 );
-                let cure = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
+                let help = "pick = \"NAME\", place = { at = [x, y] }, move = { joints = [q1, q2] }, \
                             transfer = { objects = \"NAME\", to = \"PALLET\" }, or [[step.steps]]";
-                return Err(self.reader.source.defect_at(table.span(), message).cure(cure));
+                return Err(self.reader.source.diagnostic_at(table.span(), message).help(help));
             }
         }?;
         let position = self.cursor.position(table.span().start);
@@ -286,27 +286,27 @@ impl<'a> StepReader<'a> {
     }
 
     /// Refuses keys that mean nothing where they stand.
-    fn require_fitting_keys(&self, step: &StepTable) -> Result<(), Defect> {
-        let refuse = |at: Option<Range<usize>>, message: &str, cure: &str| match at {
-            Some(at) => Err(self.reader.source.defect_at(at, message).cure(cure)),
+    fn require_fitting_keys(&self, step: &StepTable) -> Result<(), Diagnostic> {
+        let refuse = |at: Option<Range<usize>>, message: &str, help: &str| match at {
+            Some(at) => Err(self.reader.source.diagnostic_at(at, message).help(help)),
             None => Ok(()),
         };
         if step.pick.is_none() {
             let at = step.grasp.as_ref().map(Spanned::span);
             refuse(at, "only a pick has a `grasp`", "remove the key")?;
             let at = step.supports.as_ref().map(Spanned::span);
-            let cure = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
-            refuse(at, "of all steps only a pick has `supports`", cure)?;
+            let help = "those of a place stand in it: place = { at = [x, y], supports = [\"NAME\"] }";
+            refuse(at, "of all steps only a pick has `supports`", help)?;
         }
         if step.steps.is_none() {
-            let cure = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
-            refuse(step.repeat.as_ref().map(Spanned::span), "only a group of steps can be repeated", cure)?;
-            refuse(step.order.as_ref().map(Spanned::span), "only a group of steps has an `order`", cure)?;
+            let help = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
+            refuse(step.repeat.as_ref().map(Spanned::span), "only a group of steps can be repeated", help)?;
+            refuse(step.order.as_ref().map(Spanned::span), "only a group of steps has an `order`", help)?;
         }
         Ok(())
     }
 
-    fn pick(&self, step: &StepTable, name: &Spanned<String>) -> Result<LeafAction, Defect> {
+    fn pick(&self, step: &StepTable, name: &Spanned<String>) -> Result<LeafAction, Diagnostic> {
         let object = self.names.object(self.reader, name)?;
         let default = &self.objects[object];
         let grasp = step.grasp.as_ref().map(|g| self.reader.point(g, "grasp")).transpose()?;
@@ -319,15 +319,15 @@ impl<'a> StepReader<'a> {
     }
 
     /// A place, and what in the file says where; `at` is the step.
-    fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Defect> {
+    fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
         let (to, said) = match (&place.at, &place.on) {
             (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
             (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
             (point, _) => {
                 let found = if point.is_some() { "both" } else { "neither" };
                 let message = format!("a place needs either `at` or `on`, this has {found}");
-                let cure = "place = { at = [x, y] }, or place = { on = \"PALLET 1,1\" }";
-                return Err(self.reader.source.defect_at(at, message).cure(cure));
+                let help = "place = { at = [x, y] }, or place = { on = \"PALLET 1,1\" }";
+                return Err(self.reader.source.diagnostic_at(at, message).help(help));
             }
         };
         let angle = self.angle(place.angle.as_ref())?;
@@ -335,12 +335,12 @@ impl<'a> StepReader<'a> {
         Ok((said, LeafAction::Place { at: to, angle, supports }))
     }
 
-    fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Defect> {
+    fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Diagnostic> {
         angle.map(|angle| Ok((self.reader.quantity(angle, "place, angle")?, angle.span()))).transpose()
     }
 
     /// The steps of a transfer, with what in the file asks for each.
-    fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Defect> {
+    fn transfer(&self, transfer: &TransferTable) -> Result<Vec<(Range<usize>, LeafAction)>, Diagnostic> {
         let TransferTable { objects, to, .. } = transfer;
         let family = self.names.family(self.reader, objects)?;
         let pallet = self.pallets.named(self.reader, to)?;
@@ -351,8 +351,8 @@ impl<'a> StepReader<'a> {
                 objects.get_ref(),
                 to.get_ref()
             );
-            let cure = "a transfer fills a pallet: give it as many places, or pick and place the objects one by one";
-            return Err(self.reader.source.defect_at(to.span(), message).cure(cure));
+            let help = "a transfer fills a pallet: give it as many places, or pick and place the objects one by one";
+            return Err(self.reader.source.diagnostic_at(to.span(), message).help(help));
         }
         let angle = self.angle(transfer.angle.as_ref())?;
         let supports = transfer.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
@@ -366,14 +366,14 @@ impl<'a> StepReader<'a> {
         Ok(family.zip(pallet.places()).flat_map(pair).collect())
     }
 
-    fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Defect> {
+    fn pace(&self, default: Pace, speed: Option<&Number>, dwell: Option<&Number>) -> Result<Pace, Diagnostic> {
         let mut pace = default;
         if let Some(number) = speed {
             pace.speed = self.reader.finite(number, "speed")?;
             if !(pace.speed > 0.0 && pace.speed <= 1.0) {
                 let message = format!("speed must be more than 0 and at most 1, is {}", pace.speed);
-                let cure = "it is a share of the joints' top speeds";
-                return Err(self.reader.source.defect_at(number.span(), message).cure(cure));
+                let help = "it is a share of the joints' top speeds";
+                return Err(self.reader.source.diagnostic_at(number.span(), message).help(help));
             }
         }
         if let Some(number) = dwell {

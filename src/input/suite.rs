@@ -1,6 +1,6 @@
 //! Many problems: those that a manifest lists, or all worlds of a folder with one robot.
 
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
 use super::source::Source;
 use super::world::in_toml_words;
 use super::{Loaded, LoadedScene, Overrides, load_scene};
@@ -78,27 +78,27 @@ struct Pair {
 /// ```
 ///
 /// # Errors
-/// [`InputError`] for a manifest that cannot be read, and with every defect of all the files that it names if none of the
+/// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all the files that it names if none of the
 /// problems can be read. If some can, the others are in [`Suite::refused`].
 pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
         let message = format!("this folder has no {MANIFEST}, which would say which robot goes with which world");
-        let cure = format!(
+        let help = format!(
             "write one: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each; or give a robot for \
              all worlds: cplan compare URDF --suite {}",
             place.display()
         );
-        return Err(Defect::new(place.display().to_string(), message).cure(cure).into());
+        return Err(Diagnostic::new(place.display().to_string(), message).help(help).into());
     }
     let source = Source::read(&manifest)?;
     let file: ManifestFile = toml::from_str(&source.text).map_err(|error| {
         let message = in_toml_words(error.message());
         match error.span() {
-            Some(span) => source.defect_at(span, message),
-            None => source.defect(message),
+            Some(span) => source.diagnostic_at(span, message),
+            None => source.diagnostic(message),
         }
-        .cure("a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each")
+        .help("a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each")
     })?;
     let beside = |name: &Spanned<String>, what: &str| {
         let path = manifest.with_file_name("").join(name.get_ref());
@@ -106,7 +106,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
             return Ok(path);
         }
         let message = format!("{what}: there is no file {}", path.display());
-        Err(source.defect_at(name.span(), message).cure("paths are relative to the manifest"))
+        Err(source.diagnostic_at(name.span(), message).help("paths are relative to the manifest"))
     };
     let (mut pairs, mut refused) = (Vec::new(), Vec::new());
     for problem in file.problem {
@@ -123,8 +123,8 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         }
     }
     if pairs.is_empty() && refused.is_empty() {
-        let defect = source.defect("the manifest lists no problem");
-        return Err(defect.cure("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
+        let diagnostic = source.diagnostic("the manifest lists no problem");
+        return Err(diagnostic.help("add a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\"").into());
     }
     let name = file.name.unwrap_or_else(|| folder_name(&manifest.with_file_name("")));
     read(name, pairs, refused)
@@ -133,12 +133,12 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
 /// Reads all worlds of a folder (every `.toml` but [`MANIFEST`], by name) with one robot.
 ///
 /// # Errors
-/// [`InputError`] for a folder without worlds, and with every defect of all files if none of them can be read. If some can,
+/// [`InputError`] for a folder without worlds, and with every diagnostic of all files if none of them can be read. If some can,
 /// the others are in [`Suite::refused`].
 pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
-    let whole = |message: String| Defect::new(folder.display().to_string(), message);
+    let whole = |message: String| Diagnostic::new(folder.display().to_string(), message);
     let entries = std::fs::read_dir(folder).map_err(|error| {
-        whole(format!("cannot be read as a folder: {error}")).cure("give a folder with world files (.toml)")
+        whole(format!("cannot be read as a folder: {error}")).help("give a folder with world files (.toml)")
     })?;
     let mut worlds: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
     worlds.retain(|path| {
@@ -148,7 +148,7 @@ pub fn load_folder(urdf: &Path, folder: &Path) -> Result<Suite, InputError> {
     });
     worlds.sort();
     if worlds.is_empty() {
-        return Err(whole("there is no world in it".into()).cure("give a folder with world files (.toml)").into());
+        return Err(whole("there is no world in it".into()).help("give a folder with world files (.toml)").into());
     }
     let pairs = worlds.into_iter().map(|world| Pair { name: None, robot: urdf.to_owned(), world }).collect();
     read(folder_name(folder), pairs, Vec::new())
@@ -171,9 +171,9 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
     if members.is_empty() {
         all_of(&refused)?;
         let shown = with_steps.first().map_or_else(String::new, |path| path.display().to_string());
-        let defect = Defect::new(shown, "this world and all others of the suite have steps, not a goal");
-        return Err(defect
-            .cure("only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place")
+        let diagnostic = Diagnostic::new(shown, "this world and all others of the suite have steps, not a goal");
+        return Err(diagnostic
+            .help("only `cplan ROBOT WORLD` plans steps; for comparisons put a [goal] in their place")
             .into());
     }
     Ok(Suite { name, members, with_steps, refused })
@@ -181,14 +181,14 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<Refused>) -> Result<Sui
 
 /// All that is wrong with these at once, if there are any.
 fn all_of(refused: &[Refused]) -> Result<(), InputError> {
-    let mut defects: Vec<Defect> = Vec::new();
-    for defect in refused.iter().flat_map(|refused| refused.error.defects()) {
-        // One robot in many worlds has the same defects in each.
-        if !defects.contains(defect) {
-            defects.push(defect.clone());
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    for diagnostic in refused.iter().flat_map(|refused| refused.error.diagnostics()) {
+        // One robot in many worlds has the same diagnostics in each.
+        if !diagnostics.contains(diagnostic) {
+            diagnostics.push(diagnostic.clone());
         }
     }
-    InputError::check(defects)
+    InputError::check(diagnostics)
 }
 
 impl Suite {
@@ -196,7 +196,7 @@ impl Suite {
     /// could not be read.
     ///
     /// # Errors
-    /// [`InputError`] with the defects of all of them, if no problem is left.
+    /// [`InputError`] with the diagnostics of all of them, if no problem is left.
     pub fn problems(self, overrides: &Overrides) -> Result<Asked, InputError> {
         let (mut problems, mut refused) = (Vec::new(), self.refused);
         for Member { name, scene } in self.members {

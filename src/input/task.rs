@@ -1,12 +1,12 @@
 //! The steps of a world as a task for its arm.
 
-use super::error::{Defect, DefectKind, InputError};
-use super::posture::{CURE_FOR_LIMITS, CURE_FOR_REACH, beyond_limits, out_of_reach, within_limits};
+use super::error::{Diagnostic, DiagnosticKind, InputError};
+use super::reasons::{HELP_FOR_LIMITS, HELP_FOR_REACH, beyond_limits, out_of_reach, within_limits};
 use super::requirement::{Required, Requirement};
 use super::{LoadedScene, Overrides, RobotReport, World};
 use crate::geometry::Point;
 use crate::model::{Payload, Scene, Stroke, Task, Workspace, inverse};
-use crate::space::{Axis, Configuration};
+use crate::space::{Configuration, JointRange};
 
 /// A task and how it was read.
 #[derive(Debug, Clone)]
@@ -49,8 +49,8 @@ impl LoadedScene {
 
     fn task_from(self, overrides: &Overrides, is_checked: bool) -> Result<LoadedTask, InputError> {
         if !self.has_steps() {
-            let defect = self.world.source.defect("there are no steps");
-            return Err(defect.cure("[[step]] pick = \"NAME\", and so on").into());
+            let diagnostic = self.world.source.diagnostic("there are no steps");
+            return Err(diagnostic.help("[[step]] pick = \"NAME\", and so on").into());
         }
         if overrides.goal.is_some() || overrides.goal_tip.is_some() {
             return Err(self.has_no_goal(overrides).into());
@@ -59,7 +59,7 @@ impl LoadedScene {
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
         if is_checked {
-            loaded.require("the start", start, &place).map_err(|defect| defect.about(DefectKind::Start))?;
+            loaded.require("the start", start, &place).map_err(|diagnostic| diagnostic.about(DiagnosticKind::Start))?;
         }
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
@@ -77,32 +77,32 @@ impl LoadedScene {
     }
 
     /// Why the arm cannot do what a step requires.
-    fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Defect> {
+    fn unfulfilled(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
-        let (message, cure) = match requirement.required {
+        let (message, help) = match requirement.required {
             Required::Joints(q) => self.beyond_limits(&step, q)?,
             Required::Tip(tip) => self.beyond_reach(&step, tip, start)?,
             Required::Rest(object) => self.too_thin(&step, object)?,
         };
-        Some(self.world.source.defect_at(requirement.at.clone(), message).cure(cure))
+        Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
     }
 
     fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, &'static str)> {
         let outside = beyond_limits(&self.scene, q);
         (!outside.is_empty())
-            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), CURE_FOR_LIMITS))
+            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS))
     }
 
     fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, &'static str)> {
         let solved = inverse(self.scene.arm(), tip, start);
         if solved.branches.is_empty() {
-            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), CURE_FOR_REACH));
+            return Some((out_of_reach(&self.scene, &format!("{step}:"), tip), HELP_FOR_REACH));
         }
         // Where a joint's value does not matter, others of its values may be within the limits.
         let (allowed, outside) = within_limits(&self.scene, &solved);
         (allowed.is_empty() && solved.free.is_none()).then(|| {
             let message = format!(
-                "{step}: no posture that puts the tip at ({}, {}) m is within the joint limits: {}",
+                "{step}: no IK solution that puts the tip at ({}, {}) m is within the joint limits: {}",
                 tip.x,
                 tip.y,
                 outside.join("; ")
@@ -113,7 +113,7 @@ impl LoadedScene {
 
     fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
         let object = &self.world.objects[object];
-        let by = Payload::give(self.scene.arm());
+        let by = Payload::penetration_allowance(self.scene.arm());
         if object.pieces.iter().any(|piece| piece.eroded(by).is_some()) {
             return None;
         }
@@ -126,17 +126,17 @@ impl LoadedScene {
 }
 
 /// The objects for which the tool would have to go farther down than its joint can.
-fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Defect> + 'a {
+fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {
-        let Axis::Interval { lower, upper } = joint.axis else { return None };
+        let JointRange::Interval { lower, upper } = joint.range else { return None };
         let (depth, at) = (stroke.depth(object), stroke.lowered(stroke.depth(object)));
         let message = format!(
             "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside its \
              limits [{lower}, {upper}] m",
             object.name, joint.name
         );
-        let cure = "choose another fixed value of the joint, less travel, or less lift of the object";
-        (at < lower || at > upper).then(|| world.source.defect(message).cure(cure))
+        let help = "choose another fixed value of the joint, less travel, or less lift of the object";
+        (at < lower || at > upper).then(|| world.source.diagnostic(message).help(help))
     })
 }

@@ -1,10 +1,10 @@
 //! Joint values and points given on the command line.
 
 use super::LoadedScene;
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
 use super::world::LARGEST;
 use crate::geometry::Point;
-use crate::model::{Joint, SceneDefect};
+use crate::model::{Joint, SceneError};
 use crate::space::Configuration;
 use std::str::FromStr;
 
@@ -28,8 +28,8 @@ impl LoadedScene {
     /// When it is negative or no finite number.
     pub fn keeping(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
         if let Some(clearance) = clearance {
-            let refused = |defect: SceneDefect| {
-                Defect::new("--clearance", defect.to_string()).cure("metres: 0 or more, such as 0.02")
+            let refused = |diagnostic: SceneError| {
+                Diagnostic::new("--clearance", diagnostic.to_string()).help("metres: 0 or more, such as 0.02")
             };
             self.scene = self.scene.with_clearance(clearance).map_err(refused)?;
         }
@@ -49,15 +49,15 @@ impl JointValues {
     ///
     /// # Errors
     /// When a sliding joint's value has the suffix `deg`. `option` names the option in the message.
-    pub fn resolve(&self, joints: &[Joint; 2], option: &str) -> Result<Configuration, Defect> {
+    pub fn resolve(&self, joints: &[Joint; 2], option: &str) -> Result<Configuration, Diagnostic> {
         let mut q = Configuration::zeros();
         for i in 0..2 {
-            q[i] = match (self.degrees[i], joints[i].motion.is_revolute()) {
+            q[i] = match (self.degrees[i], joints[i].joint_type.is_revolute()) {
                 (false, _) => self.numbers[i],
                 (true, true) => self.numbers[i].to_radians(),
                 (true, false) => {
                     let message = format!("joint \"{}\" slides: its value cannot be in degrees", joints[i].name);
-                    return Err(Defect::new(option, message).cure("write its value in metres, without \"deg\""));
+                    return Err(Diagnostic::new(option, message).help("write its value in metres, without \"deg\""));
                 }
             };
         }
@@ -111,19 +111,22 @@ fn finite(text: &str) -> Result<f64, String> {
 mod tests {
     use super::*;
     use crate::geometry::Vector;
-    use crate::model::Motion;
-    use crate::space::Axis;
+    use crate::model::JointType;
+    use crate::space::JointRange;
 
     fn joints() -> [Joint; 2] {
         let joint = |name: &str, motion| Joint {
             name: name.into(),
-            motion,
-            axis: Axis::Circle,
+            joint_type: motion,
+            range: JointRange::Circle,
             velocity: 1.0,
             acceleration: 1.0,
             jerk: None,
         };
-        [joint("turn", Motion::Revolute { sign: 1.0 }), joint("slide", Motion::Prismatic { direction: Vector::x() })]
+        [
+            joint("turn", JointType::Revolute { sign: 1.0 }),
+            joint("slide", JointType::Prismatic { direction: Vector::x() }),
+        ]
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The world file: its schema, and the workspace it describes.
 
-use super::cure::cure;
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
+use super::help::help;
 use super::notes::Taken;
 use super::object::{self, Movable, Names, ObjectTable};
 use super::obstacle::ObstacleTable;
@@ -177,7 +177,7 @@ pub(super) struct WorldFile {
     task: Option<Spanned<TaskTable>>,
 }
 
-/// Where the arm is at first: joint values, or a place for the tip that a single posture reaches.
+/// Where the arm is at first: joint values, or a place for the tip that a single IK solution reaches.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
@@ -185,12 +185,12 @@ struct StartTable {
     /// Values of both joints, base to tip, rad or m.
     #[schemars(with = "Option<[AngleOrLength; 2]>")]
     joints: Option<Spanned<Vec<Written>>>,
-    /// Coordinates of the tip, m; taken if one posture alone is within the limits and free.
+    /// Coordinates of the tip, m; taken if one IK solution alone is within the limits and free.
     #[schemars(with = "Option<Two>")]
     tip: Option<Numbers>,
 }
 
-/// Where the arm is to go: joint values, or a place for the tip in whatever posture is best.
+/// Where the arm is to go: joint values, or a place for the tip in whatever IK solution is best.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }]))]
@@ -213,17 +213,17 @@ pub(super) const LARGEST: f64 = 1e6;
 /// On malformed TOML, unknown keys and invalid values, with line, column and a caret.
 pub(super) fn read(source: Source) -> Result<World, InputError> {
     if source.text.trim_start().starts_with('<') {
-        let defect = source.defect("this is XML, not a world file (TOML)");
-        return Err(defect.cure("give the URDF first and the world file second").into());
+        let diagnostic = source.diagnostic("this is XML, not a world file (TOML)");
+        return Err(diagnostic.help("give the URDF first and the world file second").into());
     }
     let file: WorldFile = toml::from_str(&source.text).map_err(|error| match error.span() {
         Some(span) => {
             let is_unknown = error.message().contains("unknown field");
-            let cure =
-                if is_unknown { "use a key that is known, or remove this one" } else { cure(&source.text, span.start) };
-            source.defect_at(span, in_toml_words(error.message())).cure(cure)
+            let help =
+                if is_unknown { "use a key that is known, or remove this one" } else { help(&source.text, span.start) };
+            source.diagnostic_at(span, in_toml_words(error.message())).help(help)
         }
-        None => source.defect(in_toml_words(error.message())).cure(cure("", 0)),
+        None => source.diagnostic(in_toml_words(error.message())).help(help("", 0)),
     })?;
     let reader = Reader::new(&source);
     let clearance = file.clearance.as_ref().map(|c| reader.not_negative(c, "clearance")).transpose()?.unwrap_or(0.0);
@@ -242,7 +242,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     preferences.extend(map.preferences);
     let wrist = file.robot.wrist.as_ref().map(|table| {
         let wrist = table.read(&reader)?;
-        Ok::<_, Defect>((wrist, table.note(&wrist)))
+        Ok::<_, Diagnostic>((wrist, table.note(&wrist)))
     });
     let wrist = wrist.transpose()?;
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
@@ -275,16 +275,16 @@ fn steps(
     names: &Names,
     movables: &[Movable],
     has_wrist: bool,
-) -> Result<Option<Sequence>, Defect> {
+) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {
         return file.task.as_ref().map_or(Ok(None), |task| {
-            let defect = reader.source.defect_at(task.span(), "[task] is about steps, and there are none");
-            Err(defect.cure("give the world a [[step]], or remove [task]"))
+            let diagnostic = reader.source.diagnostic_at(task.span(), "[task] is about steps, and there are none");
+            Err(diagnostic.help("give the world a [[step]], or remove [task]"))
         });
     }
     if let Some(goal) = &file.goal {
-        let defect = reader.source.defect_at(goal.span(), "a world has either a goal or steps, not both");
-        return Err(defect.cure("remove [goal]; a [[step]] with move = { joints = [q1, q2] } goes there"));
+        let diagnostic = reader.source.diagnostic_at(goal.span(), "a world has either a goal or steps, not both");
+        return Err(diagnostic.help("remove [goal]; a [[step]] with move = { joints = [q1, q2] } goes there"));
     }
     let task = file.task.as_ref().map(Spanned::get_ref);
     let group = StepReader::new(reader, pallets, names, movables).all(&file.step, task)?;
@@ -318,44 +318,48 @@ impl<'a> Reader<'a> {
 }
 
 impl Reader<'_> {
-    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Defect> {
+    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = *number.get_ref();
         if !value.is_finite() {
-            let defect = self.source.defect_at(number.span(), format!("{what}: {value} is not a finite number"));
-            return Err(defect.cure("write a number"));
+            let diagnostic =
+                self.source.diagnostic_at(number.span(), format!("{what}: {value} is not a finite number"));
+            return Err(diagnostic.help("write a number"));
         }
         if value.abs() > LARGEST {
             let message = format!("{what}: {value} is too large (at most {LARGEST:e})");
-            return Err(self.source.defect_at(number.span(), message).cure("lengths are in metres, angles in radians"));
+            return Err(self
+                .source
+                .diagnostic_at(number.span(), message)
+                .help("lengths are in metres, angles in radians"));
         }
         Ok(value)
     }
 
-    pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Defect> {
+    pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
         let value = self.finite(number, what)?;
         if value < 0.0 {
             let message = format!("{what} must not be negative, is {value}");
-            return Err(self.source.defect_at(number.span(), message).cure("write 0 or more"));
+            return Err(self.source.diagnostic_at(number.span(), message).help("write 0 or more"));
         }
         Ok(value)
     }
 
-    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Defect> {
+    pub fn two(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.finite(a, what)?, self.finite(b, what)?]),
             other => {
                 let message = format!("{what}: expected two numbers, found {}", other.len());
-                Err(self.source.defect_at(numbers.span(), message).cure("write [a, b]"))
+                Err(self.source.diagnostic_at(numbers.span(), message).help("write [a, b]"))
             }
         }
     }
 
-    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Defect> {
+    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
         self.two(numbers, what).map(Point::from)
     }
 
     /// Joint values or a point for the tip, and where they stand.
-    pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Defect> {
+    pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
         self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
     }
 
@@ -366,7 +370,7 @@ impl Reader<'_> {
         tip: Option<&Numbers>,
         at: Range<usize>,
         what: &str,
-    ) -> Result<(Goal, Range<usize>), Defect> {
+    ) -> Result<(Goal, Range<usize>), Diagnostic> {
         match (joints, tip) {
             (Some(joints), None) => {
                 let pair = self.joint_pair(joints, &format!("{what} joints"))?;
@@ -380,33 +384,33 @@ impl Reader<'_> {
             (joints, _) => {
                 let found = if joints.is_some() { "both" } else { "neither" };
                 let message = format!("the {what} needs either `joints` or `tip`, it has {found}");
-                Err(self.source.defect_at(at, message).cure("joints = [q1, q2], or tip = [x, y]"))
+                Err(self.source.diagnostic_at(at, message).help("joints = [q1, q2], or tip = [x, y]"))
             }
         }
     }
 
     /// The path of a file that the world names, relative to itself.
-    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Defect> {
+    pub fn beside(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
-            let cure = "save the world as a file beside it";
-            self.source.defect_at(name.span(), format!("{what}: {why}")).cure(cure)
+            let help = "save the world as a file beside it";
+            self.source.diagnostic_at(name.span(), format!("{what}: {why}")).help(help)
         })?;
         let path = anchor.with_file_name(name.get_ref());
         if path.is_file() {
             return Ok(path);
         }
         let message = format!("{what}: there is no file {}", path.display());
-        Err(self.source.defect_at(name.span(), message).cure("paths are relative to the world file"))
+        Err(self.source.diagnostic_at(name.span(), message).help("paths are relative to the world file"))
     }
 
     /// Heights, all if there are none.
-    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Defect> {
+    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
         let [lower, upper] = self.two(height, &format!("{what}, height"))?;
         if lower > upper {
             let message = format!("{what}: height [{lower}, {upper}] is empty");
-            return Err(self.source.defect_at(height.span(), message).cure("write the lower end first"));
+            return Err(self.source.diagnostic_at(height.span(), message).help("write the lower end first"));
         }
         Ok(Heights { lower, upper })
     }

@@ -62,7 +62,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
             return Ok(());
         }
         let message = format!("with {scale} m a unit the map reaches {farthest:e} m (at most {LARGEST:e})");
-        Err(reader.source.defect_at(file.span(), message).cure("set `scale` in [map], metres a unit of the file"))
+        Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres a unit of the file"))
     };
 
     let path = reader.beside(&table.file, "map")?;
@@ -70,7 +70,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     within(map.bounds, &table.file)?;
     if map.lines.len() > MOST_PIECES {
         let message = format!("{} lines are too many (at most {MOST_PIECES})", map.lines.len());
-        return Err(reader.source.defect_at(table.file.span(), message).cure("thin the map out").into());
+        return Err(reader.source.diagnostic_at(table.file.span(), message).help("thin the map out").into());
     }
     let name = stem(&path);
     let mut obstacles = Vec::new();
@@ -107,9 +107,12 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         for (i, PreferenceRectangle { corners: [a, b], epsilon }) in map.rectangles.into_iter().enumerate() {
             let name = format!("{name}, rectangle {}", i + 1);
             let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
-            let polygon = SimplePolygon::new(corners.to_vec()).map_err(|defect| {
-                let message = format!("preference \"{name}\" is no rectangle with {scale} m a unit: {defect}");
-                reader.source.defect_at(file.span(), message).cure("set `scale` in [map], metres a unit of the file")
+            let polygon = SimplePolygon::new(corners.to_vec()).map_err(|diagnostic| {
+                let message = format!("preference \"{name}\" is no rectangle with {scale} m a unit: {diagnostic}");
+                reader
+                    .source
+                    .diagnostic_at(file.span(), message)
+                    .help("set `scale` in [map], metres a unit of the file")
             })?;
             content.preferences.push(Preference { name, region: Region::Tip(polygon), epsilon, direction: None });
         }
@@ -129,5 +132,9 @@ fn scale(reader: &Reader, number: &Number) -> Result<f64, InputError> {
         return Ok(scale);
     }
     let message = format!("map scale must be positive, is {scale}");
-    Err(reader.source.defect_at(number.span(), message).cure("metres a unit of the file: 0.001 for millimetres").into())
+    Err(reader
+        .source
+        .diagnostic_at(number.span(), message)
+        .help("metres a unit of the file: 0.001 for millimetres")
+        .into())
 }

@@ -1,6 +1,6 @@
 //! The wrist in the world file's `[robot]`.
 
-use super::error::Defect;
+use super::error::Diagnostic;
 use super::schema::Positive;
 use super::world::{Number, Reader};
 use crate::model::Wrist;
@@ -30,7 +30,7 @@ impl WristTable {
     ///
     /// # Errors
     /// When one is not positive or not finite.
-    pub fn read(&self, reader: &Reader) -> Result<Wrist, Defect> {
+    pub fn read(&self, reader: &Reader) -> Result<Wrist, Diagnostic> {
         let velocity = positive(reader, &self.velocity, "velocity")?;
         let acceleration = self.acceleration.as_ref().map(|a| positive(reader, a, "acceleration")).transpose()?;
         Ok(Wrist { velocity, acceleration: acceleration.unwrap_or(assumed_acceleration(velocity)) })
@@ -47,11 +47,11 @@ impl WristTable {
     }
 }
 
-fn positive(reader: &Reader, number: &Number, what: &str) -> Result<f64, Defect> {
+fn positive(reader: &Reader, number: &Number, what: &str) -> Result<f64, Diagnostic> {
     let value = reader.finite(number, &format!("[robot] wrist, {what}"))?;
     if value > 0.0 {
         return Ok(value);
     }
     let message = format!("[robot] wrist: {what} must be positive, is {value}");
-    Err(reader.source.defect_at(number.span(), message).cure("wrist = { velocity = 6.0 }, in rad/s"))
+    Err(reader.source.diagnostic_at(number.span(), message).help("wrist = { velocity = 6.0 }, in rad/s"))
 }

@@ -1,7 +1,7 @@
 //! The planar two-joint arm and its kinematics.
 
-use super::{Joint, Link, Motion};
-use crate::geometry::{ConvexDefect, Point, Pose, Vector, perpendicular};
+use super::{Joint, JointType, Link};
+use crate::geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use crate::space::{Configuration, Topology};
 use nalgebra::{Isometry2, Translation2, Vector3};
 
@@ -76,7 +76,7 @@ impl Arm {
     ///
     /// # Errors
     /// Sizes that are not finite and positive.
-    pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexDefect> {
+    pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexError> {
         let links = [Link::bar("link 1", lengths[0], width)?, Link::bar("link 2", lengths[1], width)?];
         Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
     }
@@ -84,13 +84,13 @@ impl Arm {
     /// The space of configurations.
     #[must_use]
     pub fn topology(&self) -> Topology {
-        Topology { axes: [self.joints[0].axis, self.joints[1].axis] }
+        Topology { ranges: [self.joints[0].range, self.joints[1].range] }
     }
 
     /// `RR`, `RP`, `PR` or `PP`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
-        match (self.joints[0].motion.is_revolute(), self.joints[1].motion.is_revolute()) {
+        match (self.joints[0].joint_type.is_revolute(), self.joints[1].joint_type.is_revolute()) {
             (true, true) => "RR",
             (true, false) => "RP",
             (false, true) => "PR",
@@ -101,18 +101,18 @@ impl Arm {
     /// Pose of link 1 (`index` 0) or link 2 (`index` 1).
     #[must_use]
     pub fn pose(&self, index: usize, q: Configuration) -> Pose {
-        let first = Translation2::from(self.base.coords) * motion(self.joints[0].motion, q[0]);
+        let first = Translation2::from(self.base.coords) * motion(self.joints[0].joint_type, q[0]);
         if index == 0 {
             return first;
         }
-        first * Translation2::from(self.offset) * motion(self.joints[1].motion, q[1])
+        first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])
     }
 
     /// Both link poses.
     #[must_use]
     pub fn poses(&self, q: Configuration) -> [Pose; 2] {
         let first = self.pose(0, q);
-        [first, first * Translation2::from(self.offset) * motion(self.joints[1].motion, q[1])]
+        [first, first * Translation2::from(self.offset) * motion(self.joints[1].joint_type, q[1])]
     }
 
     /// A length that bounds how far the outlines and the tip reach from joint 1 with both joints at zero; the size of
@@ -142,24 +142,24 @@ impl Arm {
     pub fn jacobian(&self, index: usize, p: Point, q: Configuration) -> [Vector; 2] {
         let poses = self.poses(q);
         let at = poses[index] * p;
-        let first = match self.joints[0].motion {
-            Motion::Revolute { sign } => sign * perpendicular(at - self.base),
-            Motion::Prismatic { direction } => direction,
+        let first = match self.joints[0].joint_type {
+            JointType::Revolute { sign } => sign * perpendicular(at - self.base),
+            JointType::Prismatic { direction } => direction,
         };
         if index == 0 {
             return [first, Vector::zeros()];
         }
-        let second = match self.joints[1].motion {
-            Motion::Revolute { sign } => sign * perpendicular(at - poses[0] * Point::from(self.offset)),
-            Motion::Prismatic { direction } => poses[0].rotation * direction,
+        let second = match self.joints[1].joint_type {
+            JointType::Revolute { sign } => sign * perpendicular(at - poses[0] * Point::from(self.offset)),
+            JointType::Prismatic { direction } => poses[0].rotation * direction,
         };
         [first, second]
     }
 }
 
-fn motion(motion: Motion, value: f64) -> Pose {
-    match motion {
-        Motion::Revolute { sign } => Isometry2::rotation(sign * value),
-        Motion::Prismatic { direction } => Isometry2::translation(value * direction.x, value * direction.y),
+fn motion(joint_type: JointType, value: f64) -> Pose {
+    match joint_type {
+        JointType::Revolute { sign } => Isometry2::rotation(sign * value),
+        JointType::Prismatic { direction } => Isometry2::translation(value * direction.x, value * direction.y),
     }
 }

@@ -1,6 +1,6 @@
 //! A convex part on the joint that moves it: for which values of the joint it meets a piece.
 
-use super::{Joint, Motion};
+use super::{Joint, JointType};
 use crate::geometry::{
     Convex, Features, Hits, Point, Vector, along_and_across, normalized, product, sliding_tracks, turning_from,
 };
@@ -9,27 +9,27 @@ use std::f64::consts::TAU;
 /// A part and the joint that moves it, prepared for the contact equations.
 #[derive(Debug, Clone)]
 pub struct Carried {
-    motion: Motion,
+    joint_type: JointType,
     features: Features,
     /// Prismatic joints: the core along and across the direction.
     track: Vec<Vector>,
 }
 
 impl Carried {
-    /// Prepares a part, given in the frame that `motion` moves. `O(n)`.
+    /// Prepares a part, given in the frame that `joint_type` moves. `O(n)`.
     #[must_use]
-    pub fn new(motion: Motion, shape: &Convex) -> Self {
-        let track = match motion {
-            Motion::Revolute { .. } => Vec::new(),
-            Motion::Prismatic { direction } => along_and_across(shape.core().iter(), Vector::zeros(), direction),
+    pub fn new(joint_type: JointType, shape: &Convex) -> Self {
+        let track = match joint_type {
+            JointType::Revolute { .. } => Vec::new(),
+            JointType::Prismatic { direction } => along_and_across(shape.core().iter(), Vector::zeros(), direction),
         };
-        Self { motion, features: Features::new(shape), track }
+        Self { joint_type, features: Features::new(shape), track }
     }
 
     /// How it moves.
     #[must_use]
-    pub fn motion(&self) -> Motion {
-        self.motion
+    pub fn joint_type(&self) -> JointType {
+        self.joint_type
     }
 
     /// The part that is carried.
@@ -42,8 +42,8 @@ impl Carried {
     /// turned by `heading` (a unit vector); pushed on `out`. Exact up to [`crate::geometry::ROUNDING`]. Angles are as in
     /// [`Hits::Within`], stretches one interval. Limits are not applied. `O(n m)`.
     pub fn hits(&self, pivot: Point, heading: Vector, piece: &Features, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
-        match self.motion {
-            Motion::Revolute { sign } => {
+        match self.joint_type {
+            JointType::Revolute { sign } => {
                 let from = out.len();
                 let hits = turning_from(&self.features, pivot, heading, piece, grow, out);
                 if sign < 0.0 {
@@ -52,7 +52,7 @@ impl Carried {
                 }
                 hits
             }
-            Motion::Prismatic { direction } => {
+            JointType::Prismatic { direction } => {
                 let radius = self.features.shape().radius() + piece.shape().radius() + grow;
                 let direction = product(heading, direction);
                 let track = along_and_across(piece.shape().core().iter(), pivot.coords, direction);
@@ -70,12 +70,12 @@ impl Carried {
 
 /// Calls `f` with the copies of a joint's forbidden intervals within the domain of its axis.
 pub(crate) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl FnMut([f64; 2])) {
-    let (lower, upper) = joint.axis.domain();
+    let (lower, upper) = joint.range.domain();
     match hits {
         Hits::Never => {}
         Hits::Always => f([lower, upper]),
         Hits::Within => {
-            let period = if joint.motion.is_revolute() { TAU } else { f64::INFINITY };
+            let period = if joint.joint_type.is_revolute() { TAU } else { f64::INFINITY };
             for &[start, end] in intervals {
                 let mut shift = if period.is_finite() { ((lower - end) / period).ceil() * period } else { 0.0 };
                 while start + shift <= upper {
@@ -94,11 +94,11 @@ pub(crate) fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: 
 #[must_use]
 pub(crate) fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
     let elbow = Point::from(offset);
-    match joint.motion {
-        Motion::Revolute { .. } => Convex::trusted(vec![elbow], shape.reach_from(Point::origin())),
-        Motion::Prismatic { direction } => {
+    match joint.joint_type {
+        JointType::Revolute { .. } => Convex::trusted(vec![elbow], shape.reach_from(Point::origin())),
+        JointType::Prismatic { direction } => {
             let center = Point::from(shape.core().iter().map(|p| p.coords).sum::<Vector>() / shape.core().len() as f64);
-            let (lower, upper) = joint.axis.domain();
+            let (lower, upper) = joint.range.domain();
             let [from, to] = [lower, upper].map(|q| center + offset + direction * q);
             let core = if from == to { vec![from] } else { vec![from, to] };
             Convex::trusted(core, shape.reach_from(center))
@@ -109,14 +109,14 @@ pub(crate) fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Axis;
+    use crate::space::JointRange;
 
     /// Copies of the intervals on a turning joint's axis.
-    fn copies(axis: Axis, interval: [f64; 2]) -> Vec<[f64; 2]> {
+    fn copies(axis: JointRange, interval: [f64; 2]) -> Vec<[f64; 2]> {
         let joint = Joint {
             name: "turn".into(),
-            motion: Motion::Revolute { sign: 1.0 },
-            axis,
+            joint_type: JointType::Revolute { sign: 1.0 },
+            range: axis,
             velocity: 1.0,
             acceleration: 1.0,
             jerk: None,
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_range_of_more_than_a_turn_has_an_interval_more_than_once() {
-        let axis = Axis::Interval { lower: -4.0, upper: 4.5 };
+        let axis = JointRange::Interval { lower: -4.0, upper: 4.5 };
         assert_eq!(copies(axis, [2.0, 3.0]), [[2.0 - TAU, 3.0 - TAU], [2.0, 3.0]].map(|[a, b]| [a.max(-4.0), b]));
         // Past half a turn, up to one and a half: two turns down it is within the limits still.
         assert_eq!(copies(axis, [3.0, 9.0]), [[-4.0, 9.0 - 2.0 * TAU], [3.0 - TAU, 9.0 - TAU], [3.0, 4.5]]);
@@ -140,7 +140,7 @@ mod tests {
             for turns in [1.0, 2.0] {
                 let end: f64 = lower + turns * TAU;
                 for end in [end.next_down(), end, end.next_up()] {
-                    let copies = copies(Axis::Interval { lower, upper: 6.0 }, [end - 0.5, end]);
+                    let copies = copies(JointRange::Interval { lower, upper: 6.0 }, [end - 0.5, end]);
                     let is_there =
                         copies.iter().any(|[start, to]| (start - (end - 0.5)).abs() < 1e-12 && *to == end.min(6.0));
                     assert!(is_there || end - 0.5 > 6.0, "[{}, {end}] from {lower} on: {copies:?}", end - 0.5);

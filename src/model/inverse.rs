@@ -1,8 +1,8 @@
 //! Inverse kinematics of the tip, in closed form.
 
-use super::{Arm, Motion};
+use super::{Arm, JointType};
 use crate::geometry::{Point, Vector, cross};
-use crate::space::{Axis, Configuration, Segment};
+use crate::space::{Configuration, JointRange, Segment};
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
@@ -43,17 +43,17 @@ pub enum Freedom {
 pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     let from_base = target - arm.base;
     let (o, t) = (arm.offset, arm.tip.coords);
-    let mut inverse = match (arm.joints[0].motion, arm.joints[1].motion) {
-        (Motion::Revolute { sign: s1 }, Motion::Revolute { sign: s2 }) => {
+    let mut inverse = match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
+        (JointType::Revolute { sign: s1 }, JointType::Revolute { sign: s2 }) => {
             turn_turn(from_base, (s1, o), (s2, t), preferred)
         }
-        (Motion::Revolute { sign }, Motion::Prismatic { direction }) => {
+        (JointType::Revolute { sign }, JointType::Prismatic { direction }) => {
             turn_slide(from_base, sign, o + t, direction, preferred)
         }
-        (Motion::Prismatic { direction }, Motion::Revolute { sign }) => {
+        (JointType::Prismatic { direction }, JointType::Revolute { sign }) => {
             slide_turn(from_base - o, direction, (sign, t), preferred)
         }
-        (Motion::Prismatic { direction: first }, Motion::Prismatic { direction: second }) => {
+        (JointType::Prismatic { direction: first }, JointType::Prismatic { direction: second }) => {
             let d = from_base - o - t;
             // The loader refuses parallel slides.
             let determinant = cross(first, second);
@@ -168,11 +168,11 @@ impl Inverse {
     #[must_use]
     pub fn solutions(&self, arm: &Arm) -> Vec<Segment> {
         let joints = &arm.joints;
-        let copies = |k: usize, value: f64| within(joints[k].axis, joints[k].motion.is_revolute(), value);
+        let copies = |k: usize, value: f64| within(joints[k].range, joints[k].joint_type.is_revolute(), value);
         let of_branch = |q: &Configuration| -> Vec<Segment> {
             let [first, second] = match self.free {
                 Some(Freedom::Share) => return shares(arm, *q),
-                Some(Freedom::Joint(free)) => [0, 1].map(|k| match joints[k].axis.domain() {
+                Some(Freedom::Joint(free)) => [0, 1].map(|k| match joints[k].range.domain() {
                     domain if k == free => vec![domain],
                     _ => copies(k, q[k]).into_iter().map(|value| (value, value)).collect(),
                 }),
@@ -189,11 +189,11 @@ impl Inverse {
 
 /// All that two turning joints on one axis share the angle of `q` in other ways, within the limits.
 fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
-    let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.motion {
-        Motion::Revolute { sign } => sign,
-        Motion::Prismatic { .. } => 0.0,
+    let [s1, s2] = arm.joints.each_ref().map(|joint| match joint.joint_type {
+        JointType::Revolute { sign } => sign,
+        JointType::Prismatic { .. } => 0.0,
     });
-    let [first, second] = arm.joints.each_ref().map(|joint| joint.axis.domain());
+    let [first, second] = arm.joints.each_ref().map(|joint| joint.range.domain());
     let sum = s1 * q[0] + s2 * q[1];
     let sums = [first.0, first.1].map(|q1| [second.0, second.1].map(|q2| s1 * q1 + s2 * q2)).concat();
     let (least, greatest) = sums.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), &x| (l.min(x), g.max(x)));
@@ -211,8 +211,8 @@ fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
 /// The values that stand for `value` on an axis: every copy by whole turns of a revolute joint that is within the
 /// limits, on a circle the one in `[-pi, pi)`. Values that rounding put beyond a limit count as the limit.
 #[must_use]
-pub fn within(axis: Axis, revolute: bool, value: f64) -> Vec<f64> {
-    let Axis::Interval { lower, upper } = axis else { return vec![axis.wrap(value)] };
+pub fn within(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {
+    let JointRange::Interval { lower, upper } = range else { return vec![range.wrap(value)] };
     if !revolute {
         let inside = lower - LIMIT_ROUNDING <= value && value <= upper + LIMIT_ROUNDING;
         return if inside { vec![value.clamp(lower, upper)] } else { Vec::new() };

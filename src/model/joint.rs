@@ -2,11 +2,11 @@
 
 use super::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::geometry::Vector;
-use crate::space::Axis;
+use crate::space::JointRange;
 
 /// How a joint moves its link in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Motion {
+pub enum JointType {
     /// Turns. `sign` is +1 when positive joint values turn counter-clockwise in plane coordinates, else -1.
     Revolute {
         /// +1 or -1.
@@ -19,11 +19,11 @@ pub enum Motion {
     },
 }
 
-impl Motion {
+impl JointType {
     /// Whether the joint turns.
     #[must_use]
     pub fn is_revolute(self) -> bool {
-        matches!(self, Motion::Revolute { .. })
+        matches!(self, JointType::Revolute { .. })
     }
 }
 
@@ -33,9 +33,9 @@ pub struct Joint {
     /// Name in the URDF.
     pub name: String,
     /// How it moves.
-    pub motion: Motion,
+    pub joint_type: JointType,
     /// The values it can take.
-    pub axis: Axis,
+    pub range: JointRange,
     /// Top speed, per second; positive.
     pub velocity: f64,
     /// Greatest acceleration, per second squared; positive.
@@ -48,24 +48,24 @@ impl Joint {
     /// A joint that turns counter-clockwise from `lower` to `upper`, radians; at 1 rad/s, which [`Joint::at_most`] changes.
     #[must_use]
     pub fn turning(name: &str, lower: f64, upper: f64) -> Self {
-        Self::moving(name, Motion::Revolute { sign: 1.0 }, Axis::Interval { lower, upper }, TURNING_SPEED)
+        Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper }, TURNING_SPEED)
     }
 
     /// A joint that turns counter-clockwise without end.
     #[must_use]
     pub fn continuous(name: &str) -> Self {
-        Self::moving(name, Motion::Revolute { sign: 1.0 }, Axis::Circle, TURNING_SPEED)
+        Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, TURNING_SPEED)
     }
 
     /// A joint that slides along a direction of length 1, from `lower` to `upper`, metres; at 0.25 m/s.
     #[must_use]
     pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
-        Self::moving(name, Motion::Prismatic { direction }, Axis::Interval { lower, upper }, SLIDING_SPEED)
+        Self::moving(name, JointType::Prismatic { direction }, JointRange::Interval { lower, upper }, SLIDING_SPEED)
     }
 
-    fn moving(name: &str, motion: Motion, axis: Axis, velocity: f64) -> Self {
+    fn moving(name: &str, joint_type: JointType, range: JointRange, velocity: f64) -> Self {
         let acceleration = assumed_acceleration(velocity);
-        Self { name: name.into(), motion, axis, velocity, acceleration, jerk: None }
+        Self { name: name.into(), joint_type, range, velocity, acceleration, jerk: None }
     }
 
     /// The same joint with this top speed and greatest acceleration, radians or metres and seconds.
@@ -84,6 +84,6 @@ impl Joint {
     /// Unit of the joint's value: `rad` or `m`.
     #[must_use]
     pub fn unit(&self) -> &'static str {
-        if self.motion.is_revolute() { "rad" } else { "m" }
+        if self.joint_type.is_revolute() { "rad" } else { "m" }
     }
 }

@@ -1,7 +1,7 @@
 //! The outline of a link.
 
 use super::Heights;
-use crate::geometry::{Convex, ConvexDefect, Point};
+use crate::geometry::{Convex, ConvexError, Point};
 
 /// Where a link's outline comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,7 +53,7 @@ impl Link {
     ///
     /// # Errors
     /// A width or length that is not finite and positive.
-    pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexDefect> {
+    pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexError> {
         Ok(Self::of(name, [Convex::new(vec![Point::origin(), Point::new(length, 0.0)], width / 2.0)?]))
     }
 }

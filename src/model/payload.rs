@@ -30,21 +30,21 @@ pub struct Payload {
     pub heights: Heights,
     /// How it is held.
     pub grip: Grip,
-    /// What it may touch, though not press into by more than [`Payload::give`]: what it rests on. Obstacles by their
+    /// What it may touch, though not press into by more than [`Payload::penetration_allowance`]: what it rests on. Obstacles by their
     /// number in the workspace.
     pub supports: Vec<usize>,
 }
 
 /// Depth to which a payload may press into what supports it, as a share of the arm's reach: above the rounding of
 /// coordinates that people write down, below what any gripper yields.
-const GIVE: f64 = 1e-4;
+const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
 impl Payload {
     /// Greatest *penetration depth* of a payload in its supports, metres. With sides it is less, by the sine of half the angle
     /// beside them and up to 0.7 of that: no shape that turns with the payload allows as much with sides as with corners.
     #[must_use]
-    pub fn give(arm: &Arm) -> f64 {
-        GIVE * arm.reach()
+    pub fn penetration_allowance(arm: &Arm) -> f64 {
+        PENETRATION_ALLOWANCE * arm.reach()
     }
 
     /// Where the object is at `q`: the pose of its frame in the plane.

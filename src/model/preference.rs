@@ -35,7 +35,7 @@ impl Preference {
         match &self.region {
             Region::Tip(polygon) => polygon.contains(arm.tip_at(q)),
             Region::Configurations(polygon) => {
-                let axes = arm.topology().axes;
+                let axes = arm.topology().ranges;
                 let copies = |k: usize| {
                     let corners = polygon.corners().iter().map(|corner| corner[k]);
                     let window = corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));

@@ -15,7 +15,7 @@ pub enum Goal {
 
 /// Why a scene, a start and goals make no problem.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ProblemDefect {
+pub enum MotionProblemError {
     /// The start lies outside a joint's limits, or is no number.
     #[error("the start is outside the limits of joint \"{joint}\": {value}")]
     StartOutside {
@@ -70,29 +70,29 @@ impl MotionProblem {
     ///
     /// # Errors
     /// When the start or a goal is outside the limits or not free, or there is no goal.
-    pub fn new(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Result<Self, ProblemDefect> {
+    pub fn new(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Result<Self, MotionProblemError> {
         let goals = goals.into();
         let outside = |q: Configuration| {
             let joints = scene.arm().joints.iter().zip(q.iter());
-            joints.filter(|(joint, value)| !joint.axis.contains(**value)).map(|(j, v)| (j.name.clone(), *v)).next()
+            joints.filter(|(joint, value)| !joint.range.contains(**value)).map(|(j, v)| (j.name.clone(), *v)).next()
         };
         let blocked = |q: Configuration| scene.obstructions(q).first().map(|found| scene.explain(found));
         if let Some((joint, value)) = outside(start) {
-            return Err(ProblemDefect::StartOutside { joint, value });
+            return Err(MotionProblemError::StartOutside { joint, value });
         }
         if let Some(why) = blocked(start) {
-            return Err(ProblemDefect::StartBlocked { why });
+            return Err(MotionProblemError::StartBlocked { why });
         }
         if goals.is_empty() {
-            return Err(ProblemDefect::NoGoal);
+            return Err(MotionProblemError::NoGoal);
         }
         for (goal, piece) in goals.pieces().iter().enumerate() {
             let [from, to] = piece.ends();
             if let Some((joint, value)) = outside(from).or_else(|| outside(to)) {
-                return Err(ProblemDefect::GoalOutside { goal, joint, value });
+                return Err(MotionProblemError::GoalOutside { goal, joint, value });
             }
             if let Some(why) = blocked(from).filter(|_| piece.is_point()) {
-                return Err(ProblemDefect::GoalBlocked { goal, why });
+                return Err(MotionProblemError::GoalBlocked { goal, why });
             }
         }
         Ok(Self { scene, start, goals })

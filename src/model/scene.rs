@@ -1,7 +1,7 @@
 //! The arm among its obstacles.
 
-use super::scene_defect::{check, check_clearance};
-use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneDefect, Workspace};
+use super::scene_error::{check, check_clearance};
+use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
@@ -40,7 +40,7 @@ pub struct Scene {
     workspace: Workspace,
     payload: Option<Payload>,
     /// Obstacles that link 2 itself is free to meet.
-    spared: Vec<usize>,
+    allowed_contacts: Vec<usize>,
     /// Parts of link 2 that are the arm's own; those that follow are the payload's.
     own_parts: usize,
     pairs: Vec<Pair>,
@@ -61,13 +61,13 @@ impl Scene {
     /// Puts the arm into the workspace.
     ///
     /// # Errors
-    /// When a number of either makes no sense: see [`SceneDefect`].
-    pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneDefect> {
+    /// When a number of either makes no sense: see [`SceneError`].
+    pub fn new(arm: Arm, workspace: Workspace) -> Result<Self, SceneError> {
         Self::handling(arm, workspace, None, &[])
     }
 
-    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `spared` obstacles, which it has
-    /// just let go of or is about to take. A payload presses into its supports by no more than [`Payload::give`], its corners
+    /// Puts the arm with a payload into the workspace. Link 2 itself is free to meet the `allowed_contacts` obstacles, which it has
+    /// just let go of or is about to take. A payload presses into its supports by no more than [`Payload::penetration_allowance`], its corners
     /// included. No clearance is kept there: in every distance a support is farther away by it than it is.
     ///
     /// # Errors
@@ -76,10 +76,10 @@ impl Scene {
         arm: Arm,
         workspace: Workspace,
         payload: Option<Payload>,
-        spared: &[usize],
-    ) -> Result<Self, SceneDefect> {
-        check(&arm, &workspace, payload.as_ref(), spared)?;
-        Ok(Self::handling_trusted(arm, workspace, payload, spared))
+        allowed_contacts: &[usize],
+    ) -> Result<Self, SceneError> {
+        check(&arm, &workspace, payload.as_ref(), allowed_contacts)?;
+        Ok(Self::handling_trusted(arm, workspace, payload, allowed_contacts))
     }
 
     /// [`Scene::new`] of what is known to be valid.
@@ -94,9 +94,9 @@ impl Scene {
         mut arm: Arm,
         workspace: Workspace,
         payload: Option<Payload>,
-        spared: &[usize],
+        allowed_contacts: &[usize],
     ) -> Self {
-        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), spared), Ok(()));
+        debug_assert_eq!(check(&arm, &workspace, payload.as_ref(), allowed_contacts), Ok(()));
         let own_parts = arm.links[1].parts.len();
         let mut differences = vec![Vec::new(); workspace.obstacles.len()];
         let carried = payload.as_ref().map_or_else(Vec::new, |p| p.on_link(&arm, &workspace, &mut differences));
@@ -108,15 +108,15 @@ impl Scene {
                 for (obstacle, o) in workspace.obstacles.iter().enumerate().filter(|(_, o)| p.heights.meet(o.heights)) {
                     let pieces = match meetable {
                         Some(meetable) => meetable[obstacle].clone(),
-                        None if link == 1 && spared.contains(&obstacle) => 0..0,
+                        None if link == 1 && allowed_contacts.contains(&obstacle) => 0..0,
                         None => 0..o.pieces.len(),
                     };
                     pairs.extend(pieces.map(|piece| Pair { link, part, obstacle, piece }));
                 }
             }
         }
-        let spared = spared.to_vec();
-        Self { arm, workspace, payload, spared, own_parts, pairs, differences }
+        let allowed_contacts = allowed_contacts.to_vec();
+        Self { arm, workspace, payload, allowed_contacts, own_parts, pairs, differences }
     }
 
     /// The same scene with other shapes for the arm's own parts and for the pieces of obstacles; each part stays one part,
@@ -136,18 +136,18 @@ impl Scene {
         for (obstacle, pieces) in workspace.obstacles.iter_mut().zip(pieces) {
             obstacle.pieces = pieces;
         }
-        Self::handling_trusted(arm, workspace, self.payload.clone(), &self.spared)
+        Self::handling_trusted(arm, workspace, self.payload.clone(), &self.allowed_contacts)
     }
 
     /// The same scene with another distance to keep, metres.
     ///
     /// # Errors
     /// When it is negative or not finite.
-    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneDefect> {
+    pub fn with_clearance(mut self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
-        let (payload, spared) = (self.payload.take(), std::mem::take(&mut self.spared));
+        let (payload, allowed_contacts) = (self.payload.take(), std::mem::take(&mut self.allowed_contacts));
         let (arm, workspace) = self.into_parts();
-        Ok(Self::handling_trusted(arm, Workspace { clearance, ..workspace }, payload, &spared))
+        Ok(Self::handling_trusted(arm, Workspace { clearance, ..workspace }, payload, &allowed_contacts))
     }
 
     /// What it was made of: the arm without what it carries, and the workspace, to make another scene of them.
@@ -297,9 +297,11 @@ impl Payload {
     pub(crate) fn parts(&self, arm: &Arm) -> Vec<(Convex, Meets)> {
         let mut parts: Vec<_> = self.pieces.iter().map(|piece| (piece.clone(), Meets::Others)).collect();
         if !self.supports.is_empty() {
-            let give = Self::give(arm);
-            let pressed = self.pieces.iter().zip(seams(&self.pieces, give));
-            parts.extend(pressed.map(|(piece, seam)| (piece.inner_approximation(give, &seam), Meets::Supports)));
+            let penetration_allowance = Self::penetration_allowance(arm);
+            let pressed = self.pieces.iter().zip(seams(&self.pieces, penetration_allowance));
+            parts.extend(
+                pressed.map(|(piece, seam)| (piece.inner_approximation(penetration_allowance, &seam), Meets::Supports)),
+            );
         }
         parts
     }

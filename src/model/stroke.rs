@@ -1,7 +1,7 @@
 //! A tool that is lowered at picks and places, and a wrist that turns it.
 
 use super::{Arm, Heights, Object};
-use crate::space::Axis;
+use crate::space::JointRange;
 
 /// A joint of the tool: it moves along the plane's normal, or about it, and so changes nothing in the plane but what it carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,7 +13,7 @@ pub struct ToolJoint {
     /// 1 if greater values are along the plane's normal (or counter-clockwise in the plane), else -1.
     pub sign: f64,
     /// The values that it can take.
-    pub axis: Axis,
+    pub range: JointRange,
 }
 
 /// How a tool is lowered and raised at picks and places, while the arm stands still.

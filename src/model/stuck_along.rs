@@ -1,10 +1,10 @@
 //! Whether all configurations on a segment are blocked.
 
-use super::{Contact, Motion, Obstruction, Pair, Scene};
+use super::{Contact, JointType, Obstruction, Pair, Scene};
 use crate::geometry::Point;
 use crate::space::{Configuration, Segment};
 
-/// Postures looked at before the question is left open.
+/// Configurations looked at before the question is left open.
 const MOST_LOOKS: usize = 1000;
 
 /// A segment is halved so often at most.
@@ -77,14 +77,14 @@ impl Scene {
         let arm = self.arm();
         let part = self.part(pair);
         let from_base = part.at(&arm.pose(pair.link, q)).reach_from(arm.base);
-        let second = match arm.joints[1].motion {
+        let second = match arm.joints[1].joint_type {
             _ if pair.link == 0 => 0.0,
-            Motion::Revolute { .. } => moves[1] * part.reach_from(Point::origin()),
-            Motion::Prismatic { .. } => moves[1],
+            JointType::Revolute { .. } => moves[1] * part.reach_from(Point::origin()),
+            JointType::Prismatic { .. } => moves[1],
         };
-        let first = match arm.joints[0].motion {
-            Motion::Revolute { .. } => moves[0] * (from_base + second),
-            Motion::Prismatic { .. } => moves[0],
+        let first = match arm.joints[0].joint_type {
+            JointType::Revolute { .. } => moves[0] * (from_base + second),
+            JointType::Prismatic { .. } => moves[0],
         };
         let scale = from_base + self.piece(pair).reach_from(arm.base) + arm.base.coords.norm() + first + second;
         (first + second, scale)

@@ -1,7 +1,7 @@
 //! Obstacles in the plane.
 
 use super::Preference;
-use crate::geometry::{Convex, ConvexDefect, Point, PolygonDefect, Pose, SimplePolygon};
+use crate::geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
 
 /// Extent along the plane's normal, metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ impl Obstacle {
     ///
     /// # Errors
     /// Corners of no simple polygon.
-    pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonDefect> {
+    pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonError> {
         let polygon = SimplePolygon::new(points(corners))?;
         let (shape, pieces) = (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces());
         Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
@@ -96,7 +96,7 @@ impl Obstacle {
     ///
     /// # Errors
     /// Numbers that are not finite, and a negative radius.
-    pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexDefect> {
+    pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexError> {
         let center = Point::from(center);
         let pieces = vec![Convex::disc(center, radius)?];
         Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
@@ -106,7 +106,7 @@ impl Obstacle {
     ///
     /// # Errors
     /// No point at all, and numbers that are not finite.
-    pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexDefect> {
+    pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexError> {
         let points = points(through);
         let pieces = match points[..] {
             [] | [_] => vec![Convex::new(points.clone(), 0.0)?],

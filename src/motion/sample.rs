@@ -3,7 +3,7 @@
 use super::clock::{self, PER_SECOND, nanoseconds, whole_nanoseconds};
 use super::limits::Limits;
 use super::profile::Phase;
-use super::schedule::{Passage, Track, schedule};
+use super::schedule::{TimedTrack, Track, schedule};
 use crate::check::CertifiedCurve;
 use crate::space::{BlendedPath, Configuration};
 use serde::Serialize;
@@ -181,8 +181,8 @@ pub(super) fn time_curve(
     }
     let (used, runs) = schedule(curve, limits);
     let phases = || {
-        let passages = runs.iter().flatten();
-        passages.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
+        let timed_tracks = runs.iter().flatten();
+        timed_tracks.flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase)))
     };
     let duration = phases().map(|(_, phase)| phase.duration).fold(0.0, |sum, duration| sum + duration);
     if duration.is_nan() || duration > LONGEST_MOTION {
@@ -204,7 +204,7 @@ pub(super) fn time_curve(
 ///
 /// Phases begin and end between nanoseconds. The sample of each is at the nearest one, where the motion is then, with the
 /// acceleration of the interval that begins there.
-fn sample(run: &[Passage], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
+fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
     let near = nanoseconds((period / 2.0).clamp(SHORTEST_INTERVAL, USUAL_INTERVAL));
     let mut since = 0.0;
     let mut before: Option<(&Track, &Phase)> = None;

@@ -1,4 +1,4 @@
-//! When a motion is where: the fastest passage along a path with blends.
+//! When a motion is where: the fastest motion along a path with blends.
 
 use super::clock::reserve;
 use super::corner::{Bounds, Corner};
@@ -118,12 +118,12 @@ impl Track {
 }
 
 /// A track and the phases in which it is passed.
-pub(super) type Passage = (Track, Vec<Phase>);
+pub(super) type TimedTrack = (Track, Vec<Phase>);
 
-/// The passages along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
+/// The timed tracks along a path, from rest to rest each, in order, and the blends in use: waypoints whose blend is of no use are
 /// left out of them, and their corners are stopped at. With a limit on a jerk no blend is of use: where a parabola that is passed at speed
 /// begins, the acceleration jumps.
-pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Vec<Passage>>) {
+pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
         blend.and_then(|blend: Blend| Corner::new(blend, limits))
@@ -140,7 +140,7 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
     for run in stops.windows(2) {
         let stopping = stopping(&used, run[0]..run[1], limits);
         let blended = (run[1] - run[0] > 1).then(|| blended(&used, run[0]..run[1], limits)).flatten();
-        let took: f64 = stopping.iter().map(|passages| duration(passages)).sum();
+        let took: f64 = stopping.iter().map(|timed_tracks| duration(timed_tracks)).sum();
         match blended.filter(|blended| duration(blended) <= took) {
             Some(blended) => runs.push(blended),
             None => {
@@ -153,14 +153,14 @@ pub(super) fn schedule(curve: &BlendedPath, limits: &Limits) -> (BlendedPath, Ve
 }
 
 /// How long they take together, seconds.
-fn duration(passages: &[Passage]) -> f64 {
-    passages.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
+fn duration(timed_tracks: &[TimedTrack]) -> f64 {
+    timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }
 
 /// From rest to rest on each leg from one waypoint to another.
-fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Vec<Passage>> {
+fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Vec<Vec<TimedTrack>> {
     let legs = curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2);
-    let passages = |leg: &[Configuration]| {
+    let timed_tracks = |leg: &[Configuration]| {
         let whole = || {
             let line = Line::new(leg[0], leg[1], limits);
             let phases = rest_to_rest(line.length, line.speed, line.acceleration, SHORTEST_INTERVAL);
@@ -177,7 +177,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Ve
         let driven = (parts.len() > 1).then(|| driven(parts.into_iter().map(Track::Line).collect(), limits)).flatten();
         driven.unwrap_or_else(whole)
     };
-    legs.map(passages).collect()
+    legs.map(timed_tracks).collect()
 }
 
 /// A part of a run over which the squared speed is linear, or on a line as fast as can be.
@@ -205,13 +205,13 @@ impl Span {
 }
 
 /// From rest at one waypoint to rest at another, with a blend at each between them. None if that cannot be sampled.
-fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<Passage>> {
+fn blended(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits) -> Option<Vec<TimedTrack>> {
     driven(tracks(curve, waypoints, limits)?, limits)
 }
 
 /// From rest at the beginning of the first track to rest at the end of the last; blends are cut into more spans until
 /// these are fine enough. None if a phase would be too short to be sampled.
-fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
+fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
         corner @ Track::Corner(_) => corner,
@@ -231,14 +231,14 @@ fn driven(tracks: Vec<Track>, limits: &Limits) -> Option<Vec<Passage>> {
             break squared;
         }
     };
-    let mut best = (passages(&tracks, &squared)?, squared);
+    let mut best = (timed_tracks(&tracks, &squared)?, squared);
     while let Some(finer) = much_finer(&tracks, &best.1) {
         let squared = squared_speeds(&finer, limits);
-        let Some(passages) = passages(&finer, &squared) else { break };
-        if duration(&passages) > (1.0 - WORTH) * duration(&best.0) {
+        let Some(timed_tracks) = timed_tracks(&finer, &squared) else { break };
+        if duration(&timed_tracks) > (1.0 - WORTH) * duration(&best.0) {
             break;
         }
-        (tracks, best) = (finer, (passages, squared));
+        (tracks, best) = (finer, (timed_tracks, squared));
     }
     Some(best.0)
 }
@@ -261,8 +261,8 @@ fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
 }
 
 /// The phases in which tracks are passed, given the squared speeds on them; none if one would be too short to be sampled.
-fn passages(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Passage>> {
-    let passage = |(track, squared): (&Track, &Vec<f64>)| {
+fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<TimedTrack>> {
+    let timed_track = |(track, squared): (&Track, &Vec<f64>)| {
         let phases = match track {
             Track::Line(line) => {
                 let ends = [squared[0].sqrt(), squared[1].sqrt()];
@@ -273,7 +273,7 @@ fn passages(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Passage>> {
         let lasts = |phase: &Phase| phase.duration.is_finite() && phase.duration >= SHORTEST_INTERVAL;
         phases.iter().all(lasts).then(|| (track.clone(), phases))
     };
-    tracks.iter().zip(squared).map(passage).collect()
+    tracks.iter().zip(squared).map(timed_track).collect()
 }
 
 /// The squared speeds of a motion from rest to rest along some tracks: of each track at its ends, of a corner at the ends of

@@ -3,13 +3,14 @@
 use super::sample::time_curve;
 use super::{Limits, MOST_SAMPLES, SHORTEST_INTERVAL, TimingError, Trajectory};
 use crate::geometry::Vector;
-use crate::model::{Joint, Motion};
-use crate::space::{Axis, Configuration, Path};
+use crate::model::{Joint, JointType};
+use crate::space::{Configuration, JointRange, Path};
 use proptest::prelude::*;
 
 fn joint(revolute: bool, velocity: f64, acceleration: f64) -> Joint {
-    let motion = if revolute { Motion::Revolute { sign: 1.0 } } else { Motion::Prismatic { direction: Vector::x() } };
-    Joint { name: "j".into(), motion, axis: Axis::Circle, velocity, acceleration, jerk: None }
+    let motion =
+        if revolute { JointType::Revolute { sign: 1.0 } } else { JointType::Prismatic { direction: Vector::x() } };
+    Joint { name: "j".into(), joint_type: motion, range: JointRange::Circle, velocity, acceleration, jerk: None }
 }
 
 fn path(waypoints: &[[f64; 2]]) -> Path {

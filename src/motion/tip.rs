@@ -1,6 +1,6 @@
 //! A top speed of the tip.
 
-use crate::model::{Arm, Motion};
+use crate::model::{Arm, JointType};
 use crate::space::Configuration;
 
 /// Share of its limit that the tip's speed may lose, because it is bounded part by part: curves are cut so finely.
@@ -44,12 +44,12 @@ impl TipSpeed<'_> {
 
     /// Greatest magnitude of the second derivative of the tip's place by the parameter.
     fn change(&self, part: &Part) -> f64 {
-        use Motion::{Prismatic, Revolute};
+        use JointType::{Prismatic, Revolute};
         let arm = self.arm;
         let [w1, w2] = [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half);
         let [b1, b2] = [part.bend[0].abs(), part.bend[1].abs()];
         let tip = arm.tip.coords;
-        match (arm.joints[0].motion, arm.joints[1].motion) {
+        match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
                 // What link 2 turns by.
                 let turn = |rate: Configuration| (s1 * rate[0] + s2 * rate[1]).abs();

@@ -3,7 +3,7 @@
 use super::summary::{counted, facts};
 use super::task_summary;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, DrawError, Picture, Posture, TaskPicture, View};
+use crate::draw::{self, ArmPicture, DrawError, Picture, TaskPicture, View};
 use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
 use std::path::Path;
@@ -96,20 +96,20 @@ impl Drawn for Picture<'_> {
     }
 }
 
-impl Drawn for Posture<'_> {
+impl Drawn for ArmPicture<'_> {
     fn svg(&self) -> String {
-        draw::posture_svg(self)
+        draw::arm_svg(self)
     }
 
     fn view(&self) -> View {
-        View::of_posture(self)
+        View::of_arm(self)
     }
 }
 
 impl Drawn for Plan {
     fn svg(&self) -> String {
         match self.made() {
-            Made::Motion(plan) => {
+            Made::JointType(plan) => {
                 let contours = contours(plan.problem.scene());
                 with_picture(plan, &contours, draw::svg)
             }
@@ -119,7 +119,7 @@ impl Drawn for Plan {
 
     fn view(&self) -> View {
         match self.made() {
-            Made::Motion(plan) => self.view_among(&contours(plan.problem.scene())),
+            Made::JointType(plan) => self.view_among(&contours(plan.problem.scene())),
             Made::Task(_) => self.view_among(&[]),
         }
     }
@@ -147,7 +147,7 @@ impl Plan {
     pub(crate) fn view_among(&self, contours: &[CObstacle]) -> View {
         let ending = Some(self.status());
         match self.made() {
-            Made::Motion(plan) => {
+            Made::JointType(plan) => {
                 let (facts, trajectory) = (facts(plan, self.options()), plan.report.trajectory.as_ref());
                 with_picture(plan, contours, |picture| View::of_picture(picture, ending, facts, trajectory))
             }

@@ -4,13 +4,13 @@ use super::task_summary;
 use crate::check::CertifiedCurve;
 use crate::engine::{Bound, Made, MotionPlan, Options, Plan, Verdict, percent};
 use crate::model::{Arm, Joint, Scene, plain_line};
-use crate::space::{Axis, Configuration, Metric, Segment};
+use crate::space::{Configuration, JointRange, Metric, Segment};
 use std::fmt::Write;
 use std::time::Duration;
 
 /// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
 pub fn value(joint: &Joint, value: f64) -> String {
-    if joint.motion.is_revolute() {
+    if joint.joint_type.is_revolute() {
         format!("{value:.4} rad ({:.2} deg)", value.to_degrees())
     } else {
         format!("{value:.4} m")
@@ -38,9 +38,9 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
 
 /// A joint's range.
 pub fn range(joint: &Joint) -> String {
-    match joint.axis {
-        Axis::Circle => "continuous".into(),
-        Axis::Interval { lower, upper } => format!("{} to {}", value(joint, lower), value(joint, upper)),
+    match joint.range {
+        JointRange::Circle => "continuous".into(),
+        JointRange::Interval { lower, upper } => format!("{} to {}", value(joint, lower), value(joint, upper)),
     }
 }
 
@@ -55,7 +55,7 @@ impl Plan {
     #[must_use]
     pub(crate) fn summary_with(&self, files: &[String], after: &[(&'static str, Duration)]) -> String {
         let mut lines = match self.made() {
-            Made::Motion(plan) => motion_lines(self, plan),
+            Made::JointType(plan) => motion_lines(self, plan),
             Made::Task(plan) => task_summary::lines(self, plan),
         };
         lines.extend(files.iter().map(|file| ("file", file.clone())));

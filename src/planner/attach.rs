@@ -79,13 +79,13 @@ fn shown(q: Configuration) -> String {
 fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
     let step = grid.step();
     let range = |k: usize, part: &Segment| {
-        let lower = grid.topology.axes[k].domain().0;
+        let lower = grid.topology.ranges[k].domain().0;
         let [from, to] = part.ends().map(|q| ((q[k] - lower) / step[k]).max(0.0) as usize);
         let last = grid.cells[k] - 1;
         from.min(to).min(last)..=from.max(to).min(last)
     };
     let in_row = |i: usize| {
-        let lower = grid.topology.axes[0].domain().0 + step[0] * i as f64;
+        let lower = grid.topology.ranges[0].domain().0 + step[0] * i as f64;
         let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
         let [from, to] = goals.ends();
         if from[0] == to[0] {

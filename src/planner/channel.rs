@@ -1,7 +1,7 @@
 //! A* over the cells of a decomposition.
 
 use super::NONE;
-use super::decomposition::{Decomposition, Door};
+use super::decomposition::{CellPortal, Decomposition};
 use super::terminals::Terminals;
 use crate::geometry::{Ordered, Point};
 use crate::interrupt::checkpoint;
@@ -9,25 +9,25 @@ use crate::space::{Measure, Metric, Segment};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Cells to pass, with the doors between them: one less than cells.
+/// Cells to pass, with the portals between them: one less than cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Channel {
     pub start: Point,
     /// Any of these will do, all in the last cell.
     pub goals: Segment,
     pub cells: Vec<usize>,
-    pub doors: Vec<usize>,
+    pub portals: Vec<usize>,
 }
 
-/// Which doors each cell has, and what ways through them cost.
+/// Which portals each cell has, and what ways through them cost.
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
-    /// The doors of cell `c` are `doors[first[c]..first[c + 1]]`.
+    /// The portals of cell `c` are `portals[first[c]..first[c + 1]]`.
     first: Vec<u32>,
-    doors: Vec<u32>,
+    portals: Vec<u32>,
     /// Centres of the cells.
     pub centers: Vec<Point>,
-    /// Middles of the doors.
+    /// Middles of the portals.
     pub middles: Vec<Point>,
 }
 
@@ -35,32 +35,32 @@ impl Adjacency {
     /// Linear.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
         let mut first = vec![0; centers.len() + 1];
-        for cell in decomposition.doors.iter().flat_map(|door| door.cells) {
+        for cell in decomposition.portals.iter().flat_map(|portal| portal.cells) {
             first[cell + 1] += 1;
         }
         for k in 1..first.len() {
             first[k] += first[k - 1];
         }
         let mut place = first.clone();
-        let mut doors = vec![0; 2 * decomposition.doors.len()];
-        for (door, number) in decomposition.doors.iter().zip(0..) {
-            for cell in door.cells {
-                doors[place[cell] as usize] = number;
+        let mut portals = vec![0; 2 * decomposition.portals.len()];
+        for (portal, number) in decomposition.portals.iter().zip(0..) {
+            for cell in portal.cells {
+                portals[place[cell] as usize] = number;
                 place[cell] += 1;
             }
         }
-        let middles = decomposition.doors.iter().map(|door| nalgebra::center(&door.low, &door.high)).collect();
-        Self { first, doors, centers, middles }
+        let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
+        Self { first, portals, centers, middles }
     }
 
     /// The cheapest channel from the start, given the cells that contain it, to any goal: passing from a cell to the
-    /// next costs the way from the one's centre over the door's middle to the other's, with the start and the nearest goal for
+    /// next costs the way from the one's centre over the portal's middle to the other's, with the start and the nearest goal for
     /// the centres of the end cells. `O(n log n)` for `n` cells.
-    pub fn channel(&self, doors: &[Door], terminals: &Terminals, start_cells: &[usize]) -> Option<Channel> {
+    pub fn channel(&self, portals: &[CellPortal], terminals: &Terminals, start_cells: &[usize]) -> Option<Channel> {
         let goal_cells = &terminals.parts;
         let mut search = Search {
             adjacency: self,
-            doors,
+            portals,
             terminals,
             nodes: vec![Node { cost: f64::INFINITY, ..Node::START }; self.centers.len() + goal_cells.len()],
             is_goal: vec![false; self.centers.len()],
@@ -78,7 +78,7 @@ impl Adjacency {
             if let Some(goal) = (node as usize).checked_sub(self.centers.len()) {
                 return Some(search.channel(node, goal_cells[goal].1));
             }
-            let from = Node { before: node, door: NONE, cost, cell: node };
+            let from = Node { before: node, portal: NONE, cost, cell: node };
             search.leave(node as usize, self.centers[node as usize], from);
         }
         None
@@ -91,14 +91,14 @@ struct Node {
     cost: f64,
     /// The cell before, `NONE` from the start.
     before: u32,
-    /// The door passed, `NONE` from the start to a goal in its cell.
-    door: u32,
+    /// The portal passed, `NONE` from the start to a goal in its cell.
+    portal: u32,
     /// The cell left.
     cell: u32,
 }
 
 impl Node {
-    const START: Self = Self { cost: 0.0, before: NONE, door: NONE, cell: NONE };
+    const START: Self = Self { cost: 0.0, before: NONE, portal: NONE, cell: NONE };
 }
 
 /// An entry of the open list: estimate, node (those beyond the cells are goals) and its cost when it was put there. Of
@@ -107,7 +107,7 @@ type Open = Reverse<(Ordered, u32, Ordered)>;
 
 struct Search<'a> {
     adjacency: &'a Adjacency,
-    doors: &'a [Door],
+    portals: &'a [CellPortal],
     terminals: &'a Terminals,
     nodes: Vec<Node>,
     is_goal: Vec<bool>,
@@ -115,18 +115,18 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Reaches what lies in a cell, which is left from `at`, and beyond its doors.
+    /// Reaches what lies in a cell, which is left from `at`, and beyond its portals.
     fn leave(&mut self, cell: usize, at: Point, from: Node) {
-        let Adjacency { first, doors, centers, middles } = self.adjacency;
+        let Adjacency { first, portals, centers, middles } = self.adjacency;
         if from.before == NONE {
             self.reach_goals(cell, from, at, |goal| (goal - at).norm());
         }
-        for &door in &doors[first[cell] as usize..first[cell + 1] as usize] {
-            let [left, right] = self.doors[door as usize].cells;
+        for &portal in &portals[first[cell] as usize..first[cell + 1] as usize] {
+            let [left, right] = self.portals[portal as usize].cells;
             let other = if left == cell { right } else { left };
-            let middle = middles[door as usize];
+            let middle = middles[portal as usize];
             let way = |to: Point| (middle - at).norm() + (to - middle).norm();
-            let through = Node { door, ..from };
+            let through = Node { portal, ..from };
             self.reach(other, centers[other], Node { cost: from.cost + way(centers[other]), ..through });
             self.reach_goals(other, through, middle, way);
         }
@@ -156,11 +156,11 @@ impl Search<'_> {
     /// The way to a goal, backwards.
     fn channel(&self, last: u32, goals: Segment) -> Channel {
         let last = self.nodes[last as usize];
-        let goal_cell = if last.door == NONE { last.cell } else { self.beyond(last.door, last.cell) };
-        let (mut cells, mut doors) = (vec![goal_cell as usize], Vec::new());
+        let goal_cell = if last.portal == NONE { last.cell } else { self.beyond(last.portal, last.cell) };
+        let (mut cells, mut portals) = (vec![goal_cell as usize], Vec::new());
         let mut node = last;
-        while node.door != NONE {
-            doors.push(node.door as usize);
+        while node.portal != NONE {
+            portals.push(node.portal as usize);
             cells.push(node.cell as usize);
             if node.before == NONE {
                 break;
@@ -168,13 +168,13 @@ impl Search<'_> {
             node = self.nodes[node.before as usize];
         }
         cells.reverse();
-        doors.reverse();
-        Channel { start: self.terminals.start, goals, cells, doors }
+        portals.reverse();
+        Channel { start: self.terminals.start, goals, cells, portals }
     }
 
-    /// The other cell of a door.
-    fn beyond(&self, door: u32, cell: u32) -> u32 {
-        let [left, right] = self.doors[door as usize].cells;
+    /// The other cell of a portal.
+    fn beyond(&self, portal: u32, cell: u32) -> u32 {
+        let [left, right] = self.portals[portal as usize].cells;
         (if left == cell as usize { right } else { left }) as u32
     }
 }

@@ -72,7 +72,7 @@ impl Cell {
 
 /// A piece of a vertical, of positive length, that two cells share.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Door {
+pub(super) struct CellPortal {
     /// The cell to its left and the one to its right.
     pub cells: [usize; 2],
     /// Lower and upper end, in closed free space exactly.
@@ -82,18 +82,18 @@ pub(super) struct Door {
     pub at_vertices: [bool; 2],
 }
 
-/// Cells that do not overlap and cover closed free space, and the doors between them.
+/// Cells that do not overlap and cover closed free space, and the portals between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Decomposition {
     pub cells: Vec<Cell>,
-    pub doors: Vec<Door>,
+    pub portals: Vec<CellPortal>,
 }
 
 impl Decomposition {
     /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
     ///
     /// All vertices of one abscissa are one event, so verticals through several vertices and vertical sides need no
-    /// special case: which door joins which cells follows from the order of the vertices on the line alone, which is
+    /// special case: which portal joins which cells follows from the order of the vertices on the line alone, which is
     /// exact.
     pub fn new(boundary: &Boundary) -> Self {
         let sides = boundary.sides.len();
@@ -182,7 +182,7 @@ impl Sweep<'_> {
     }
 
     /// Ends the cells left of a cluster, replaces the sides that end there by those that begin, starts the cells to
-    /// the right and joins them by doors.
+    /// the right and joins them by portals.
     fn replace(&mut self, cluster: Cluster) {
         let (first, last) = cluster.vertices;
         let x = self.boundary.vertices[first].x;
@@ -251,15 +251,15 @@ impl Sweep<'_> {
         }
     }
 
-    /// A door wherever a gap on the left and one on the right, both in ascending order, overlap.
+    /// A portal wherever a gap on the left and one on the right, both in ascending order, overlap.
     fn join(&mut self, cluster: Cluster, left: &[Gap], right: &[Gap]) {
         let (mut i, mut j) = (0, 0);
         while i < left.len() && j < right.len() {
             let (a, b) = (left[i], right[j]);
             let (low, high) = (a.low.max(b.low), a.high.min(b.high));
             if low < high {
-                let door = self.door(cluster, [a.cell, b.cell], low, high);
-                self.result.doors.push(door);
+                let portal = self.portal(cluster, [a.cell, b.cell], low, high);
+                self.result.portals.push(portal);
             }
             if a.high <= b.high {
                 i += 1;
@@ -269,8 +269,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// The door between two cells from one rank to another.
-    fn door(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> Door {
+    /// The portal between two cells from one rank to another.
+    fn portal(&self, cluster: Cluster, cells: [usize; 2], low: usize, high: usize) -> CellPortal {
         let (first, last) = cluster.vertices;
         let vertices = &self.boundary.vertices;
         let x = vertices[first].x;
@@ -285,7 +285,7 @@ impl Sweep<'_> {
             (None, Some(b)) => (Point::new(x, on_side(floor).y.min(b.y)), b),
             (None, None) => (on_side(floor), on_side(ceiling)),
         };
-        Door { cells, low, high, at_vertices: [ends.0.is_some(), ends.1.is_some()] }
+        CellPortal { cells, low, high, at_vertices: [ends.0.is_some(), ends.1.is_some()] }
     }
 }
 

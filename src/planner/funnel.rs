@@ -1,42 +1,42 @@
-//! Shortest way through a sequence of doors.
+//! Shortest way through a sequence of portals.
 
 use crate::geometry::{Orientation, Point, orientation};
 use crate::space::{Measure, Metric, Segment};
 
-/// A door as seen by one who passes it: its ends to the left and to the right hand.
+/// A portal as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passage {
+pub struct Portal {
     /// The end to the left.
     pub left: Point,
     /// The end to the right.
     pub right: Point,
 }
 
-/// The shortest polyline from `start` to `goal` that crosses all passages in order: the string pulled taut.
+/// The shortest polyline from `start` to `goal` that crosses all portals in order: the path that the funnel algorithm pulls taut.
 ///
-/// Consecutive passages must lie on the border of a common convex cell; start and goal in the first and the last one.
+/// Consecutive portals must lie on the border of a common convex cell; start and goal in the first and the last one.
 /// The *funnel* algorithm (Lee, Preparata 1984) in its scanning form: the funnel is kept as its apex and one point
 /// a side, and after a turn the scan resumes at the new apex. Linear when turns are found soon after they are passed,
-/// quadratic at worst. Turns are decided exactly, so every piece passes its doors in exact arithmetic.
+/// quadratic at worst. Turns are decided exactly, so every piece passes its portals in exact arithmetic.
 #[must_use]
-pub fn taut_string(start: Point, goal: Point, passages: &[Passage]) -> Vec<Point> {
-    let turns = turns(start, goal, passages).into_iter().map(|turn| turn.at);
-    let mut string: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
-    string.dedup();
-    string
+pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
+    let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
+    let mut path: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
+    path.dedup();
+    path
 }
 
-/// The place on a segment to which the taut string through the passages is shortest.
+/// The place on a segment to which the funnel path through the portals is shortest.
 ///
 /// That length is a convex function of the place, whose least value a search by golden section closes in on; as the string is
 /// straight after its last turn, the place nearest to that turn is the very least if it is as good. Some dozens of strings.
 #[must_use]
-pub fn nearest_end(start: Point, goals: &Segment, passages: &[Passage]) -> Point {
+pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let euclid = Measure::from(Metric::Euclidean);
     let length = |share: f64| {
-        let string = taut_string(start, Point::from(goals.at(share)), passages);
-        let last = string[string.len().saturating_sub(2)];
-        (string.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>(), last)
+        let path = funnel_path(start, Point::from(goals.at(share)), portals);
+        let last = path[path.len().saturating_sub(2)];
+        (path.windows(2).map(|w| (w[1] - w[0]).norm()).sum::<f64>(), last)
     };
     if goals.is_point() {
         return goals.corners()[0];
@@ -51,8 +51,8 @@ pub fn nearest_end(start: Point, goals: &Segment, passages: &[Passage]) -> Point
     let [first, rest @ ..] = tried;
     let ((shortest, last), best) = rest.into_iter().fold(first, |a, b| if b.0.0 < a.0.0 { b } else { a });
     let foot = Point::from(goals.nearest(euclid, last.coords));
-    let string = taut_string(start, foot, passages);
-    let to_foot: f64 = string.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    let path = funnel_path(start, foot, portals);
+    let to_foot: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
     if to_foot <= shortest * (1.0 + SETTLED) { foot } else { Point::from(best) }
 }
 
@@ -62,34 +62,34 @@ const SECTIONS: usize = 30;
 /// Share by which a length may be greater for rounding.
 const SETTLED: f64 = 1e-12;
 
-/// Where the taut string turns, in order, start and goal left out.
-pub(super) fn turns(start: Point, goal: Point, passages: &[Passage]) -> Vec<Turn> {
-    let mut string = Vec::new();
+/// Where the funnel path turns, in order, start and goal left out.
+pub(super) fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
+    let mut path = Vec::new();
     let mut funnel = Funnel { apex: start, left: None, right: None };
     let mut at = 0;
-    while at <= passages.len() {
-        let passage = passages.get(at).copied().unwrap_or(Passage { left: goal, right: goal });
-        match funnel.narrow(at, passage) {
+    while at <= portals.len() {
+        let portal = portals.get(at).copied().unwrap_or(Portal { left: goal, right: goal });
+        match funnel.narrow(at, portal) {
             Some(turn) => {
-                string.push(turn);
+                path.push(turn);
                 funnel = Funnel { apex: turn.at, left: None, right: None };
-                at = turn.passage + 1;
+                at = turn.portal + 1;
             }
             None => at += 1,
         }
     }
-    string
+    path
 }
 
-/// An end of a passage that bounds the funnel, and at which the string may turn.
+/// An end of a portal that bounds the funnel, and at which the string may turn.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Turn {
     pub at: Point,
-    /// Which passage.
-    pub passage: usize,
+    /// Which portal.
+    pub portal: usize,
 }
 
-/// Directions from the apex that cross all passages since: from `right` counter-clockwise to `left`.
+/// Directions from the apex that cross all portals since: from `right` counter-clockwise to `left`.
 struct Funnel {
     apex: Point,
     left: Option<Turn>,
@@ -97,8 +97,8 @@ struct Funnel {
 }
 
 impl Funnel {
-    /// Narrows the funnel to the passage, or returns the point at which the string must turn to reach it.
-    fn narrow(&mut self, passage: usize, Passage { left, right }: Passage) -> Option<Turn> {
+    /// Narrows the funnel to the portal, or returns the point at which the string must turn to reach it.
+    fn narrow(&mut self, portal: usize, Portal { left, right }: Portal) -> Option<Turn> {
         if left == self.apex || right == self.apex {
             // Passed at the apex itself, in any direction.
             (self.left, self.right) = (None, None);
@@ -108,13 +108,13 @@ impl Funnel {
             if self.turns(self.left, right, Orientation::CounterClockwise) {
                 return self.left;
             }
-            self.right = Some(Turn { at: right, passage });
+            self.right = Some(Turn { at: right, portal });
         }
         if !self.turns(self.left, left, Orientation::CounterClockwise) {
             if self.turns(self.right, left, Orientation::Clockwise) {
                 return self.right;
             }
-            self.left = Some(Turn { at: left, passage });
+            self.left = Some(Turn { at: left, portal });
         }
         None
     }
@@ -129,54 +129,54 @@ impl Funnel {
 mod tests {
     use super::*;
 
-    fn passage(left: (f64, f64), right: (f64, f64)) -> Passage {
-        Passage { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
+    fn portal(left: (f64, f64), right: (f64, f64)) -> Portal {
+        Portal { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
     }
 
-    fn points(string: &[(f64, f64)]) -> Vec<Point> {
-        string.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    fn points(path: &[(f64, f64)]) -> Vec<Point> {
+        path.iter().map(|&(x, y)| Point::new(x, y)).collect()
     }
 
     #[test]
-    fn without_passages_the_string_is_straight() {
+    fn without_portals_the_path_is_straight() {
         let [a, b] = [Point::new(0.0, 0.0), Point::new(1.0, 2.0)];
-        assert_eq!(taut_string(a, b, &[]), vec![a, b]);
-        assert_eq!(taut_string(a, a, &[]), vec![a]);
+        assert_eq!(funnel_path(a, b, &[]), vec![a, b]);
+        assert_eq!(funnel_path(a, a, &[]), vec![a]);
     }
 
     #[test]
-    fn an_open_passage_does_not_bend_it() {
-        let open = passage((1.0, 1.0), (1.0, -1.0));
-        let string = taut_string(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
-        assert_eq!(string, points(&[(0.0, 0.0), (2.0, 0.5)]));
+    fn an_open_portal_does_not_bend_it() {
+        let open = portal((1.0, 1.0), (1.0, -1.0));
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
+        assert_eq!(path, points(&[(0.0, 0.0), (2.0, 0.5)]));
     }
 
     #[test]
-    fn it_turns_at_the_nearer_end_of_a_passage_aside() {
-        let above = [passage((1.0, 3.0), (1.0, 2.0)), passage((2.0, 3.0), (2.0, 1.5))];
-        let string = taut_string(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
-        assert_eq!(string, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
+    fn it_turns_at_the_nearer_end_of_a_portal_aside() {
+        let above = [portal((1.0, 3.0), (1.0, 2.0)), portal((2.0, 3.0), (2.0, 1.5))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
+        assert_eq!(path, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
     }
 
     #[test]
     fn a_turn_back_on_one_vertical_goes_around_what_is_between() {
         // Right below the wall, left above it; the wall ends at (2, 1) and (2, 1.5).
-        let wall = [passage((2.0, 1.0), (2.0, 0.0)), passage((2.0, 1.5), (2.0, 3.0))];
-        let string = taut_string(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
-        assert_eq!(string, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
+        let wall = [portal((2.0, 1.0), (2.0, 0.0)), portal((2.0, 1.5), (2.0, 3.0))];
+        let path = funnel_path(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
+        assert_eq!(path, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
     }
 
     #[test]
-    fn a_start_on_the_line_of_a_passage_follows_it() {
-        let below = [passage((0.0, -1.0), (0.0, -2.0)), passage((1.0, 5.0), (1.0, -5.0))];
-        let string = taut_string(Point::new(0.0, 0.0), Point::new(2.0, 0.0), &below);
-        assert_eq!(string, points(&[(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]));
+    fn a_start_on_the_line_of_a_portal_follows_it() {
+        let below = [portal((0.0, -1.0), (0.0, -2.0)), portal((1.0, 5.0), (1.0, -5.0))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.0), &below);
+        assert_eq!(path, points(&[(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]));
     }
 
     #[test]
     fn collinear_ends_do_not_bend_it() {
-        let along = [passage((1.0, 1.0), (1.0, 0.0)), passage((2.0, 1.0), (2.0, 0.0))];
-        let string = taut_string(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
-        assert_eq!(string, points(&[(0.0, 0.0), (3.0, 0.0)]));
+        let along = [portal((1.0, 1.0), (1.0, 0.0)), portal((2.0, 1.0), (2.0, 0.0))];
+        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
+        assert_eq!(path, points(&[(0.0, 0.0), (3.0, 0.0)]));
     }
 }

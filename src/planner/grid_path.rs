@@ -13,7 +13,7 @@ use crate::space::{Configuration, Measure, Metric, Path};
 /// Number `at` of the unbounded lattice along an axis as a row or column of the grid; nothing beyond a limit.
 pub(super) fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
     let n = grid.cells[axis] as i64;
-    let at = if grid.topology.axes[axis].is_circle() { at.rem_euclid(n) } else { at };
+    let at = if grid.topology.ranges[axis].is_circle() { at.rem_euclid(n) } else { at };
     (0..n).contains(&at).then_some(at as usize)
 }
 
@@ -28,13 +28,13 @@ pub(super) type Line = Vec<[f64; 2]>;
 /// Lattice units of an unwrapped configuration.
 pub(super) fn to_lattice(grid: &Grid, q: Configuration) -> [f64; 2] {
     let step = grid.step();
-    [0, 1].map(|k| (q[k] - grid.topology.axes[k].domain().0) / step[k])
+    [0, 1].map(|k| (q[k] - grid.topology.ranges[k].domain().0) / step[k])
 }
 
 /// The unwrapped configuration at a point in lattice units.
 fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
     let step = grid.step();
-    let [a, b] = [0, 1].map(|k| grid.topology.axes[k].domain().0 + at[k] * step[k]);
+    let [a, b] = [0, 1].map(|k| grid.topology.ranges[k].domain().0 + at[k] * step[k]);
     Configuration::new(a, b)
 }
 
@@ -49,7 +49,7 @@ pub(super) fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line 
     let mut last = split(first);
     let mut at = [0, 1].map(|k| {
         let (center, n) = (last[k] as f64 + 0.5, grid.cells[k] as f64);
-        if grid.topology.axes[k].is_circle() { center + n * ((near[k] - center) / n).round() } else { center }
+        if grid.topology.ranges[k].is_circle() { center + n * ((near[k] - center) / n).round() } else { center }
     });
     line.push(at);
     for &cell in &cells[1..] {

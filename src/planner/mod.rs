@@ -18,14 +18,14 @@ mod mesh;
 mod path_kind;
 mod shortcut;
 mod simplify;
-mod taut_search;
+mod polyanya;
 mod terminals;
 mod trapezoid;
 mod visibility;
 mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
-pub use funnel::{Passage, nearest_end, taut_string};
+pub use funnel::{Portal, funnel_path, nearest_end};
 pub use harmonic::Harmonic;
 pub use path_kind::PathKind;
 pub use trapezoid::{Trapezoid, TrapezoidMap};
@@ -84,9 +84,9 @@ pub enum Size {
         sweeps: usize,
     },
     /// Values of joint 1 at which free values of joint 2 are known exactly.
-    Rows {
+    Slices {
         /// How many such values there are.
-        rows: usize,
+        slices: usize,
     },
     /// Cells of a grid as far as a search came.
     Search {
@@ -107,7 +107,7 @@ impl Size {
             Size::Graph { nodes, edges } => vec![("nodes", nodes), ("edges", edges)],
             Size::Windows { cells, windows } => vec![("cells", cells), ("windows", windows)],
             Size::Grid { cells, sweeps } => vec![("cells", cells), ("sweeps", sweeps)],
-            Size::Rows { rows } => vec![("rows", rows)],
+            Size::Slices { slices } => vec![("rows", slices)],
             Size::Search { expanded, labelled } => vec![("cells", labelled), ("expanded", expanded)],
             Size::Nothing => Vec::new(),
         }
@@ -123,7 +123,7 @@ impl std::fmt::Display for Size {
                 write!(f, "{}, {}", counted(cells, "cell"), counted(windows, "window"))
             }
             Size::Grid { cells, sweeps } => write!(f, "{}, {}", counted(cells, "cell"), counted(sweeps, "sweep")),
-            Size::Rows { rows } => write!(f, "{}", counted(rows, "row")),
+            Size::Slices { slices } => write!(f, "{}", counted(slices, "slice")),
             Size::Search { expanded, labelled } => {
                 write!(f, "{} expanded of {labelled} labelled", counted(expanded, "cell"))
             }
@@ -142,8 +142,8 @@ pub enum Trace {
         /// Whether all arcs between corners are among them; otherwise they are those that the search looked at.
         whole: bool,
     },
-    /// Free stretches of rows that the path passes one after the other: both ends of each.
-    Rows {
+    /// Free stretches of slices that the path passes one after the other: both ends of each.
+    Slices {
         /// Of each the least and the greatest value of joint 2.
         free: Vec<[Configuration; 2]>,
     },

@@ -5,7 +5,7 @@ use std::fmt;
 /// A path of a planner that has two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum PathKind {
-    /// The planner's own: along the gradient of a field, from cell to cell of a wavefront, through the middles of doors
+    /// The planner's own: along the gradient of a field, from cell to cell of a wavefront, through the middles of portals
     /// between the cells of a decomposition.
     Own,
     /// That one pulled taut as far as the planner's cells allow: shorter and nearer to obstacles, and no longer what the

@@ -95,7 +95,7 @@ pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
 /// ends are within it.
 fn covered(grid: &Grid, axis: usize, from: f64, to: f64) -> std::ops::RangeInclusive<i64> {
     let (first, last) = ((from.min(to) - TOUCH).floor() as i64, (from.max(to) + TOUCH).floor() as i64);
-    if grid.topology.axes[axis].is_circle() {
+    if grid.topology.ranges[axis].is_circle() {
         first..=last
     } else {
         first.max(0)..=last.min(grid.cells[axis] as i64 - 1)

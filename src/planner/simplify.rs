@@ -41,10 +41,10 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
     use crate::cspace::Proves;
-    use crate::space::{Axis, Topology};
+    use crate::space::{JointRange, Topology};
 
     fn empty() -> Grid {
-        let topology = Topology { axes: [Axis::Interval { lower: 0.0, upper: 100.0 }; 2] };
+        let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 100.0 }; 2] };
         Grid { topology, proves: Proves::Sampled, cells: [100, 100], blocked: vec![false; 10_000] }
     }
 

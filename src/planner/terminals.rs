@@ -67,7 +67,7 @@ fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
         let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
         let (lower, upper) = regions.window[k];
         // From where the copy's greater end is in the window to where its lesser end is.
-        let copies = regions.topology.axes[k].copies_within(least, (lower - (greatest - least), upper));
+        let copies = regions.topology.ranges[k].copies_within(least, (lower - (greatest - least), upper));
         copies.map(move |copy| ((copy - least) / TAU).round())
     };
     turns(0).flat_map(|first| turns(1).map(move |second| piece.turned([first, second]))).collect()

@@ -1,12 +1,12 @@
-//! Paths by exact cell decomposition: trapezoids, a channel, a taut string.
+//! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
 //!
 //! `decomposition` makes the cells, `channel` is A* over them, `funnel` pulls the string taut. The A* is our own:
 //! petgraph's keeps its scores in hash maps, needs a copy of the graph for each query's ends, and takes over twice as
 //! long.
 
 use super::channel::{Adjacency, Channel};
-use super::decomposition::{Decomposition, Door};
-use super::funnel::{Passage, Turn, nearest_end, turns};
+use super::decomposition::{CellPortal, Decomposition};
+use super::funnel::{Portal, Turn, nearest_end, turns};
 use super::terminals::Terminals;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
@@ -18,14 +18,14 @@ use std::sync::Arc;
 
 /// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
 ///
-/// Cells are joined where they share a piece of vertical of positive length (a *door*). A* finds the channel; passing
-/// from a cell to the next costs the way from the one's centre over the door's middle to the other's, with start and
+/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A* finds the channel; passing
+/// from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with start and
 /// goal for the centres of the end cells (Latombe, *Robot Motion Planning*, 1991, section 5.1). The path is free but
 /// not the shortest, even when taut: another channel may hold a shorter one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
     /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
-    /// middles of its doors and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
+    /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
     pub path: PathKind,
 }
 
@@ -66,8 +66,8 @@ impl Planner for Trapezoid {
             Err(reason) => (Proposal::GaveUp(reason), Vec::new()),
             Ok(terminals) => {
                 let start_cells: Vec<usize> = map.decomposition.cells_at(&map.boundary, terminals.start).collect();
-                let doors = &map.decomposition.doors;
-                match map.adjacency.channel(doors, &terminals, &start_cells) {
+                let portals = &map.decomposition.portals;
+                match map.adjacency.channel(portals, &terminals, &start_cells) {
                     None => (Proposal::NoPath, Vec::new()),
                     Some(channel) => {
                         let waypoints = match self.path {
@@ -83,21 +83,21 @@ impl Planner for Trapezoid {
         Run {
             outcome,
             trace: Trace::Channel { cells: Arc::clone(&map.corners), channel },
-            size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.doors.len() },
+            size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
             note: None,
         }
     }
 }
 
 impl TrapezoidMap {
-    /// Through the middles of the doors, and the centres of the cells between them.
+    /// Through the middles of the portals, and the centres of the cells between them.
     fn middle_path(&self, channel: &Channel) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
-        for (k, &door) in channel.doors.iter().enumerate() {
+        for (k, &cell_portal) in channel.portals.iter().enumerate() {
             if k > 0 {
                 waypoints.push(self.adjacency.centers[channel.cells[k]]);
             }
-            waypoints.push(self.adjacency.middles[door]);
+            waypoints.push(self.adjacency.middles[cell_portal]);
         }
         let last = waypoints[waypoints.len() - 1];
         waypoints.push(Point::from(channel.goals.nearest(Measure::from(Metric::Euclidean), last.coords)));
@@ -106,32 +106,28 @@ impl TrapezoidMap {
 
     /// The shortest way within the channel.
     fn taut_path(&self, channel: &Channel) -> Vec<Point> {
-        let door = |k: usize| self.decomposition.doors[channel.doors[k]];
-        let passage = |k: usize| {
-            let Door { cells: [from, _], low, high, .. } = door(k);
-            if from == channel.cells[k] {
-                Passage { left: high, right: low }
-            } else {
-                Passage { left: low, right: high }
-            }
+        let cell_portal = |k: usize| self.decomposition.portals[channel.portals[k]];
+        let portal = |k: usize| {
+            let CellPortal { cells: [from, _], low, high, .. } = cell_portal(k);
+            if from == channel.cells[k] { Portal { left: high, right: low } } else { Portal { left: low, right: high } }
         };
-        let passages: Vec<Passage> = (0..channel.doors.len()).map(passage).collect();
-        let goal = nearest_end(channel.start, &channel.goals, &passages);
-        let string = turns(channel.start, goal, &passages);
-        // Where a door ends in the middle of a side, its end is rounded into free space, and a string along the side
-        // turns there by a rounding error. A taut string turns at vertices only: leave such turns out.
+        let portals: Vec<Portal> = (0..channel.portals.len()).map(portal).collect();
+        let goal = nearest_end(channel.start, &channel.goals, &portals);
+        let path = turns(channel.start, goal, &portals);
+        // Where a portal ends in the middle of a side, its end is rounded into free space, and a string along the side
+        // turns there by a rounding error. A funnel path turns at vertices only: leave such turns out.
         let is_vertex = |turn: &Turn| {
-            let Door { low, at_vertices, .. } = door(turn.passage);
+            let CellPortal { low, at_vertices, .. } = cell_portal(turn.portal);
             at_vertices[usize::from(turn.at != low)]
         };
         let mut waypoints = vec![channel.start];
-        // The first door after the last waypoint.
+        // The first portal after the last waypoint.
         let mut first = 0;
-        for run in string.chunk_by(|a, b| is_vertex(a) == is_vertex(b)) {
-            let after = run[run.len() - 1].passage + 1;
+        for run in path.chunk_by(|a, b| is_vertex(a) == is_vertex(b)) {
+            let after = run[run.len() - 1].portal + 1;
             if !is_vertex(&run[0]) {
-                let rest = string.iter().find(|turn| turn.passage >= after);
-                let (end, to) = rest.map_or((passages.len(), goal), |turn| (turn.passage, turn.at));
+                let rest = path.iter().find(|turn| turn.portal >= after);
+                let (end, to) = rest.map_or((portals.len(), goal), |turn| (turn.portal, turn.at));
                 if self.is_straight(channel, first..end, waypoints[waypoints.len() - 1], to) {
                     continue;
                 }
@@ -143,19 +139,21 @@ impl TrapezoidMap {
         waypoints
     }
 
-    /// Whether one can go straight from `a` to `b` through some of the channel's doors; exact. Linear in their number.
+    /// Whether one can go straight from `a` to `b` through some of the channel's portals; exact. Linear in their number.
     ///
-    /// Vertices at the ends of the doors decide that: each side between is straight, and `a`, `b` and these vertices are
+    /// Vertices at the ends of the portals decide that: each side between is straight, and `a`, `b` and these vertices are
     /// on its free side.
-    fn is_straight(&self, channel: &Channel, doors: Range<usize>, a: Point, b: Point) -> bool {
+    fn is_straight(&self, channel: &Channel, portals: Range<usize>, a: Point, b: Point) -> bool {
         let mut x = a.x;
-        doors.map(|k| self.decomposition.doors[channel.doors[k]]).all(|Door { low, high, at_vertices, .. }| {
-            let onwards = if a.x <= b.x { x <= low.x && low.x <= b.x } else { x >= low.x && low.x >= b.x };
-            x = low.x;
-            let (left, right) = if a.x <= b.x { (a, b) } else { (b, a) };
-            onwards
-                && !(at_vertices[0] && orientation(left, right, low) == Orientation::CounterClockwise)
-                && !(at_vertices[1] && orientation(left, right, high) == Orientation::Clockwise)
-        })
+        portals.map(|k| self.decomposition.portals[channel.portals[k]]).all(
+            |CellPortal { low, high, at_vertices, .. }| {
+                let onwards = if a.x <= b.x { x <= low.x && low.x <= b.x } else { x >= low.x && low.x >= b.x };
+                x = low.x;
+                let (left, right) = if a.x <= b.x { (a, b) } else { (b, a) };
+                onwards
+                    && !(at_vertices[0] && orientation(left, right, low) == Orientation::CounterClockwise)
+                    && !(at_vertices[1] && orientation(left, right, high) == Orientation::Clockwise)
+            },
+        )
     }
 }

@@ -2,13 +2,13 @@
 //!
 //! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Cones are bounded by lines
 //! through vertices, so that exact predicates decide what is seen. `VisibilityMap::arcs` reads the whole reduced
-//! visibility graph off it. A query (`taut_search`) does not: it is A* over that graph, but keeps cones on the open list
+//! visibility graph off it. A query (`polyanya`) does not: it is A* over that graph, but keeps cones on the open list
 //! beside corners, each with a lower bound on the way through it, so that arcs are found in the order in which they
 //! matter (Polyanya). One search serves all metrics: shortest paths in any norm turn at the same corners, only lengths
 //! and bounds differ ([`crate::space::Measure`]).
 
 use super::mesh::{Mesh, Tangency};
-use super::taut_search::TautSearch;
+use super::polyanya::Polyanya;
 use super::terminals::Terminals;
 use super::{Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
@@ -60,7 +60,7 @@ impl Planner for Visibility {
                 };
             }
         };
-        let mut search = TautSearch::new(&map.mesh, Measure::from(self.metric), &terminals);
+        let mut search = Polyanya::new(&map.mesh, Measure::from(self.metric), &terminals);
         let outcome = match search.path() {
             Some(waypoints) => Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect())),
             None => Proposal::NoPath,
@@ -91,9 +91,9 @@ impl VisibilityMap {
                 let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
                 Some([corner.at.coords, corners[other as usize].at.coords])
             };
-            for outlook in corner.tangents().flat_map(|gaze| self.mesh.outlooks(corner, gaze)) {
-                arcs.extend(outlook.seen.into_iter().flatten().filter_map(arc));
-                self.mesh.look_forward(corner.at, outlook.cone, &mut stack, |half_edge| arcs.extend(arc(half_edge)));
+            for successor in corner.tangents().flat_map(|gaze| self.mesh.successors(corner, gaze)) {
+                arcs.extend(successor.seen.into_iter().flatten().filter_map(arc));
+                self.mesh.look_forward(corner.at, successor.cone, &mut stack, |half_edge| arcs.extend(arc(half_edge)));
             }
         }
         arcs

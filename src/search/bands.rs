@@ -5,7 +5,7 @@ use crate::check::Cell;
 use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
 use crate::geometry::{Features, Point, Vector, merge_in_place};
-use crate::model::{Carried, Motion, Pair, Scene, on_axis};
+use crate::model::{Carried, JointType, Pair, Scene, on_axis};
 use nalgebra::Vector2;
 
 /// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
@@ -32,11 +32,11 @@ pub(super) enum Kind {
 pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
     let arm = scene.arm();
     let joint = &arm.joints[0];
-    let (lower, upper) = joint.axis.domain();
+    let (lower, upper) = joint.range.domain();
     let mut of_pairs: Vec<(Pair, [f64; 2])> = Vec::new();
     let mut arcs = Vec::new();
     for &pair in scene.pairs().iter().filter(|p| p.link == 0) {
-        let part = Carried::new(joint.motion, scene.part(pair));
+        let part = Carried::new(joint.joint_type, scene.part(pair));
         let piece = Features::new(scene.piece(pair));
         arcs.clear();
         let hits = part.hits(arm.base, Vector::x(), &piece, clearance + OUTWARD, &mut arcs);
@@ -67,10 +67,10 @@ pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
 /// A box, as high as the domain, in which the pair is stuck, within an interval of `q1` where it is too near.
 fn wall(scene: &Scene, clearance: f64, pair: Pair, [from, to]: [f64; 2]) -> Option<StuckBox> {
     let arm = scene.arm();
-    let (bottom, top) = arm.joints[1].axis.domain();
-    let lever = match arm.joints[0].motion {
-        Motion::Revolute { .. } => scene.part(pair).reach_from(Point::origin()),
-        Motion::Prismatic { .. } => 1.0,
+    let (bottom, top) = arm.joints[1].range.domain();
+    let lever = match arm.joints[0].joint_type {
+        JointType::Revolute { .. } => scene.part(pair).reach_from(Point::origin()),
+        JointType::Prismatic { .. } => 1.0,
     };
     PLACES.iter().find_map(|share| {
         let middle = from + (to - from) * share;

@@ -15,20 +15,20 @@ fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {
     [below, above]
 }
 
-/// The door from this cell to the other, if the two share a piece of side of positive length. Corners do not count:
+/// The portal from this cell to the other, if the two share a piece of side of positive length. Corners do not count:
 /// where only a corner is shared, it belongs to the two other boxes as well.
-pub(super) fn door(cell: &Cell, other: &Cell, topology: &Topology) -> Option<Door> {
-    (0..2).find_map(|axis| door_along(cell, other, axis, topology))
+pub(super) fn portal(cell: &Cell, other: &Cell, topology: &Topology) -> Option<Portal> {
+    (0..2).find_map(|axis| portal_along(cell, other, axis, topology))
 }
 
-fn door_along(cell: &Cell, other: &Cell, axis: usize, topology: &Topology) -> Option<Door> {
+fn portal_along(cell: &Cell, other: &Cell, axis: usize, topology: &Topology) -> Option<Portal> {
     let across = 1 - axis;
     let (from, to) = (cell.lower[across].max(other.lower[across]), cell.upper[across].min(other.upper[across]));
     if from >= to {
         return None;
     }
-    let (lower, upper) = topology.axes[axis].domain();
-    let circle = topology.axes[axis].is_circle();
+    let (lower, upper) = topology.ranges[axis].domain();
+    let circle = topology.ranges[axis].is_circle();
     let (value, shift, ahead) = if cell.upper[axis] == other.lower[axis] {
         (cell.upper[axis], 0.0, true)
     } else if cell.lower[axis] == other.upper[axis] {
@@ -49,12 +49,12 @@ fn door_along(cell: &Cell, other: &Cell, axis: usize, topology: &Topology) -> Op
     by[axis] = shift;
     // Who goes towards greater `q1` has greater `q2` to the left; who goes towards greater `q2`, lesser `q1`.
     let (left, right) = if ahead == (axis == 0) { (to, from) } else { (from, to) };
-    Some(Door { left: end(left), right: end(right), shift: by })
+    Some(Portal { left: end(left), right: end(right), shift: by })
 }
 
 /// The piece of side that two cells share, as seen by who passes from one to the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Door {
+pub(super) struct Portal {
     /// End to the left hand.
     pub left: Configuration,
     /// End to the right hand.
@@ -63,7 +63,7 @@ pub(super) struct Door {
     pub shift: Configuration,
 }
 
-impl Door {
+impl Portal {
     /// Halfway between the ends.
     pub fn middle(&self) -> Configuration {
         (self.left + self.right) / 2.0
@@ -130,7 +130,7 @@ impl<'a> Subdivision<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         let topology = scene.arm().topology();
         let mut this = Self { scene, topology, clearance, nodes: Vec::new(), roots: 0 };
-        let (bottom, top) = topology.axes[1].domain();
+        let (bottom, top) = topology.ranges[1].domain();
         let row = |j: usize| if j == FIRST { top } else { bottom + (top - bottom) * j as f64 / FIRST as f64 };
         let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link == 1).collect();
         // Only boxes of one column, of neighbouring columns, and of the first and the last one can be adjacent.
@@ -164,12 +164,12 @@ impl<'a> Subdivision<'a> {
 
     /// The domain of `q1` as intervals, ascending, on which link 1 is free, stuck, or (at the end of halving) mixed.
     fn columns(&self) -> Vec<(f64, f64, State)> {
-        let (lower, upper) = self.topology.axes[0].domain();
+        let (lower, upper) = self.topology.ranges[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
         let at = |i: usize| if i == FIRST { upper } else { lower + (upper - lower) * i as f64 / FIRST as f64 };
         let mut open: Vec<(f64, f64, Vec<Pair>)> = (0..FIRST).map(|i| (at(i), at(i + 1), first.clone())).collect();
         let mut columns = Vec::new();
-        let middle = self.topology.axes[1].domain().0;
+        let middle = self.topology.ranges[1].domain().0;
         while !open.is_empty() {
             let few = open.len() <= MOST_OPEN_COLUMNS;
             for (from, to, pairs) in std::mem::take(&mut open) {
@@ -194,7 +194,7 @@ impl<'a> Subdivision<'a> {
             let beside = &mut self.nodes[other as usize];
             // Two walls side by side do not matter; split boxes are there no more.
             let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Stuck(_));
-            if !matters || door(&cell, &beside.cell, &self.topology).is_none() {
+            if !matters || portal(&cell, &beside.cell, &self.topology).is_none() {
                 continue;
             }
             if beside.is_open() {
@@ -211,10 +211,11 @@ impl<'a> Subdivision<'a> {
     pub fn split(&mut self, index: u32) -> bool {
         let State::Mixed(pairs) = &self.nodes[index as usize].state else { return false };
         let cell = self.nodes[index as usize].cell;
-        let narrow = cell.upper[0] - cell.lower[0] <= FINEST_COLUMN * self.topology.axes[0].extent();
+        let narrow = cell.upper[0] - cell.lower[0] <= FINEST_COLUMN * self.topology.ranges[0].extent();
         let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0 && narrow);
         let axis = self.longer(&cell, &open);
-        let wide = |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.axes[axis].extent();
+        let wide =
+            |&axis: &usize| cell.upper[axis] - cell.lower[axis] > FINEST_BOX * self.topology.ranges[axis].extent();
         let Some(halves) = axis.filter(wide).map(|axis| halves(&cell, axis)) else {
             self.nodes[index as usize].state = State::Finest;
             return false;

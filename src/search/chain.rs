@@ -1,6 +1,6 @@
 //! Chains of adjacent boxes.
 
-use super::boxes::door;
+use super::boxes::portal;
 use crate::check::Cell;
 use crate::geometry::Ordered;
 use crate::interrupt::checkpoint;
@@ -116,7 +116,7 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the middles of the doors is
+/// The chain of free boxes from the start, in box `from`, to a goal along which a polyline through the middles of the portals is
 /// the shortest, as far as one way into each box tells (Dijkstra). Some chain must exist.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let topology = boxes.topology();
@@ -147,12 +147,12 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
             if boxes.openness(next) != Some(Openness::Free) {
                 return;
             }
-            let Some(door) = door(&cell, &boxes.cell(next), topology) else { return };
-            let place = door.middle();
+            let Some(portal) = portal(&cell, &boxes.cell(next), topology) else { return };
+            let place = portal.middle();
             let longer = so_far + (place - at).norm();
             if longer < length[next as usize] {
                 length[next as usize] = longer;
-                entry[next as usize] = place - door.shift;
+                entry[next as usize] = place - portal.shift;
                 parent[next as usize] = index;
                 queue.push(Reverse((Ordered(longer), next)));
             }

@@ -10,7 +10,7 @@ use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
 use crate::geometry::{BoxTree, Convex, Features, Hits, Point, ROUNDING, Vector};
 use crate::interrupt::checkpoint;
-use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
+use crate::model::{Carried, JointType, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::f64::consts::PI;
 
@@ -80,7 +80,7 @@ impl Eroded {
         if by <= 0.0 {
             return Some(Self::Grown(grow));
         }
-        part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.motion(), &shape)))
+        part.shape().eroded(by).map(|shape| Self::Part(Carried::new(part.joint_type(), &shape)))
     }
 
     fn piece(piece: &Convex, overlap: f64, clearance: f64) -> Option<Self> {
@@ -154,7 +154,7 @@ impl<'a> SecondLink<'a> {
                 });
             }
             parts.push(PreparedPart {
-                carried: Carried::new(joint.motion, shape),
+                carried: Carried::new(joint.joint_type, shape),
                 reach: swept(shape, joint, scene.arm().offset).reach_from(Point::origin()),
                 depth: shape.depth(),
                 eroded: Vec::new(),
@@ -167,9 +167,9 @@ impl<'a> SecondLink<'a> {
 
     /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
     fn motion(&self, reach: f64, half: f64) -> f64 {
-        match self.scene.arm().joints[0].motion {
-            Motion::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
-            Motion::Prismatic { .. } => half,
+        match self.scene.arm().joints[0].joint_type {
+            JointType::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
+            JointType::Prismatic { .. } => half,
         }
     }
 
@@ -216,14 +216,14 @@ impl<'a> SecondLink<'a> {
     fn near(&self, part: usize, elbow: Point, width: f64, found: &mut Vec<u32>) {
         let PreparedPart { carried, reach, first, pieces, .. } = &self.parts[part];
         found.clear();
-        match carried.motion() {
-            Motion::Revolute { .. } => {
+        match carried.joint_type() {
+            JointType::Revolute { .. } => {
                 let grow = self.clearance + self.motion(*reach, width) + 2.0 * OUTWARD;
                 let around = Vector::repeat(carried.shape().reach_from(Point::origin()) + grow);
                 pieces.meeting(&[elbow - around, elbow + around], found);
                 found.iter_mut().for_each(|index| *index += *first as u32);
             }
-            Motion::Prismatic { .. } => {
+            JointType::Prismatic { .. } => {
                 let end = self.parts.get(part + 1).map_or(self.pairs.len(), |next| next.first);
                 found.extend(*first as u32..end as u32);
             }
@@ -300,7 +300,7 @@ mod tests {
     use super::*;
     use crate::geometry::hull;
     use crate::model::{Arm, Heights, Joint, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
-    use crate::space::Axis;
+    use crate::space::JointRange;
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
@@ -312,22 +312,22 @@ mod tests {
         })
     }
 
-    fn joint(turns: bool, axis: Axis) -> Joint {
+    fn joint(turns: bool, range: JointRange) -> Joint {
         let motion = if turns {
-            Motion::Revolute { sign: -1.0 }
+            JointType::Revolute { sign: -1.0 }
         } else {
-            Motion::Prismatic { direction: Vector::new(0.6, 0.8) }
+            JointType::Prismatic { direction: Vector::new(0.6, 0.8) }
         };
-        Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
+        Joint { name: "joint".into(), joint_type: motion, range, velocity: 1.0, acceleration: 1.0, jerk: None }
     }
 
     fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
-        let long = Axis::Interval { lower: -4.0, upper: 4.0 };
+        let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
         let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
         let part = Part { shape: part, heights: Heights::ALL, body: "body".into() };
         let arm = Arm {
             name: "arm".into(),
-            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { Axis::Circle } else { long })],
+            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { JointRange::Circle } else { long })],
             links: [link(vec![]), link(vec![part])],
             base: Point::new(0.1, -0.2),
             offset,
@@ -346,7 +346,7 @@ mod tests {
     proptest! {
         #![proptest_config(crate::random::cases(600))]
 
-        /// The oracle is the distance of the shapes at sampled postures, which knows no contact angles.
+        /// The oracle is the distance of the shapes at sampled configurations, which knows no contact angles.
         #[test]
         fn what_is_said_of_a_slab_holds_all_over_it(
             kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
@@ -363,7 +363,7 @@ mod tests {
             second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
             let Verdicts { mut outer, inner } = verdicts;
             crate::geometry::merge_in_place(&mut outer);
-            let (bottom, top) = scene.arm().joints[1].axis.domain();
+            let (bottom, top) = scene.arm().joints[1].range.domain();
             for (u, v) in samples {
                 let q1 = (middle + u * half).clamp(from, to);
                 let q2 = bottom + v * (top - bottom);

@@ -84,7 +84,7 @@ pub fn slab_connectivity(
 ) -> Connectivity {
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
-    if slabs.topology.axes.iter().any(|axis| axis.extent() <= 0.0) {
+    if slabs.topology.ranges.iter().any(|axis| axis.extent() <= 0.0) {
         return Connectivity::Undecided { boxes: 0, closed: false };
     }
     loop {
@@ -158,7 +158,7 @@ impl<'a> Slabs<'a> {
     /// Slabs for a stretch, not looked at yet; cut where the first slabs end, so that all slabs of a level share their
     /// widths.
     fn lay(&mut self, from: f64, to: f64, clear: bool) {
-        let (lower, upper) = self.topology.axes[0].domain();
+        let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / FIRST as f64;
         let mut from = from;
         for cut in (1..FIRST).map(at).chain([to]) {
@@ -172,7 +172,7 @@ impl<'a> Slabs<'a> {
 
     /// One span for all values of joint 2.
     fn whole(&mut self, openness: Openness) -> [u32; 2] {
-        let (lower, upper) = self.topology.axes[1].domain();
+        let (lower, upper) = self.topology.ranges[1].domain();
         let first = index(self.spans.len());
         self.spans.push(Span { lower, upper, openness, slab: 0 });
         [first, first + 1]
@@ -205,7 +205,7 @@ impl<'a> Slabs<'a> {
 
     /// Turns the verdicts into spans.
     fn cut(&mut self, level: usize, clear: bool) {
-        let (bottom, top) = self.topology.axes[1].domain();
+        let (bottom, top) = self.topology.ranges[1].domain();
         let Verdicts { outer, inner } = &mut self.verdicts;
         merge_in_place(outer);
         let mut stuck: Vec<[f64; 2]> = inner.iter().map(|i| i.1).collect();
@@ -274,7 +274,7 @@ impl<'a> Slabs<'a> {
     /// The slabs beside a slab.
     fn beside(&self, slab: u32) -> impl Iterator<Item = u32> {
         let last = index(self.slabs.len()) - 1;
-        let round = self.topology.axes[0].is_circle();
+        let round = self.topology.ranges[0].is_circle();
         let before = if slab > 0 { Some(slab - 1) } else { round.then_some(last) };
         let after = if slab < last { Some(slab + 1) } else { round.then_some(0) };
         before.into_iter().chain(after)
@@ -288,7 +288,7 @@ impl<'a> Slabs<'a> {
 
 /// Half the width of the slabs of a level.
 fn half_of_level(topology: &Topology, level: usize) -> f64 {
-    topology.axes[0].extent() / FIRST as f64 / 2.0 * 0.5_f64.powi(level as i32)
+    topology.ranges[0].extent() / FIRST as f64 / 2.0 * 0.5_f64.powi(level as i32)
 }
 
 impl Mosaic for Slabs<'_> {
@@ -323,7 +323,7 @@ impl Mosaic for Slabs<'_> {
         if index + 1 < end && self.spans[index as usize + 1].lower == span.upper {
             f(index + 1);
         }
-        let axis = self.topology.axes[1];
+        let axis = self.topology.ranges[1];
         if axis.is_circle() && first + 1 < end {
             let (bottom, top) = axis.domain();
             let (lowest, highest) = (first, end - 1);

@@ -1,20 +1,20 @@
 //! Copies of segments by whole turns.
 
-use super::{Axis, Configuration, Segment, Topology};
+use super::{Configuration, JointRange, Segment, Topology};
 use std::f64::consts::TAU;
 
 impl Segment {
     /// The same so many whole turns of each joint on.
     #[must_use]
     pub fn turned(&self, turns: [f64; 2]) -> Self {
-        let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| Axis::Circle.turned(q[k], turns[k])));
+        let [from, to] = self.ends().map(|q| Configuration::from_fn(|k, _| JointRange::Circle.turned(q[k], turns[k])));
         Self::new(from, to)
     }
 
     /// Its copies that lie in the fundamental domain; of one across a seam as many as cover it there, each as a whole.
     pub fn wrapped(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         let [from, to] = self.ends();
-        let [first, second] = [0, 1].map(|k| into_domain(topology.axes[k], [from[k], to[k]]));
+        let [first, second] = [0, 1].map(|k| into_domain(topology.ranges[k], [from[k], to[k]]));
         first.into_iter().flat_map(move |a| {
             let ends = move |b: [f64; 2]| [0, 1].map(|end| Configuration::new(a[end], b[end]));
             second.clone().into_iter().map(ends).map(|[from, to]| Self::new(from, to))
@@ -25,8 +25,9 @@ impl Segment {
     /// that lies within the domain is itself.
     pub fn within_domain(&self, topology: &Topology) -> impl Iterator<Item = Self> + use<> {
         // On an interval there are no copies, and no goal is lost that lies beyond a limit.
-        let bounds =
-            topology.axes.map(|axis| if axis.is_circle() { axis.domain() } else { (f64::NEG_INFINITY, f64::INFINITY) });
+        let bounds = topology
+            .ranges
+            .map(|axis| if axis.is_circle() { axis.domain() } else { (f64::NEG_INFINITY, f64::INFINITY) });
         let [lower, upper] = [bounds.map(|b| b.0), bounds.map(|b| b.1)];
         self.wrapped(topology).filter_map(move |copy| copy.within(lower, upper))
     }
@@ -35,8 +36,8 @@ impl Segment {
     pub fn copies_near(&self, topology: &Topology, q: Configuration) -> impl Iterator<Item = Self> + use<> {
         let middle = self.at(0.5);
         let turns = [0, 1].map(|k| {
-            let turns = if topology.axes[k].is_circle() { ((q[k] - middle[k]) / TAU).round() } else { 0.0 };
-            let around = if topology.axes[k].is_circle() { -1..=1 } else { 0..=0 };
+            let turns = if topology.ranges[k].is_circle() { ((q[k] - middle[k]) / TAU).round() } else { 0.0 };
+            let around = if topology.ranges[k].is_circle() { -1..=1 } else { 0..=0 };
             around.map(move |more| turns + f64::from(more))
         });
         let [first, second] = turns;
@@ -46,12 +47,12 @@ impl Segment {
 }
 
 /// The copies of a stretch of values that are in the domain of an axis, or any of their length.
-fn into_domain(axis: Axis, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+fn into_domain(axis: JointRange, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
     let (lower, upper) = axis.domain();
     match axis {
-        Axis::Interval { .. } => vec![[from, to]],
-        Axis::Circle if from == to => vec![[axis.wrap(from); 2]],
-        Axis::Circle => {
+        JointRange::Interval { .. } => vec![[from, to]],
+        JointRange::Circle if from == to => vec![[axis.wrap(from); 2]],
+        JointRange::Circle => {
             // From where its greatest value comes past the lower end to where its least one is short of the upper end.
             let first = ((lower - from.max(to)) / TAU).floor() as i64 + 1;
             let last = ((upper - from.min(to)) / TAU).ceil() as i64 - 1;
@@ -65,7 +66,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    const TORUS: Topology = Topology { axes: [Axis::Circle; 2] };
+    const TORUS: Topology = Topology { ranges: [JointRange::Circle; 2] };
 
     fn at(q1: f64, q2: f64) -> Configuration {
         Configuration::new(q1, q2)
@@ -94,7 +95,7 @@ mod tests {
         let parts = cut(at(-4.0, 1.0), at(4.0, 1.0));
         assert!((parts.iter().map(Segment::length).sum::<f64>() - 8.0).abs() < 1e-12, "{parts:?}");
         // On an interval nothing is cut off.
-        let strip = Topology { axes: [Axis::Interval { lower: -1.0, upper: 1.0 }, Axis::Circle] };
+        let strip = Topology { ranges: [JointRange::Interval { lower: -1.0, upper: 1.0 }, JointRange::Circle] };
         let far = Segment::new(at(-9.0, 1.0), at(9.0, 1.0));
         assert_eq!(far.within_domain(&strip).collect::<Vec<_>>(), [far]);
     }

@@ -3,7 +3,7 @@
 use super::{Configuration, Path};
 
 /// A norm on displacements in joint space. All shortest paths among polygons, whatever the norm, turn at convex corners
-/// only: replacing a piece of a path by the straight segment never makes it longer, so the taut string is as short as
+/// only: replacing a piece of a path by the straight segment never makes it longer, so the funnel path is as short as
 /// any path in its homotopy class.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Metric {

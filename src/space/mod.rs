@@ -24,9 +24,9 @@ pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;
 pub use metric::Metric;
 pub use path::Path;
-pub use recording::{Recording, RecordingDefect};
+pub use recording::{Recording, RecordingError};
 pub use segment::Segment;
-pub use topology::{Axis, Topology};
+pub use topology::{JointRange, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.
 pub type Configuration = nalgebra::Vector2<f64>;

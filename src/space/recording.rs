@@ -25,7 +25,7 @@ pub struct Recording {
 
 /// Why samples are no motion. Samples count from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum RecordingDefect {
+pub enum RecordingError {
     /// There are none.
     #[error("there is no sample")]
     Empty,
@@ -67,12 +67,12 @@ pub enum RecordingDefect {
     },
 }
 
-impl RecordingDefect {
+impl RecordingError {
     /// The sample at fault, if it is one.
     #[must_use]
     pub fn sample(&self) -> Option<usize> {
         match *self {
-            RecordingDefect::Value { sample, .. } | RecordingDefect::Time { sample, .. } => Some(sample),
+            RecordingError::Value { sample, .. } | RecordingError::Time { sample, .. } => Some(sample),
             _ => None,
         }
     }
@@ -82,22 +82,22 @@ impl Recording {
     /// Samples as a motion: cubic between them where velocities are known, else linear.
     ///
     /// # Errors
-    /// [`RecordingDefect`]: the first that there is.
+    /// [`RecordingError`]: the first that there is.
     pub fn new(
         position: Vec<Configuration>,
         time: Option<Vec<f64>>,
         velocity: Option<Vec<Configuration>>,
-    ) -> Result<Self, RecordingDefect> {
+    ) -> Result<Self, RecordingError> {
         if position.is_empty() {
-            return Err(RecordingDefect::Empty);
+            return Err(RecordingError::Empty);
         }
         if velocity.is_some() && time.is_none() {
-            return Err(RecordingDefect::VelocityWithoutTime);
+            return Err(RecordingError::VelocityWithoutTime);
         }
         let counts = [("times", time.as_ref().map(Vec::len)), ("velocities", velocity.as_ref().map(Vec::len))];
         for (what, others) in counts {
             if let Some(others) = others.filter(|n| *n != position.len()) {
-                return Err(RecordingDefect::Count { positions: position.len(), what, others });
+                return Err(RecordingError::Count { positions: position.len(), what, others });
             }
         }
         for sample in 0..position.len() {
@@ -105,16 +105,16 @@ impl Recording {
             let numbers = [("position", Some(position[sample]), LARGEST_VALUE), ("velocity", rates, LARGEST_RATE)];
             for (what, row, limit) in numbers {
                 if let Some(&value) = row.iter().flatten().find(|v| outside(**v, limit)) {
-                    return Err(RecordingDefect::Value { sample, what, value });
+                    return Err(RecordingError::Value { sample, what, value });
                 }
             }
             let Some(time) = &time else { continue };
             if outside(time[sample], LARGEST_RATE) {
-                return Err(RecordingDefect::Value { sample, what: "time", value: time[sample] });
+                return Err(RecordingError::Value { sample, what: "time", value: time[sample] });
             }
             if sample > 0 && time[sample] <= time[sample - 1] {
                 let (time, before) = (time[sample], time[sample - 1]);
-                return Err(RecordingDefect::Time { sample, time, before });
+                return Err(RecordingError::Time { sample, time, before });
             }
         }
         let interpolation = if velocity.is_some() { Interpolation::Cubic } else { Interpolation::Linear };
@@ -124,23 +124,23 @@ impl Recording {
     /// The same with the accelerations that are stated, and what they make of the motion.
     ///
     /// # Errors
-    /// [`RecordingDefect`]: accelerations of another number, too large, or, where they are to join samples, without velocities.
+    /// [`RecordingError`]: accelerations of another number, too large, or, where they are to join samples, without velocities.
     pub fn accelerated(
         self,
         acceleration: Vec<Configuration>,
         interpolation: Interpolation,
-    ) -> Result<Self, RecordingDefect> {
+    ) -> Result<Self, RecordingError> {
         let uses = |what: &[Interpolation]| what.contains(&interpolation);
         if self.velocity.is_none() && !uses(&[Interpolation::Linear]) {
-            return Err(RecordingDefect::AccelerationWithoutVelocity);
+            return Err(RecordingError::AccelerationWithoutVelocity);
         }
         if acceleration.len() != self.position.len() {
             let (positions, others) = (self.position.len(), acceleration.len());
-            return Err(RecordingDefect::Count { positions, what: "accelerations", others });
+            return Err(RecordingError::Count { positions, what: "accelerations", others });
         }
         for (sample, row) in acceleration.iter().enumerate() {
             if let Some(&value) = row.iter().find(|value| outside(**value, LARGEST_RATE)) {
-                return Err(RecordingDefect::Value { sample, what: "acceleration", value });
+                return Err(RecordingError::Value { sample, what: "acceleration", value });
             }
         }
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
@@ -242,7 +242,7 @@ impl Recording {
     pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
         let steps = self.position.windows(2).enumerate();
         let is_turn = |w: &[Configuration], k: usize| {
-            topology.axes[k].is_circle() && (w[1][k] - w[0][k]).abs() > std::f64::consts::PI
+            topology.ranges[k].is_circle() && (w[1][k] - w[0][k]).abs() > std::f64::consts::PI
         };
         steps.flat_map(|(i, w)| (0..2).filter(move |&k| is_turn(w, k)).map(move |k| (i, k))).collect()
     }
@@ -275,7 +275,7 @@ fn outside(value: f64, limit: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Axis;
+    use crate::space::JointRange;
 
     fn q(a: f64, b: f64) -> Configuration {
         Configuration::new(a, b)
@@ -284,17 +284,17 @@ mod tests {
     #[test]
     fn samples_that_are_no_motion() {
         let two = || vec![q(0.0, 0.0), q(1.0, 2.0)];
-        assert_eq!(Recording::new(vec![], None, None), Err(RecordingDefect::Empty));
-        assert_eq!(Recording::new(two(), None, Some(two())), Err(RecordingDefect::VelocityWithoutTime));
-        let count = |what, others| Err(RecordingDefect::Count { positions: 2, what, others });
+        assert_eq!(Recording::new(vec![], None, None), Err(RecordingError::Empty));
+        assert_eq!(Recording::new(two(), None, Some(two())), Err(RecordingError::VelocityWithoutTime));
+        let count = |what, others| Err(RecordingError::Count { positions: 2, what, others });
         assert_eq!(Recording::new(two(), Some(vec![0.0]), None), count("times", 1));
         assert_eq!(Recording::new(two(), Some(vec![0.0, 1.0]), Some(vec![])), count("velocities", 0));
         for times in [[1.0, 1.0], [1.0, 0.5]] {
-            let defect = Recording::new(two(), Some(times.to_vec()), None).unwrap_err();
-            assert_eq!(defect, RecordingDefect::Time { sample: 1, time: times[1], before: 1.0 });
-            assert_eq!(defect.sample(), Some(1));
+            let error = Recording::new(two(), Some(times.to_vec()), None).unwrap_err();
+            assert_eq!(error, RecordingError::Time { sample: 1, time: times[1], before: 1.0 });
+            assert_eq!(error.sample(), Some(1));
         }
-        let sample = |r: Result<Recording, RecordingDefect>| r.unwrap_err().sample();
+        let sample = |r: Result<Recording, RecordingError>| r.unwrap_err().sample();
         assert_eq!(sample(Recording::new(two(), Some(vec![0.0, f64::NAN]), None)), Some(1));
         assert_eq!(sample(Recording::new(vec![q(0.0, 0.0), q(0.0, f64::INFINITY)], None, None)), Some(1));
         assert_eq!(sample(Recording::new(vec![q(1e7, 0.0)], None, None)), Some(0));
@@ -304,7 +304,7 @@ mod tests {
 
     #[test]
     fn seams_are_seen_and_undone() {
-        let topology = Topology { axes: [Axis::Circle, Axis::Interval { lower: -9.0, upper: 9.0 }] };
+        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -9.0, upper: 9.0 }] };
         let wrapped = Recording::new(vec![q(3.0, 0.0), q(-3.0, 5.0), q(-2.9, -5.0)], None, None).unwrap();
         assert_eq!(wrapped.turns(&topology), [(0, 0)]);
         let unwrapped = wrapped.unwrapped(&topology);

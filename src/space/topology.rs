@@ -34,8 +34,8 @@ fn turned(value: f64, turns: f64) -> f64 {
 
 /// The values one joint can take.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Axis {
-    /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then postures
+pub enum JointRange {
+    /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then poses
     /// repeat within it, but configurations do not.
     Interval {
         /// The least value of the joint.
@@ -47,23 +47,23 @@ pub enum Axis {
     Circle,
 }
 
-impl Axis {
+impl JointRange {
     /// Whether this is a circle.
     #[must_use]
     pub fn is_circle(self) -> bool {
-        matches!(self, Axis::Circle)
+        matches!(self, JointRange::Circle)
     }
 
     /// The interval that represents every value once: the limits, or `[-pi, pi]`.
     #[must_use]
     pub fn domain(self) -> (f64, f64) {
         match self {
-            Axis::Interval { lower, upper } => (lower, upper),
-            Axis::Circle => (-PI, PI),
+            JointRange::Interval { lower, upper } => (lower, upper),
+            JointRange::Circle => (-PI, PI),
         }
     }
 
-    /// Length of [`Axis::domain`].
+    /// Length of [`JointRange::domain`].
     #[must_use]
     pub fn extent(self) -> f64 {
         let (lower, upper) = self.domain();
@@ -74,8 +74,8 @@ impl Axis {
     #[must_use]
     pub fn contains(self, value: f64) -> bool {
         match self {
-            Axis::Interval { lower, upper } => lower <= value && value <= upper,
-            Axis::Circle => value.is_finite(),
+            JointRange::Interval { lower, upper } => lower <= value && value <= upper,
+            JointRange::Circle => value.is_finite(),
         }
     }
 
@@ -84,7 +84,7 @@ impl Axis {
     /// double does not tell one angle from the next.)
     #[must_use]
     pub fn wrap(self, value: f64) -> f64 {
-        if self != Axis::Circle || (-PI..PI).contains(&value) {
+        if self != JointRange::Circle || (-PI..PI).contains(&value) {
             return value;
         }
         let near = turned(value, -(value / TAU).round_ties_even());
@@ -96,12 +96,12 @@ impl Axis {
         }
     }
 
-    /// The shortest signed way from `from` to `to`; on a circle in `[-pi, pi)`, as exact as [`Axis::wrap`].
+    /// The shortest signed way from `from` to `to`; on a circle in `[-pi, pi)`, as exact as [`JointRange::wrap`].
     #[must_use]
     pub fn displacement(self, from: f64, to: f64) -> f64 {
         match self {
-            Axis::Interval { .. } => to - from,
-            Axis::Circle => {
+            JointRange::Interval { .. } => to - from,
+            JointRange::Circle => {
                 let [way, left_out] = two_sum(to, -from);
                 self.wrap(self.wrap(way) + left_out)
             }
@@ -113,8 +113,8 @@ impl Axis {
     #[must_use]
     pub fn lift(self, value: f64, near: f64) -> f64 {
         match self {
-            Axis::Interval { .. } => value,
-            Axis::Circle => turned(value, ((near - value) / TAU).round_ties_even()),
+            JointRange::Interval { .. } => value,
+            JointRange::Circle => turned(value, ((near - value) / TAU).round_ties_even()),
         }
     }
 
@@ -128,8 +128,8 @@ impl Axis {
     /// The bounds must be finite.
     pub fn copies_within(self, value: f64, (lower, upper): (f64, f64)) -> impl Iterator<Item = f64> {
         let turns = match self {
-            Axis::Interval { .. } => 0..=0,
-            Axis::Circle => ((lower - value) / TAU).ceil() as i64..=((upper - value) / TAU).floor() as i64,
+            JointRange::Interval { .. } => 0..=0,
+            JointRange::Circle => ((lower - value) / TAU).ceil() as i64..=((upper - value) / TAU).floor() as i64,
         };
         turns.map(move |turn| turned(value, turn as f64))
     }
@@ -139,26 +139,26 @@ impl Axis {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Topology {
     /// Base to tip.
-    pub axes: [Axis; 2],
+    pub ranges: [JointRange; 2],
 }
 
 impl Topology {
     /// Whether both values are allowed.
     #[must_use]
     pub fn contains(&self, q: Configuration) -> bool {
-        self.axes[0].contains(q[0]) && self.axes[1].contains(q[1])
+        self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
     }
 
     /// The representative of `q` in the fundamental domain.
     #[must_use]
     pub fn wrap(&self, q: Configuration) -> Configuration {
-        Configuration::new(self.axes[0].wrap(q[0]), self.axes[1].wrap(q[1]))
+        Configuration::new(self.ranges[0].wrap(q[0]), self.ranges[1].wrap(q[1]))
     }
 
     /// The shortest displacement from `from` to `to`.
     #[must_use]
     pub fn displacement(&self, from: Configuration, to: Configuration) -> Configuration {
-        Configuration::new(self.axes[0].displacement(from[0], to[0]), self.axes[1].displacement(from[1], to[1]))
+        Configuration::new(self.ranges[0].displacement(from[0], to[0]), self.ranges[1].displacement(from[1], to[1]))
     }
 
     /// Euclidean length of the shortest displacement.
@@ -167,10 +167,10 @@ impl Topology {
         self.displacement(from, to).norm()
     }
 
-    /// The copy of `q` nearest to `near`, axis by axis as [`Axis::lift`].
+    /// The copy of `q` nearest to `near`, axis by axis as [`JointRange::lift`].
     #[must_use]
     pub fn lift(&self, q: Configuration, near: Configuration) -> Configuration {
-        Configuration::new(self.axes[0].lift(q[0], near[0]), self.axes[1].lift(q[1], near[1]))
+        Configuration::new(self.ranges[0].lift(q[0], near[0]), self.ranges[1].lift(q[1], near[1]))
     }
 }
 
@@ -182,25 +182,25 @@ mod tests {
 
     #[test]
     fn lifting_to_where_the_value_is_changes_no_bit() {
-        let interval = Axis::Interval { lower: -7.0, upper: 7.0 };
+        let interval = JointRange::Interval { lower: -7.0, upper: 7.0 };
         for (value, near) in [(0.1, 0.7), (-2.9, 3.0), (6.5, -6.5), (0.3, 1e9)] {
             assert_eq!(interval.lift(value, near), value);
         }
         for (value, near) in [(0.1, 0.7), (1e-17, 0.3), (3.0, 0.1), (-2.0, 1.0), (0.0, PI)] {
-            assert_eq!(Axis::Circle.lift(value, near), value);
+            assert_eq!(JointRange::Circle.lift(value, near), value);
         }
-        let cylinder = Topology { axes: [Axis::Circle, interval] };
+        let cylinder = Topology { ranges: [JointRange::Circle, interval] };
         let lifted = cylinder.lift(Configuration::new(-3.0, 0.1), Configuration::new(3.0, -5.0));
         assert!((lifted - Configuration::new(TAU - 3.0, 0.1)).amax() < 1e-15, "{lifted}");
     }
 
     #[test]
     fn copies_within_a_window_are_whole_turns_apart() {
-        let copies = |axis: Axis, value, window| axis.copies_within(value, window).collect::<Vec<_>>();
-        assert_eq!(copies(Axis::Circle, 1.0, (-TAU, TAU)), [1.0 - TAU, 1.0]);
-        assert_eq!(copies(Axis::Circle, 0.0, (-TAU, TAU)), [-TAU, 0.0, TAU]);
-        assert!(copies(Axis::Circle, 0.0, (1.0, 2.0)).is_empty());
-        assert_eq!(copies(Axis::Interval { lower: 0.0, upper: 1.0 }, 0.5, (2.0, 3.0)), [0.5]);
+        let copies = |axis: JointRange, value, window| axis.copies_within(value, window).collect::<Vec<_>>();
+        assert_eq!(copies(JointRange::Circle, 1.0, (-TAU, TAU)), [1.0 - TAU, 1.0]);
+        assert_eq!(copies(JointRange::Circle, 0.0, (-TAU, TAU)), [-TAU, 0.0, TAU]);
+        assert!(copies(JointRange::Circle, 0.0, (1.0, 2.0)).is_empty());
+        assert_eq!(copies(JointRange::Interval { lower: 0.0, upper: 1.0 }, 0.5, (2.0, 3.0)), [0.5]);
     }
 
     fn exact(value: f64) -> BigRational {
@@ -234,25 +234,25 @@ mod tests {
             mantissa in -10.0..10.0_f64, decade in 0..6_i32, other in -10.0..10.0_f64, far in -1e6..1e6_f64,
         ) {
             let value = mantissa * 10f64.powi(decade);
-            let wrapped = Axis::Circle.wrap(value);
+            let wrapped = JointRange::Circle.wrap(value);
             prop_assert!((-PI..PI).contains(&wrapped));
             prop_assert!(is_whole(exact(value) - exact(wrapped), 1e-15), "{} wraps to {}", value, wrapped);
-            let lifted = Axis::Circle.lift(other, value);
+            let lifted = JointRange::Circle.lift(other, value);
             prop_assert!(is_whole(exact(lifted) - exact(other), f64::EPSILON * lifted.abs().max(PI)), "{}", lifted);
-            let way = Axis::Circle.displacement(far, value);
+            let way = JointRange::Circle.displacement(far, value);
             prop_assert!((-PI..PI).contains(&way));
             prop_assert!(is_whole(exact(value) - exact(far) - exact(way), 1e-15), "{} {}: {}", far, value, way);
         }
 
         #[test]
-        fn copies_are_the_same_posture_and_the_lift_is_the_nearest(value in -50.0..50.0_f64, near in -50.0..50.0_f64) {
-            let lifted = Axis::Circle.lift(value, near);
-            for copy in [lifted, Axis::Circle.wrap(value), near + Axis::Circle.displacement(near, value)] {
+        fn copies_are_the_same_pose_and_the_lift_is_the_nearest(value in -50.0..50.0_f64, near in -50.0..50.0_f64) {
+            let lifted = JointRange::Circle.lift(value, near);
+            for copy in [lifted, JointRange::Circle.wrap(value), near + JointRange::Circle.displacement(near, value)] {
                 prop_assert!((copy.sin() - value.sin()).hypot(copy.cos() - value.cos()) < 1e-12);
             }
-            prop_assert!((-PI..PI).contains(&Axis::Circle.wrap(value)));
+            prop_assert!((-PI..PI).contains(&JointRange::Circle.wrap(value)));
             prop_assert!((lifted - near).abs() <= PI + 1e-12);
-            prop_assert!(((lifted - near).abs() - Axis::Circle.displacement(near, value).abs()).abs() < 1e-12);
+            prop_assert!(((lifted - near).abs() - JointRange::Circle.displacement(near, value).abs()).abs() < 1e-12);
         }
     }
 }

@@ -25,7 +25,7 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     drag(seen, "workspace", *ON_THE_ARM)
     answer = settled(seen)
     assert answer["verdict"] is None and not answer["certified"]
-    # Where: the posture, the links that hit something, and what they hit.
+    # Where: the configuration, the links that hit something, and what they hit.
     [blocked] = seen.do("cplan.blocked")
     assert blocked["at"] == pytest.approx([-0.9, 0.4])
     assert {(hit["link"], seen.do("cplan.view.world.obstacles.map((o) => o.name)")[hit["obstacle"]]) for hit in blocked["hits"]} <= {(0, "shelf"), (1, "shelf")}
@@ -50,7 +50,7 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
 
 def test_a_blocked_goal_and_one_out_of_reach_are_told_apart(serve):
     seen = serve(*PLANAR)
-    # All postures with the tip in the crate are in it.
+    # All configurations with the tip in the crate are in it.
     drag(seen, "workspace", seen.do("cplan.editor.tips.goal"), [0.65, -1.45])
     settled(seen)
     assert badge(seen) == "\u2715 goal blocked" and '"crate"' in notices(seen)["picture"]

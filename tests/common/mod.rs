@@ -7,13 +7,13 @@ pub mod reference;
 pub mod roadmap;
 pub mod slips;
 
-use cplan::check::{Disconnection, ProofDefect, StuckBox};
+use cplan::check::{Disconnection, ProofError, StuckBox};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration, GoalSet};
+use cplan::space::{Configuration, GoalSet, JointRange};
 use nalgebra::Vector3;
 
 pub fn q(a: f64, b: f64) -> Configuration {
@@ -27,7 +27,7 @@ pub fn recheck(
     start: Configuration,
     goals: &GoalSet,
     clearance: f64,
-) -> Result<(), ProofDefect> {
+) -> Result<(), ProofError> {
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
@@ -59,8 +59,8 @@ pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
     Link { name: name.into(), parts, source: OutlineSource::Collision }
 }
 
-pub fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
-    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 4.0, jerk: None }
+pub fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
+    Joint { name: name.into(), joint_type, range, velocity: 1.0, acceleration: 4.0, jerk: None }
 }
 
 pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {
@@ -77,8 +77,8 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
 }
 
 /// Bars of 1.0 and 0.8 m, 0.1 m wide, both joints on circles unless limits are given.
-pub fn rr(axes: [Axis; 2]) -> Arm {
-    let turn = Motion::Revolute { sign: 1.0 };
+pub fn rr(axes: [JointRange; 2]) -> Arm {
+    let turn = JointType::Revolute { sign: 1.0 };
     arm(
         [joint("shoulder", turn, axes[0]), joint("elbow", turn, axes[1])],
         [link("upper", vec![rectangle(0.0, 1.0, -0.05, 0.05)]), link("fore", vec![rectangle(0.0, 0.8, -0.05, 0.05)])],
@@ -89,9 +89,9 @@ pub fn rr(axes: [Axis; 2]) -> Arm {
 
 /// One arm of every kind, some axes reversed or oblique, with outlines off the joints.
 pub fn all_kinds() -> Vec<Arm> {
-    let turn = |sign| Motion::Revolute { sign };
-    let slide = |x: f64, y: f64| Motion::Prismatic { direction: Vector::new(x, y).normalize() };
-    let range = |lower, upper| Axis::Interval { lower, upper };
+    let turn = |sign| JointType::Revolute { sign };
+    let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y).normalize() };
+    let range = |lower, upper| JointRange::Interval { lower, upper };
     let first = || link("first", vec![rectangle(-0.1, 0.6, -0.05, 0.04), disc(Point::new(0.6, 0.0), 0.07)]);
     let second = || {
         link(
@@ -101,9 +101,9 @@ pub fn all_kinds() -> Vec<Arm> {
     };
     let make = |one, two| arm([one, two], [first(), second()], Vector::new(0.6, 0.05), Point::new(0.5, 0.0));
     vec![
-        rr([Axis::Circle, Axis::Circle]),
-        make(joint("a", turn(-1.0), range(-4.0, 3.5)), joint("b", turn(1.0), Axis::Circle)),
-        make(joint("a", turn(1.0), Axis::Circle), joint("b", slide(1.0, 0.3), range(-0.2, 0.9))),
+        rr([JointRange::Circle, JointRange::Circle]),
+        make(joint("a", turn(-1.0), range(-4.0, 3.5)), joint("b", turn(1.0), JointRange::Circle)),
+        make(joint("a", turn(1.0), JointRange::Circle), joint("b", slide(1.0, 0.3), range(-0.2, 0.9))),
         make(joint("a", slide(0.2, 1.0), range(-1.0, 1.0)), joint("b", turn(-1.0), range(-2.5, 2.5))),
         make(joint("a", slide(1.0, 0.0), range(-1.0, 1.0)), joint("b", slide(0.3, 1.0), range(-0.8, 0.8))),
     ]
@@ -174,7 +174,7 @@ pub fn benchmark(which: Benchmark) -> (Scene, Configuration, Configuration) {
     }
     let pieces = polygons.map(|p| convex(p.into_iter().map(|(x, y)| Point::new(x, y)).collect(), 0.0)).to_vec();
     let goal = if which == Benchmark::Inf { q(-2.8, 0.4) } else { q(1.75, 0.5) };
-    (scene(rr([Axis::Circle, Axis::Circle]), pieces), q(-0.7, 0.0), goal)
+    (scene(rr([JointRange::Circle, JointRange::Circle]), pieces), q(-0.7, 0.0), goal)
 }
 
 /// Small regular polygons with 4 to 7 corners on a spiral.
@@ -195,7 +195,7 @@ pub fn spiral(count: u8) -> Vec<Convex> {
 
 /// The benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
 pub fn w20() -> Scene {
-    scene(rr([Axis::Circle, Axis::Circle]), spiral(20))
+    scene(rr([JointRange::Circle, JointRange::Circle]), spiral(20))
 }
 
 /// A benchmark problem as the solver takes it.
@@ -207,7 +207,7 @@ pub fn problem(which: Benchmark) -> MotionProblem {
 /// The configuration at these shares of the joints' ranges.
 pub fn inside(scene: &Scene, (u, v): (f64, f64)) -> Configuration {
     let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm().topology().axes[k].domain();
+        let (lower, upper) = scene.arm().topology().ranges[k].domain();
         lower + t * (upper - lower)
     };
     q(at(0, u), at(1, v))

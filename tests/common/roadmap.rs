@@ -2,7 +2,7 @@
 
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
-use cplan::space::{Axis, Configuration, Metric, Path, Topology};
+use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
 
 /// A small deterministic generator (SplitMix64): scenes depend on their seed alone.
 pub struct Random(pub u64);
@@ -23,8 +23,8 @@ impl Random {
 
 /// Free space over a window of two intervals.
 pub fn regions(window: [(f64, f64); 2], free: Vec<Polygon>) -> Regions {
-    let axes = window.map(|(lower, upper)| Axis::Interval { lower, upper });
-    Regions { topology: Topology { axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+    let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
+    Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }
 
 pub fn points(corners: &[(f64, f64)]) -> Vec<Point> {

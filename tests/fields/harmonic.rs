@@ -5,17 +5,17 @@ use crate::common::mazes;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
 use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query};
-use cplan::space::{Axis, Topology};
+use cplan::space::{JointRange, Topology};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
-        true => Axis::Circle,
-        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+        true => JointRange::Circle,
+        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
     };
-    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
 fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {

@@ -3,16 +3,16 @@
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
 use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront};
-use cplan::space::{Axis, Configuration, GoalSet, Path, Topology};
+use cplan::space::{Configuration, GoalSet, JointRange, Path, Topology};
 use proptest::prelude::*;
 
 /// A grid with steps of 1 along intervals; circles are as long as they are.
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
-        true => Axis::Circle,
-        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+        true => JointRange::Circle,
+        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
     };
-    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
 /// A grid without circles drawn in text: `#` blocked; rows of text are rows of the grid.
@@ -67,7 +67,7 @@ fn all_steps(grid: &Grid) -> Vec<Vec<u32>> {
     let apart = |a: usize, b: usize, k: usize| {
         let at = |c: usize| if k == 0 { c / grid.cells[1] } else { c % grid.cells[1] };
         let d = at(a).abs_diff(at(b));
-        if grid.topology.axes[k].is_circle() { d.min(grid.cells[k] - d) } else { d }
+        if grid.topology.ranges[k].is_circle() { d.min(grid.cells[k] - d) } else { d }
     };
     let mut steps = vec![vec![u32::MAX; n]; n];
     for a in (0..n).filter(|&a| !grid.blocked[a]) {

@@ -2,7 +2,7 @@
 //! itself, and which sides of a broken one are named, against looking at all pairs.
 
 use crate::lattice::{Corner, cross, meet, points};
-use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonDefect, SimplePolygon, decompose};
+use cplan::geometry::{Convex, MOST_CORNERS, Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 /// A ring around the origin on the lattice, with one corner in each of `count` directions; `radius` of each.
@@ -92,7 +92,7 @@ fn one_crossing_among_20_000_sides_is_found() {
     // The tip of one tooth through the next one.
     ring[9_000].0 += 14;
     let error = SimplePolygon::new(points(&ring)).unwrap_err();
-    let PolygonDefect::SidesCross { first, second } = error else { panic!("{error}") };
+    let PolygonError::SidesCross { first, second } = error else { panic!("{error}") };
     assert!((8_998..=9_001).contains(&first) && (9_000..=9_003).contains(&second), "{error}");
 }
 
@@ -113,7 +113,7 @@ proptest! {
     fn of_sides_that_meet_the_first_of_the_list_are_named(ring in prop::collection::vec((-6..=6i64, -6..=6i64), 4..14)) {
         match SimplePolygon::new(points(&ring)) {
             Ok(_) => prop_assert_eq!(first_meeting(&ring), None),
-            Err(PolygonDefect::SidesCross { first, second } | PolygonDefect::SidesTouch { first, second }) => {
+            Err(PolygonError::SidesCross { first, second } | PolygonError::SidesTouch { first, second }) => {
                 prop_assert_eq!(first_meeting(&ring), Some((first, second)));
             }
             Err(_) => {}

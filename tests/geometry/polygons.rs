@@ -1,6 +1,6 @@
 //! Validation and convex decomposition of polygons against integer arithmetic.
 
-use cplan::geometry::{Point, PolygonDefect, SimplePolygon, decompose};
+use cplan::geometry::{Point, PolygonError, SimplePolygon, decompose};
 use proptest::prelude::*;
 
 use crate::lattice::{Corner, cross, meet, point, points};
@@ -65,15 +65,15 @@ proptest! {
         let side = |i: usize| [ring[i], ring[(i + 1) % ring.len()]];
         match found {
             Ok(polygon) => prop_assert_eq!(polygon.area() * 2.0, twice_area(&ring).abs() as f64),
-            Err(PolygonDefect::RepeatedCorner { first, second }) => {
+            Err(PolygonError::RepeatedCorner { first, second }) => {
                 prop_assert!(first < second && ring[first] == ring[second]);
             }
-            Err(PolygonDefect::NoArea) => prop_assert!((2..ring.len()).all(|i| cross(ring[0], ring[1], ring[i]) == 0)),
-            Err(PolygonDefect::Spike { corner }) => {
+            Err(PolygonError::NoArea) => prop_assert!((2..ring.len()).all(|i| cross(ring[0], ring[1], ring[i]) == 0)),
+            Err(PolygonError::Spike { corner }) => {
                 let before = ring[(corner + ring.len() - 1) % ring.len()];
                 prop_assert!(meet(&side(corner), &[before]) || meet(&[before, ring[corner]], &[side(corner)[1]]));
             }
-            Err(PolygonDefect::SidesCross { first, second } | PolygonDefect::SidesTouch { first, second }) => {
+            Err(PolygonError::SidesCross { first, second } | PolygonError::SidesTouch { first, second }) => {
                 prop_assert!(first < second && meet(&side(first), &side(second)));
             }
             Err(other) => prop_assert!(false, "{other}"),

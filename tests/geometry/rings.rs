@@ -3,14 +3,14 @@
 use crate::common::random::{times, usual};
 use crate::hostile::dice::Dice;
 use crate::lattice::{Corner, point};
-use cplan::geometry::{Convex, Orientation, Point, Polygon, RingDefect, orientation};
+use cplan::geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
 use std::collections::{BTreeMap, BTreeSet};
 
 fn points(ring: &[Corner]) -> Vec<Point> {
     ring.iter().map(|corner| point(*corner)).collect()
 }
 
-fn polygon(rings: &[Vec<Corner>]) -> Result<Polygon, RingDefect> {
+fn polygon(rings: &[Vec<Corner>]) -> Result<Polygon, RingError> {
     Polygon::new(points(&rings[0]), rings[1..].iter().map(|ring| points(ring)).collect())
 }
 
@@ -151,7 +151,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
         let determinant = 6 + shear * shear;
         let written: Vec<Vec<Corner>> =
             rings.iter().map(|ring| as_written(&mut dice, ring).into_iter().map(sheared).collect()).collect();
-        let polygon = polygon(&written).unwrap_or_else(|defect| panic!("{defect}: {written:?}"));
+        let polygon = polygon(&written).unwrap_or_else(|error| panic!("{error}: {written:?}"));
         holed += usize::from(rings.len() > 1);
         touching += usize::from(rings.iter().any(|r| r.iter().collect::<BTreeSet<_>>().len() < r.len()));
         let middle = |x: i64, y: i64| {
@@ -231,8 +231,8 @@ fn what_cannot_be_meant_is_named() {
         (vec![vec![(0, 0), (4, 0), (4, 2), (3, 2), (3, 0), (1, 0), (1, 2), (0, 2)]], "side 1 and side 5 overlap"),
     ];
     for (rings, part) in cases {
-        let defect = polygon(&rings).unwrap_err().to_string();
-        assert!(defect.contains(part), "{rings:?}: {defect}");
+        let error = polygon(&rings).unwrap_err().to_string();
+        assert!(error.contains(part), "{rings:?}: {error}");
     }
 }
 

@@ -5,7 +5,7 @@ use crate::common::{convex, disc};
 use cplan::geometry::{Point, separation};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::{Arm, Freedom, OutlineSource, inverse};
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Configuration, JointRange};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 use std::fs;
@@ -127,8 +127,8 @@ proptest! {
         for branch in &solved.branches {
             prop_assert!((arm.tip_at(*branch) - target).norm() < 1e-9);
         }
-        // The posture that the target came from is among them, up to whole turns.
-        let turns = |i: usize| if arm.joints[i].motion.is_revolute() { Axis::Circle } else { Axis::Interval { lower: -9.0, upper: 9.0 } };
+        // The IK solution that the target came from is among them, up to whole turns.
+        let turns = |i: usize| if arm.joints[i].joint_type.is_revolute() { JointRange::Circle } else { JointRange::Interval { lower: -9.0, upper: 9.0 } };
         let near = |b: &Configuration| (0..2).all(|i| turns(i).displacement(q[i], b[i]).abs() < 1e-4);
         prop_assert!(solved.branches.iter().any(near), "{q:?} not in {:?}", solved.branches);
     }
@@ -270,7 +270,7 @@ fn a_bar_stands_in_only_where_it_is_asked_for() {
 
 #[test]
 fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
-    let limit = |lower, upper| Axis::Interval { lower, upper };
+    let limit = |lower, upper| JointRange::Interval { lower, upper };
     let joint = TestJoint { revolute: true, xyz: [1.0, 0.0, 0.0], rpy: [0.0; 3], axis: [0.0, 0.0, 1.0] };
     let hard = urdf([joint; 2]);
     let soft = hard.replacen(
@@ -278,14 +278,14 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
         "<safety_controller soft_lower_limit=\"-1\" soft_upper_limit=\"9\" k_velocity=\"1\"/></joint>",
         1,
     );
-    assert_eq!(load_arm(&hard, "").scene.arm().joints[0].axis, limit(-3.0, 3.0));
-    assert_eq!(load_arm(&soft, "").scene.arm().joints[0].axis, limit(-1.0, 3.0));
+    assert_eq!(load_arm(&hard, "").scene.arm().joints[0].range, limit(-3.0, 3.0));
+    assert_eq!(load_arm(&soft, "").scene.arm().joints[0].range, limit(-1.0, 3.0));
     let world =
         load_arm(&soft, "limits = { a = [-9, 9] }\nvelocity = { a = 3 }\nacceleration = { b = 7 }\njerk = { b = 90 }")
             .scene
             .into_parts()
             .0;
-    assert_eq!(world.joints[0].axis, limit(-9.0, 9.0));
+    assert_eq!(world.joints[0].range, limit(-9.0, 9.0));
     assert_eq!(
         (world.joints[0].velocity, world.joints[0].acceleration, world.joints[1].acceleration),
         (3.0, 12.0, 7.0)
@@ -294,8 +294,8 @@ fn limits_come_from_the_world_then_the_soft_ones_then_the_hard_ones() {
     let newer = hard.replacen("velocity=\"1\"", "velocity=\"1\" acceleration=\"5\"", 1);
     assert_eq!(load_arm(&newer, "").scene.arm().joints[0].acceleration, 5.0);
     let turning = urdf_with("<geometry><sphere radius=\"0.1\"/></geometry>");
-    assert!(load_arm(&turning, "").scene.arm().joints[0].axis.is_circle());
-    assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm().joints[0].axis, limit(-1.0, 1.0));
+    assert!(load_arm(&turning, "").scene.arm().joints[0].range.is_circle());
+    assert_eq!(load_arm(&turning, "limits = { a = [-1, 1] }").scene.arm().joints[0].range, limit(-1.0, 1.0));
 }
 
 /// An RR arm in the (x, y) plane with both links 1 m long, which can fold onto its base.

@@ -1,4 +1,4 @@
-//! Bad input of every kind: refused with the file, the line, what is wrong, and the cure.
+//! Bad input of every kind: refused with the file, the line, what is wrong, and what to do about it.
 
 use cplan::input::{InputError, Loaded, Overrides, load};
 use cplan::model::Region;
@@ -260,8 +260,8 @@ fn starts_and_goals_that_cannot_be() {
     bad_world("[start]\njoints = [0.0, 0.5]", "", &["there is no start", "--start"]);
     bad_world("[goal]\njoints = [1.0, -0.5]", "", &["there is no goal", "--goal-tip"]);
     bad_world("joints = [1.0, -0.5]", "tip = [3, 0]", &["line 5", "out of reach", "2.0000 m"]);
-    bad_world("joints = [1.0, -0.5]", "tip = [0, 0.1]", &["line 5", "no posture", "exceeds its limits [-2, 2]"]);
-    bad_world("joints = [1.0, -0.5]", "tip = [-1.5, 0.1]", &["no posture", "hits obstacle \"post\""]);
+    bad_world("joints = [1.0, -0.5]", "tip = [0, 0.1]", &["line 5", "no IK solution", "exceeds its limits [-2, 2]"]);
+    bad_world("joints = [1.0, -0.5]", "tip = [-1.5, 0.1]", &["no IK solution", "hits obstacle \"post\""]);
     bad_world("name = \"test\"", "clearance = 2.0", &["the start", "nearer than the clearance of 2 m"]);
     let start = Overrides { start: Some("0,150deg".parse().unwrap()), ..Overrides::default() };
     refused(load_files("arm.urdf", ARM, WORLD, &start), &["--start", "joint \"j2\" at 2.617994 rad"]);

@@ -58,7 +58,7 @@ fn a_sound_robot_is_described_in_full() {
     assert!(found.is_plannable(), "{}", messages(&found));
     assert_eq!(found.root.as_deref(), Some("base"));
     assert_eq!(found.chosen, Some(["j1".into(), "j2".into()]));
-    assert!(!found.assumed && found.remedy.is_none());
+    assert!(!found.assumed && found.help.is_none());
     let [first, second, end] = &found.joints[..] else { panic!("three joints") };
     assert_eq!((first.role, second.role, end.role), (Role::Moves, Role::Moves, Role::Rigid));
     let limits = first.limits.unwrap();
@@ -93,7 +93,7 @@ fn the_world_decides_and_is_named_as_the_source() {
 }
 
 #[test]
-fn single_defects_leave_the_rest_of_the_report() {
+fn single_diagnostics_leave_the_rest_of_the_report() {
     for (from, to, parts) in [
         ("size=\"1 0.1 0.1\"", "size=\"1 nan 0.1\"", ["line 11", "not finite"]),
         ("xyz=\"1 0 0\"", "xyz=\"1 0\"", ["line 15", "2 numbers"]),
@@ -107,15 +107,15 @@ fn single_defects_leave_the_rest_of_the_report() {
             assert!(messages(&found).contains(part), "no {part} in {}", messages(&found));
         }
         assert_eq!(found.links.len(), 4, "{to}");
-        // One slip, one defect: what follows from it is none.
-        assert_eq!(found.errors.iter().map(|e| e.defects().len()).sum::<usize>(), 1, "{}", messages(&found));
+        // One slip, one diagnostic: what follows from it is none.
+        assert_eq!(found.errors.iter().map(|e| e.diagnostics().len()).sum::<usize>(), 1, "{}", messages(&found));
         assert_eq!(found.pairs.is_empty(), !to.starts_with("size"), "{to}");
         assert!(found.joints.iter().any(|j| j.name == "j2" && j.kind == "continuous" && j.line == 13), "{to}");
     }
 }
 
 #[test]
-fn several_stages_report_their_defects_together() {
+fn several_stages_report_their_diagnostics_together() {
     let urdf = ARM
         .replace("lower=\"-3\" upper=\"3\"", "")
         .replace("xyz=\"0 0 1\"/>\n    <limit effort", "xyz=\"0 1 0\"/>\n    <limit effort")
@@ -124,7 +124,7 @@ fn several_stages_report_their_defects_together() {
     let all = messages(&found);
     assert!(all.contains("one common plane") && all.contains("joint \"j1\" has no range"), "{all}");
     assert!(found.pairs.len() == 1 && !found.pairs[0].planar && found.pairs[0].reason.contains("not parallel"));
-    assert!(found.remedy.is_none() && found.scene.is_none());
+    assert!(found.help.is_none() && found.scene.is_none());
     assert_eq!(found.root.as_deref(), Some("base"));
 }
 
@@ -139,20 +139,20 @@ fn links_that_form_no_tree_are_listed_all_the_same() {
     assert!(messages(&no_world).contains("cannot be read") && no_world.outlines.len() == 2);
 }
 
-/// What the report prescribes must work: with the remedy as the world's table the robot loads.
-fn remedy_works(urdf: &Path, found: &Inspection) {
-    let Some(remedy) = &found.remedy else { return };
+/// What the report prescribes must work: with the help as the world's table the robot loads.
+fn help_works(urdf: &Path, found: &Inspection) {
+    let Some(help) = &found.help else { return };
     let folder = tempfile::tempdir().unwrap();
     let world = folder.path().join("world.toml");
-    fs::write(&world, format!("[robot]\n{remedy}\n")).unwrap();
+    fs::write(&world, format!("[robot]\n{help}\n")).unwrap();
     if let Err(error) = load_scene(urdf, &world) {
-        panic!("{}: with the remedy\n{remedy}\n{error}", urdf.display());
+        panic!("{}: with the remedy\n{help}\n{error}", urdf.display());
     }
     assert!(inspect(urdf, Some(&world)).is_plannable());
 }
 
 #[test]
-fn shipped_robots_can_be_planned_with_or_have_a_remedy() {
+fn shipped_robots_can_be_planned_with_or_have_help() {
     let mut checked = 0;
     for entry in fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("robots")).unwrap() {
         let path = entry.unwrap().path();
@@ -160,14 +160,14 @@ fn shipped_robots_can_be_planned_with_or_have_a_remedy() {
             continue;
         }
         let found = inspect(&path, None);
-        assert!(found.is_plannable() != found.remedy.is_some(), "{}: {}", path.display(), messages(&found));
-        remedy_works(&path, &found);
+        assert!(found.is_plannable() != found.help.is_some(), "{}: {}", path.display(), messages(&found));
+        help_works(&path, &found);
         checked += 1;
     }
     assert!(checked >= 8);
 }
 
-/// File; whether it can be planned with as it is; the pair that the report is about; parts of defects and pairs.
+/// File; whether it can be planned with as it is; the pair that the report is about; parts of diagnostics and pairs.
 type Expected = (&'static str, bool, Option<[&'static str; 2]>, &'static [&'static str]);
 const PUBLISHED: [Expected; 18] = [
     ("bullet_pantilt", false, Some(["pan_joint", "tilt_joint"]), &["these axes are not parallel"]),
@@ -208,8 +208,8 @@ fn published_robots_are_diagnosed() {
             assert!(all.contains(part), "{file}: no \"{part}\" in {all}");
         }
         // Whatever has a planar pair is cured by what a world can say.
-        assert_eq!(!plannable && found.pairs.iter().any(|p| p.planar), found.remedy.is_some(), "{file}");
-        remedy_works(&path, &found);
+        assert_eq!(!plannable && found.pairs.iter().any(|p| p.planar), found.help.is_some(), "{file}");
+        help_works(&path, &found);
         // The report refuses what planning refuses, and for the same reason first.
         let empty = tempfile::NamedTempFile::new().unwrap();
         let loaded = load_scene(&path, empty.path()).err().map(|e| e.to_string());

@@ -1,4 +1,4 @@
-//! Files with a slip of the pen, by the hundred: read or refused with place and cure, never a panic, never a long wait.
+//! Files with a slip of the pen, by the hundred: read or refused with place and help, never a panic, never a long wait.
 
 use crate::common::random::times;
 use crate::common::slips::{Dice, slipped};
@@ -34,13 +34,13 @@ polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]
 "#;
 
 /// So long may the reading of a small file take, on a machine that is busy.
-const PATIENCE: Duration = Duration::from_secs(20);
+const TIME_LIMIT: Duration = Duration::from_secs(20);
 
 fn is_helpful(error: &InputError, text: &str) {
-    assert!(!error.defects().is_empty());
-    for defect in error.defects() {
-        assert!(!defect.message.is_empty() && !defect.origin.is_empty(), "{defect}\n{text}");
-        assert!(defect.cure.as_ref().is_some_and(|cure| !cure.is_empty()), "no cure: {defect}\n{text}");
+    assert!(!error.diagnostics().is_empty());
+    for diagnostic in error.diagnostics() {
+        assert!(!diagnostic.message.is_empty() && !diagnostic.origin.is_empty(), "{diagnostic}\n{text}");
+        assert!(diagnostic.help.as_ref().is_some_and(|help| !help.is_empty()), "no cure: {diagnostic}\n{text}");
     }
 }
 
@@ -59,7 +59,7 @@ fn slips_in_worlds_and_robots_are_read_or_refused() {
             true => Ok(()),
             false => scene.problem(&Overrides::default()).map(|_| ()),
         });
-        assert!(started.elapsed() < PATIENCE, "{urdf}{world}");
+        assert!(started.elapsed() < TIME_LIMIT, "{urdf}{world}");
         match loaded {
             Ok(()) => read += 1,
             Err(error) => {

@@ -137,7 +137,7 @@ fn published_robots_plan_or_are_refused_with_the_reason() {
     }
 }
 
-/// A mount offset, tilted boxes and stacked heights as in the tutorial robot: the arm's zero posture is known by hand.
+/// A mount offset, tilted boxes and stacked heights as in the tutorial robot: the arm's zero configuration is known by hand.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
 fn the_tutorial_scara_has_the_known_dimensions() {

@@ -2,7 +2,7 @@
 
 use crate::common::{all_kinds, clutter, disc, q, scene};
 use crate::curve;
-use cplan::check::{Passage, blend, certify, limits_kept, passage};
+use cplan::check::{CollisionCheck, blend, certify, check_collision, limits_kept};
 use cplan::model::Scene;
 use cplan::motion::{Limits, time};
 use cplan::space::{Configuration, Path, Recording};
@@ -33,7 +33,7 @@ proptest! {
         reach in 0.05..0.7_f64, asked in prop_oneof![Just(0.0), 0.0..0.05_f64],
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let domain = [0, 1].map(|k| scene.arm().topology().axes[k].domain());
+        let domain = [0, 1].map(|k| scene.arm().topology().ranges[k].domain());
         let place = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let near = |k: usize, t: f64| place(k, corners[0][k] + reach * (t - corners[0][k]));
         let waypoints: Vec<_> = corners.iter().map(|c| q(near(0, c[0]), near(1, c[1]))).collect();
@@ -57,8 +57,8 @@ proptest! {
             Recording::new(rows(&trajectory.position), Some(trajectory.time.clone()), Some(rows(&trajectory.velocity)));
         let recording = recording.unwrap();
         prop_assert_eq!(limits_kept(&scene.arm().joints, &recording), []);
-        let verdict = passage(&scene, &recording, asked);
-        let Passage::Free { clearance, .. } = verdict else { panic!("{verdict:?}") };
+        let verdict = check_collision(&scene, &recording, asked);
+        let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{verdict:?}") };
         prop_assert!(clearance >= 0.9 * curve.clearance());
     }
 }

@@ -15,15 +15,15 @@ mod trajectory;
 use common::{arm, joint, link, q, scene};
 use cplan::check::{CertifiedCurve, CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Motion, Scene};
-use cplan::space::{Axis, Path};
+use cplan::model::{JointType, Scene};
+use cplan::space::{JointRange, Path};
 use proptest::prelude::*;
 
 /// A gantry in an empty room: nothing keeps a blend from being as large as asked for.
 fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
     let slide = |k: usize, x, y| {
-        let range = Axis::Interval { lower: -100.0, upper: 100.0 };
-        let mut joint = joint(["x", "y"][k], Motion::Prismatic { direction: Vector::new(x, y) }, range);
+        let range = JointRange::Interval { lower: -100.0, upper: 100.0 };
+        let mut joint = joint(["x", "y"][k], JointType::Prismatic { direction: Vector::new(x, y) }, range);
         (joint.velocity, joint.acceleration) = (velocity[k], acceleration[k]);
         joint
     };

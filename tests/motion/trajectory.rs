@@ -5,9 +5,9 @@ use cplan::check::{CertifiedPath, blend, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::Heights;
 use cplan::model::Status;
-use cplan::model::{Arm, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
+use cplan::model::{Arm, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
 use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
-use cplan::space::{Axis, Configuration, Path};
+use cplan::space::{Configuration, JointRange, Path};
 use nalgebra::Vector3;
 use serde_json::Value;
 
@@ -17,8 +17,8 @@ const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
 fn scene(obstacle: bool) -> Scene {
     let joint = |name: &str, motion| Joint {
         name: name.into(),
-        motion,
-        axis: Axis::Interval { lower: -3.0, upper: 3.0 },
+        joint_type: motion,
+        range: JointRange::Interval { lower: -3.0, upper: 3.0 },
         velocity: 1.5,
         acceleration: 4.0,
         jerk: None,
@@ -27,8 +27,8 @@ fn scene(obstacle: bool) -> Scene {
     let arm = Arm {
         name: "polar".into(),
         joints: [
-            joint(NAMES[0], Motion::Revolute { sign: 1.0 }),
-            joint(NAMES[1], Motion::Prismatic { direction: Vector::x() }),
+            joint(NAMES[0], JointType::Revolute { sign: 1.0 }),
+            joint(NAMES[1], JointType::Prismatic { direction: Vector::x() }),
         ],
         links: [
             Link { name: "turret".into(), parts: vec![], source: OutlineSource::None },

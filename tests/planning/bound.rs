@@ -4,7 +4,7 @@ use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shippe
 use cplan::engine::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
-use cplan::space::{Axis, Configuration, GoalSet, Metric, Path};
+use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
 /// Those that are after the optimum.
@@ -88,7 +88,7 @@ fn published_optima_lie_within_the_bounds() {
     }
 }
 
-fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
+fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
     let obstacles = pieces.into_iter().map(|piece| obstacle("block", piece)).collect::<Vec<_>>();
     let pieces = obstacles.into_iter().flat_map(|o| o.pieces).collect();
     asked(scene(rr(axes), pieces), start, goals.iter().copied().collect::<GoalSet>())
@@ -96,7 +96,7 @@ fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Co
 
 #[test]
 fn without_obstacles_the_bound_is_the_straight_way_the_short_way_round() {
-    let circles = [Axis::Circle, Axis::Circle];
+    let circles = [JointRange::Circle, JointRange::Circle];
     let problem = among(circles, Vec::new(), q(-3.0, 0.0), &[q(3.0, 0.5)]);
     let straight = (TAU - 6.0).hypot(0.5);
     let found = bounded(&answer(&problem, Metric::Euclidean, None));
@@ -108,7 +108,7 @@ fn without_obstacles_the_bound_is_the_straight_way_the_short_way_round() {
 /// Of several goals the nearest counts.
 #[test]
 fn the_bound_covers_all_goals() {
-    let interval = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let interval = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let goals = [q(2.0, 2.0), q(1.0, 0.0), q(-2.0, 1.0)];
     let problem = among([interval, interval], Vec::new(), q(0.0, 0.0), &goals);
     let found = bounded(&answer(&problem, Metric::Euclidean, None));
@@ -117,10 +117,11 @@ fn the_bound_covers_all_goals() {
 
 /// A bar of a gantry's tool passes a block: around its corner in two straight pieces, of known length.
 #[test]
-fn around_a_block_the_bound_is_the_taut_string() {
+fn around_a_block_the_bound_is_the_shortest_path() {
     let tool = disc(Point::origin(), 0.0);
-    let slide = |angle: f64| cplan::model::Motion::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
-    let axis = Axis::Interval { lower: -2.0, upper: 2.0 };
+    let slide =
+        |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
+    let axis = JointRange::Interval { lower: -2.0, upper: 2.0 };
     let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
     let links = [common::link("beam", Vec::new()), common::link("tool", vec![tool])];
     let arm = common::arm(joints, links, Point::origin().coords, Point::origin());

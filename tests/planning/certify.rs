@@ -3,17 +3,17 @@
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
 };
-use cplan::check::{CertifiedPath, Deviation, Posture, ProofDefect, Rejection, StuckBox, certify};
+use cplan::check::{CertifiedPath, Deviation, Posture, ProofError, Rejection, StuckBox, certify};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Motion, Scene};
+use cplan::model::{JointType, Scene};
 use cplan::search::{Connectivity, Occupancy, connectivity, explore};
-use cplan::space::{Axis, Configuration, Path};
+use cplan::space::{Configuration, JointRange, Path};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
 fn inside(scene: &Scene, u: f64, v: f64) -> Configuration {
     let at = |k: usize, t: f64| {
-        let (lower, upper) = scene.arm().topology().axes[k].domain();
+        let (lower, upper) = scene.arm().topology().ranges[k].domain();
         lower + t * (upper - lower)
     };
     q(at(0, u), at(1, v))
@@ -99,7 +99,7 @@ proptest! {
 #[test]
 fn a_touching_motion_is_refused() {
     // The outstretched arm's upper corner passes exactly through the wall's end.
-    let arm = rr([Axis::Circle, Axis::Circle]);
+    let arm = rr([JointRange::Circle, JointRange::Circle]);
     let tip = Point::new(1.8, 0.05);
     let scene = scene(arm, vec![wall(tip, Point::new(3.0, 0.05))]);
     let verdict = certify(&scene, Path::new(vec![q(-0.5, 0.0), q(0.0, 0.0)]), 0.0);
@@ -109,14 +109,14 @@ fn a_touching_motion_is_refused() {
 #[test]
 fn thin_walls_between_samples_are_found() {
     // A wall so thin that only the motion meets it: both ends of the segment are far from it.
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![disc(Point::new(1.2, 1.2), 1e-9)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), 1e-9)]);
     let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.5, 0.0)]), 0.0);
     assert!(matches!(verdict, Err(Rejection::TooClose(_))), "{verdict:?}");
 }
 
 #[test]
 fn clearance_asked_for_is_kept_or_refused() {
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
     let path = || Path::new(vec![q(-0.3, 0.0), q(0.3, 0.0)]);
     // At q = 0 the tip is 0.1 m from the wall, its corners a little less later on.
     let reach = (1.8_f64 * 1.8 + 0.05 * 0.05).sqrt();
@@ -128,7 +128,7 @@ fn clearance_asked_for_is_kept_or_refused() {
 
 #[test]
 fn a_path_outside_the_limits_is_refused() {
-    let range = Axis::Interval { lower: -1.0, upper: 1.0 };
+    let range = JointRange::Interval { lower: -1.0, upper: 1.0 };
     let scene = scene(rr([range, range]), vec![]);
     let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(0.5, 1.5)]), 0.0);
     assert_eq!(verdict.unwrap_err(), Rejection::OutOfLimits { waypoint: 1, joint: 1 });
@@ -162,11 +162,11 @@ fn limits_and_clearance_can_close_the_way() {
     let pole = || vec![disc(Point::new(0.0, 1.4), 0.05)];
     let decide =
         |axes, clearance| connectivity(&scene(rr(axes), pole()), q(0.5, 0.0), &q(2.6, 0.0).into(), clearance, 100_000);
-    assert!(matches!(decide([Axis::Circle, Axis::Circle], 0.0), Connectivity::Connected(_)));
-    let narrow = Axis::Interval { lower: -0.1, upper: 0.1 };
-    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
+    assert!(matches!(decide([JointRange::Circle, JointRange::Circle], 0.0), Connectivity::Connected(_)));
+    let narrow = JointRange::Interval { lower: -0.1, upper: 0.1 };
+    let half = JointRange::Interval { lower: 0.0, upper: 3.0 };
     assert!(matches!(decide([half, narrow], 0.0), Connectivity::Disconnected(_)));
-    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let folding = JointRange::Interval { lower: -3.0, upper: 3.0 };
     assert!(matches!(decide([half, folding], 0.0), Connectivity::Connected(_)));
     // Folded, the forearm still comes within 0.4 m of the pole as the elbow passes under it.
     assert!(matches!(decide([half, folding], 0.4), Connectivity::Disconnected(_)));
@@ -186,15 +186,15 @@ fn proofs_are_accepted_by_the_independent_check() {
         let (scene, start, goal) = benchmark(which);
         assert_eq!(recheck(&proof(&scene, start, goal, 0.0), &scene, start, &goal.into(), 0.0), Ok(()), "{which:?}");
     }
-    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
-    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let half = JointRange::Interval { lower: 0.0, upper: 3.0 };
+    let folding = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let pole = scene(rr([half, folding]), vec![disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
     let boxes = proof(&pole, start, goal, 0.4);
     assert_eq!(recheck(&boxes, &pole, start, &goal.into(), 0.4), Ok(()));
     // The same boxes prove nothing about a smaller clearance.
     let refused = recheck(&boxes, &pole, start, &goal.into(), 0.0);
-    assert!(matches!(refused, Err(ProofDefect::NotStuck { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(ProofError::NotStuck { .. })), "{refused:?}");
 }
 
 #[test]
@@ -202,8 +202,8 @@ fn false_proofs_are_refused() {
     let (scene, start, goal) = benchmark(Benchmark::Inf);
     let boxes = proof(&scene, start, goal, 0.0);
     let judge = |boxes: &[StuckBox]| recheck(boxes, &scene, start, &goal.into(), 0.0);
-    assert_eq!(judge(&[]), Err(ProofDefect::NotSeparated(0)));
-    assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofDefect::NotSeparated(0)));
+    assert_eq!(judge(&[]), Err(ProofError::NotSeparated(0)));
+    assert_eq!(recheck(&boxes, &scene, start, &start.into(), 0.0), Err(ProofError::NotSeparated(0)));
 
     // Taking boxes away one after another must open a way, and once open it stays open.
     let fewer: Vec<bool> = (0..=20).map(|k| judge(&boxes[boxes.len() * k / 20..]).is_ok()).collect();
@@ -216,10 +216,10 @@ fn false_proofs_are_refused() {
         judge(&boxes)
     };
     let grown = wrong(|b| (b.cell.lower, b.cell.upper) = ([-3.0, -3.0], [3.0, 3.0]));
-    assert!(matches!(grown, Err(ProofDefect::NotStuck { index: 7, .. })), "{grown:?}");
-    assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofDefect::NotInDomain(7)));
-    assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofDefect::NotInDomain(7)));
-    assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofDefect::UnknownPair(7)));
+    assert!(matches!(grown, Err(ProofError::NotStuck { index: 7, .. })), "{grown:?}");
+    assert_eq!(wrong(|b| b.cell.upper[0] = 4.0), Err(ProofError::NotInDomain(7)));
+    assert_eq!(wrong(|b| b.cell.upper[1] = f64::NAN), Err(ProofError::NotInDomain(7)));
+    assert_eq!(wrong(|b| b.pair.obstacle = 17), Err(ProofError::UnknownPair(7)));
 }
 
 /// Whether boxes leave a way from `start` to `goal` on the torus: flood fill over the grid of all their coordinates.
@@ -264,7 +264,7 @@ fn what_separates_is_decided_as_by_flood_fill() {
         for gone in (0..boxes.len()).step_by(step) {
             let left = [&boxes[..gone], &boxes[gone + 1..]].concat();
             let way = flooded(&left, start, goal);
-            let expected = if way { Err(ProofDefect::NotSeparated(0)) } else { Ok(()) };
+            let expected = if way { Err(ProofError::NotSeparated(0)) } else { Ok(()) };
             assert_eq!(recheck(&left, &scene, start, &goal.into(), 0.0), expected, "{which:?} without box {gone}");
             opened += usize::from(way);
         }
@@ -273,7 +273,7 @@ fn what_separates_is_decided_as_by_flood_fill() {
 }
 
 /// The arm of [`rr`] as two segments without thickness.
-fn skeleton(axes: [Axis; 2]) -> cplan::model::Arm {
+fn skeleton(axes: [JointRange; 2]) -> cplan::model::Arm {
     let mut arm = rr(axes);
     arm.links[0].parts[0].shape = wall(Point::origin(), Point::new(1.0, 0.0));
     arm.links[1].parts[0].shape = wall(Point::origin(), Point::new(0.8, 0.0));
@@ -282,7 +282,7 @@ fn skeleton(axes: [Axis; 2]) -> cplan::model::Arm {
 
 #[test]
 fn thin_links_are_stopped_by_thin_walls() {
-    let circles = [Axis::Circle, Axis::Circle];
+    let circles = [JointRange::Circle, JointRange::Circle];
     let front = wall(Point::new(0.5, -0.2), Point::new(0.7, 0.3));
     let back = wall(Point::new(-0.6, -0.3), Point::new(-0.7, 0.1));
     let (start, goal) = (q(-1.2, 0.4), q(1.3, -0.4));
@@ -293,7 +293,7 @@ fn thin_links_are_stopped_by_thin_walls() {
     assert_eq!(recheck(&proof(&closed, start, goal, 0.0), &closed, start, &goal.into(), 0.0), Ok(()));
 
     // A wall beyond the elbow's circle, for which the limits keep the forearm stretched enough.
-    let narrow = [Axis::Interval { lower: -1.5, upper: 1.5 }, Axis::Interval { lower: -0.4, upper: 0.4 }];
+    let narrow = [JointRange::Interval { lower: -1.5, upper: 1.5 }, JointRange::Interval { lower: -0.4, upper: 0.4 }];
     let beyond = scene(skeleton(narrow), vec![wall(Point::new(1.05, 0.1), Point::new(1.7, -0.2))]);
     let (start, goal) = (q(-1.2, 0.1), q(1.3, -0.1));
     assert_eq!(recheck(&proof(&beyond, start, goal, 0.0), &beyond, start, &goal.into(), 0.0), Ok(()));
@@ -323,7 +323,7 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
         let [start, goal] = [0, 500].map(|from| (from..).find_map(free).unwrap());
         let boxes = explore(&scene, start, &goal.into(), 0.0, 5_000).boxes;
         let area: f64 = boxes.iter().map(|(c, _)| (c.upper[0] - c.lower[0]) * (c.upper[1] - c.lower[1])).sum();
-        let whole = topology.axes[0].extent() * topology.axes[1].extent();
+        let whole = topology.ranges[0].extent() * topology.ranges[1].extent();
         assert!((area - whole).abs() < 1e-9 * whole, "kind {kind}: {area} of {whole}");
         for i in 0..4_000_u32 {
             let at = inside(&scene, (f64::from(i % 89) + 0.5) / 89.0, (f64::from(i % 97) + 0.5) / 97.0);
@@ -344,8 +344,8 @@ fn the_boxes_cover_the_domain_and_are_what_they_say() {
 /// halving them to the last would fill the memory.
 #[test]
 fn link_1_sliding_along_a_wall_leaves_few_boxes() {
-    let slide = |x: f64, y: f64| Motion::Prismatic { direction: Vector::new(x, y) };
-    let range = Axis::Interval { lower: 0.0, upper: 2.0 };
+    let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y) };
+    let range = JointRange::Interval { lower: 0.0, upper: 2.0 };
     let bridge = link("bridge", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
     let head = link("head", vec![rectangle(0.0, 0.25, 0.0, 0.25)]);
     let joints = [joint("x", slide(1.0, 0.0), range), joint("y", slide(0.0, 1.0), range)];

@@ -7,12 +7,12 @@ use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, 
 use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
 use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Motion, Scene};
+use cplan::model::{JointType, Scene};
 use cplan::planner::{
     EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, PathKind, Planner, Proposal, Query, Run, Size,
     Trace, Trapezoid, Visibility, Wavefront,
 };
-use cplan::space::{Axis, Configuration, Metric, Path};
+use cplan::space::{Configuration, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
 /// Plans in a scene, whatever representation that takes.
@@ -87,11 +87,11 @@ fn path(name: &str, scene: &Scene, query: &Query, run: &Run) -> Path {
     let Proposal::Found(path) = &run.outcome else { panic!("{name}: {:?}", run.outcome) };
     let topology = scene.arm().topology();
     assert_eq!(path.start(), query.start, "{name}");
-    let is_copy = |axis: Axis, goal: f64, end: f64| {
+    let is_copy = |axis: JointRange, goal: f64, end: f64| {
         let turns = ((end - goal) / TAU).round();
         end == goal || axis.is_circle() && (end - goal - turns * TAU).abs() < 1e-12
     };
-    let ends = |goal: Configuration| (0..2).all(|k| is_copy(topology.axes[k], goal[k], path.goal()[k]));
+    let ends = |goal: Configuration| (0..2).all(|k| is_copy(topology.ranges[k], goal[k], path.goal()[k]));
     assert!(query.goals.points().any(ends), "{name} ends at {}", path.goal());
     for (a, b) in path.segments() {
         let steps = ((b - a).norm() / 1e-3).ceil();
@@ -108,13 +108,13 @@ fn query(start: Configuration, goals: &[Configuration]) -> Query {
     Query { start, goals: goals.iter().copied().collect() }
 }
 
-fn range(lower: f64, upper: f64) -> Axis {
-    Axis::Interval { lower, upper }
+fn range(lower: f64, upper: f64) -> JointRange {
+    JointRange::Interval { lower, upper }
 }
 
 /// A gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
 fn gantry(obstacles: Vec<Convex>) -> Scene {
-    let slide = |name, x, y| joint(name, Motion::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
+    let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
     let tool = link("tool", vec![disc(Point::origin(), 0.05)]);
     let joints = [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)];
     scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::origin()), obstacles)
@@ -122,10 +122,10 @@ fn gantry(obstacles: Vec<Convex>) -> Scene {
 
 /// A turning arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in one
 /// direction.
-fn polar(turn: Axis) -> Scene {
+fn polar(turn: JointRange) -> Scene {
     let joints = [
-        joint("turn", Motion::Revolute { sign: 1.0 }, turn),
-        joint("reach", Motion::Prismatic { direction: Vector::x() }, range(0.5, 1.5)),
+        joint("turn", JointType::Revolute { sign: 1.0 }, turn),
+        joint("reach", JointType::Prismatic { direction: Vector::x() }, range(0.5, 1.5)),
     ];
     let links = [link("turret", vec![]), link("tool", vec![disc(Point::origin(), 0.05)])];
     scene(arm(joints, links, Vector::zeros(), Point::origin()), vec![wall(Point::origin(), Point::new(2.0, 0.0))])
@@ -135,9 +135,9 @@ fn polar(turn: Axis) -> Scene {
 fn paths_lead_from_the_start_to_a_goal_through_free_space() {
     let problems = [
         (gantry(vec![rectangle(-0.4, 0.4, -0.5, 0.6)]), query(q(-0.8, 0.0), &[q(0.8, 0.1)])),
-        (polar(Axis::Circle), query(q(0.5, 1.2), &[q(-0.5, 0.7)])),
+        (polar(JointRange::Circle), query(q(0.5, 1.2), &[q(-0.5, 0.7)])),
         (
-            scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(0.7, 0.9, 0.4, 0.8)]),
+            scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(0.7, 0.9, 0.4, 0.8)]),
             query(q(0.0, 0.0), &[q(1.5, 0.3)]),
         ),
     ];
@@ -154,7 +154,7 @@ fn every_kind_of_arm_is_planned_for() {
     for arm in all_kinds() {
         let kind = arm.kind();
         let scene = scene(arm, vec![disc(Point::new(0.5, 1.1), 0.08)]);
-        // Two postures on either side of the obstacle, with room.
+        // Two configurations on either side of the obstacle, with room.
         let query = query(q(-0.3, 0.1), &[q(0.6, 0.4)]);
         assert!(
             scene.clearance(query.start) > 0.05 && query.goals.points().all(|goal| scene.clearance(goal) > 0.05),
@@ -268,7 +268,7 @@ fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
     let (start, goal) = (q(2.5, 1.0), q(-2.5, 0.8));
     let query = query(start, &[goal]);
     for (name, plan) in PLANNERS {
-        let circle = polar(Axis::Circle);
+        let circle = polar(JointRange::Circle);
         let end = path(name, &circle, &query, &plan(&circle, &query)).goal();
         assert!((end - q(TAU - 2.5, 0.8)).norm() < 1e-12 && end[1] == 0.8, "{name} ends at {end}");
         // Limits at pi shut that way, the wall the other one.
@@ -278,7 +278,7 @@ fn a_circle_is_gone_round_through_its_seam_and_an_interval_is_not() {
 }
 
 #[test]
-fn on_an_interval_longer_than_a_turn_a_posture_a_turn_away_is_another_goal() {
+fn on_an_interval_longer_than_a_turn_a_pose_a_turn_away_is_another_goal() {
     let mut long = polar(range(-1.0, 7.5));
     long = scene(long.into_parts().0, vec![]);
     let query = query(q(0.5, 1.0), &[q(0.5 + TAU, 1.0)]);

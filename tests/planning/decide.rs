@@ -6,7 +6,7 @@ use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
-use cplan::space::Axis;
+use cplan::space::JointRange;
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
     let obstacle = Obstacle { name: "ring".into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
     let workspace =
         Workspace { name: "ring".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
-    let scene = placed(rr([Axis::Circle, Axis::Interval { lower: -folding, upper: folding }]), workspace);
+    let scene = placed(rr([JointRange::Circle, JointRange::Interval { lower: -folding, upper: folding }]), workspace);
     asked(scene, q(0.0, 0.0), q(3.0, 0.0))
 }
 

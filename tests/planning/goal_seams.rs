@@ -7,7 +7,7 @@ use crate::random_worlds::world::Dice;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
-use cplan::space::{Axis, Configuration, GoalSet, Path, Segment};
+use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use std::f64::consts::PI;
 
 /// Goals of a set that are asked for one by one.
@@ -28,7 +28,7 @@ fn at_seam(dice: &mut Dice) -> f64 {
 
 /// A segment along one joint, or slanted, that has to do with the seam of a circle.
 fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
-    let axes = scene.arm().topology().axes;
+    let axes = scene.arm().topology().ranges;
     let mut from = Configuration::from_fn(|k, _| match axes[k].domain() {
         _ if axes[k].is_circle() => at_seam(dice),
         (lower, upper) => dice.range(lower, upper),
@@ -48,7 +48,7 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
 
 /// The same set in other words: the other way along, some turns on, and in pieces that end at each seam.
 fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
-    let axes = problem.scene().arm().topology().axes;
+    let axes = problem.scene().arm().topology().ranges;
     let [from, to] = goals.ends();
     let turns = [0, 1].map(|k| if axes[k].is_circle() { 1.0 - 3.0 * k as f64 } else { 0.0 });
     // Shares of the segment at which it goes across a seam, an odd number of half turns.
@@ -64,11 +64,11 @@ fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
 
 fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     let mut dice = Dice::new(seed.wrapping_mul(0x9E6C_63D0_876A_68DE));
-    let limited = Axis::Interval { lower: -dice.range(1.0, 4.0), upper: dice.range(1.0, 4.0) };
+    let limited = JointRange::Interval { lower: -dice.range(1.0, 4.0), upper: dice.range(1.0, 4.0) };
     let axes = match dice.below(4) {
-        0 => [Axis::Circle, limited],
-        1 => [limited, Axis::Circle],
-        _ => [Axis::Circle; 2],
+        0 => [JointRange::Circle, limited],
+        1 => [limited, JointRange::Circle],
+        _ => [JointRange::Circle; 2],
     };
     let count = dice.below(6);
     let piece = |dice: &mut Dice| {

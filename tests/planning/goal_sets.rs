@@ -5,9 +5,9 @@ use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wa
 use crate::random_worlds::world::Dice;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Arm, Motion, MotionProblem, Scene, inverse};
+use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
 use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
-use cplan::space::{Axis, Configuration, GoalSet, Metric, Segment};
+use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Values of the free joint that are tried one by one.
@@ -18,14 +18,14 @@ const LOOKED_AT: usize = 2;
 
 /// An arm whose tip goal leaves a joint free, and where the tip is to go.
 fn drawn(dice: &mut Dice) -> (Arm, Point) {
-    let turn = |dice: &mut Dice| Motion::Revolute { sign: if dice.below(3) == 0 { -1.0 } else { 1.0 } };
-    let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
+    let turn = |dice: &mut Dice| JointType::Revolute { sign: if dice.below(3) == 0 { -1.0 } else { 1.0 } };
+    let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let turns = |dice: &mut Dice| match dice.below(3) {
-        0 => Axis::Circle,
-        1 => Axis::Interval { lower: -dice.range(1.5, 3.3), upper: dice.range(1.5, 3.3) },
-        _ => Axis::Interval { lower: -4.0, upper: 4.5 },
+        0 => JointRange::Circle,
+        1 => JointRange::Interval { lower: -dice.range(1.5, 3.3), upper: dice.range(1.5, 3.3) },
+        _ => JointRange::Interval { lower: -4.0, upper: 4.5 },
     };
-    let stroke = |dice: &mut Dice| Axis::Interval { lower: -dice.range(0.3, 1.0), upper: dice.range(0.3, 1.0) };
+    let stroke = |dice: &mut Dice| JointRange::Interval { lower: -dice.range(0.3, 1.0), upper: dice.range(0.3, 1.0) };
     let links = |length: f64| {
         [
             link("first", vec![rectangle(0.0, length, -0.03, 0.03)]),
@@ -49,7 +49,7 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
         3 => {
             let joints = [
                 joint("a", turn(dice), turns(dice)),
-                joint("b", turn(dice), Axis::Interval { lower: -3.3, upper: 3.3 }),
+                joint("b", turn(dice), JointRange::Interval { lower: -3.3, upper: 3.3 }),
             ];
             (arm(joints, links(0.7), Vector::new(0.7, 0.0), Point::new(0.7, 0.0)), Point::origin())
         }
@@ -86,7 +86,7 @@ fn world(seed: u64) -> Option<MotionProblem> {
 fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
     let topology = scene.arm().topology();
     Configuration::from_fn(|k, _| {
-        let (lower, upper) = topology.axes[k].domain();
+        let (lower, upper) = topology.ranges[k].domain();
         dice.range(lower, upper)
     })
 }
@@ -213,7 +213,7 @@ fn planners_agree_about_sets_of_goals() {
 /// A tip on the common axis of both joints, and one beside it: everything is a goal, or all ways to share an angle.
 #[test]
 fn joints_about_one_axis_share_the_angle() {
-    let turning = |lower, upper| joint("t", Motion::Revolute { sign: 1.0 }, Axis::Interval { lower, upper });
+    let turning = |lower, upper| joint("t", JointType::Revolute { sign: 1.0 }, JointRange::Interval { lower, upper });
     let links = || {
         [link("first", vec![rectangle(0.0, 0.3, -0.03, 0.03)]), link("second", vec![rectangle(0.0, 0.7, -0.03, 0.03)])]
     };

@@ -4,7 +4,7 @@ use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Trapezoid, Visibility};
-use cplan::space::{Axis, Configuration, GoalSet, Metric, Path, Topology};
+use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -60,7 +60,7 @@ fn cells(regions: &Regions) -> (Vec<Vec<Point>>, usize) {
 /// Cells are convex, cover free space without overlap (their areas add up and their middles are free), and are joined
 /// wherever two of them share a piece of vertical.
 fn assert_decomposed(regions: &Regions) {
-    let (cells, doors) = cells(regions);
+    let (cells, portals) = cells(regions);
     let sides = sides(regions);
     for cell in &cells {
         assert!(cell.len() == 3 || cell.len() == 4, "{cell:?}");
@@ -83,7 +83,7 @@ fn assert_decomposed(regions: &Regions) {
             shared += usize::from(v.0.max(w.0) + 1e-12 < v.1.min(w.1));
         }
     }
-    assert_eq!(doors, shared);
+    assert_eq!(portals, shared);
 }
 
 const MAPS: [[[i32; 2]; 2]; 5] =
@@ -337,9 +337,9 @@ mod contract {
         let free = |from: f64, to: f64| Polygon { outer: rectangle((from, to), (-1.0, 1.0)), holes: vec![] };
         let bands = [band(1.0 - TAU), band(1.0)];
         let free = vec![free(-TAU, bands[0][0].x), free(bands[0][1].x, bands[1][0].x), free(bands[1][1].x, TAU)];
-        let axes = [Axis::Circle, Axis::Interval { lower: -1.0, upper: 1.0 }];
+        let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 1.0 }];
         let window = [(-TAU, TAU), (-1.0, 1.0)];
-        let regions = Regions { topology: Topology { axes }, window, ..regions(window, free) };
+        let regions = Regions { topology: Topology { ranges: axes }, window, ..regions(window, free) };
         both(|plan| {
             let Proposal::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
             let [from, to] = path.waypoints() else { panic!("{:?}", path.waypoints()) };
@@ -362,7 +362,7 @@ fn around_a_square_the_length_is_known() {
 }
 
 #[test]
-fn a_taut_string_along_a_slanted_side_has_no_corners_between() {
+fn a_funnel_path_along_a_slanted_side_has_no_corners_between() {
     // Teeth above the slanted side send verticals down to its middle.
     let tooth = |x: f64| points(&[(x, 1.5 + x / 3.0), (x + 0.2, 2.9), (x - 0.2, 2.9)]);
     let floor = Polygon {

@@ -4,7 +4,7 @@ use crate::common::reference::published;
 use cplan::cspace::{Grid, Proves};
 use cplan::field::search::{Cost, Order, Search, Ties};
 use cplan::field::{FreeCells, Lattice, Neighborhood, StepLabels, UNREACHED};
-use cplan::space::{Axis, Topology};
+use cplan::space::{JointRange, Topology};
 use petgraph::graph::{NodeIndex, UnGraph};
 use proptest::prelude::*;
 use std::collections::VecDeque;
@@ -14,8 +14,8 @@ const BOTH: [Neighborhood; 2] = [Neighborhood::Four, Neighborhood::Eight];
 const A_STAR: [Order; 2] = [Order::AStar(Ties::Farthest), Order::AStar(Ties::First)];
 
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
-    let axes = circles.map(|c| if c { Axis::Circle } else { Axis::Interval { lower: 0.0, upper: 1.0 } });
-    Grid { topology: Topology { axes }, proves: Proves::Sampled, cells, blocked }
+    let axes = circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
+    Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
 }
 
 /// The cell `by` away from `cell`, if there is one: by coordinates.
@@ -23,7 +23,7 @@ fn beside(grid: &Grid, cell: usize, by: [i64; 2]) -> Option<usize> {
     let at = [cell / grid.cells[1], cell % grid.cells[1]];
     let to = [0, 1].map(|k| {
         let (to, n) = (at[k] as i64 + by[k], grid.cells[k] as i64);
-        if grid.topology.axes[k].is_circle() { Some(to.rem_euclid(n)) } else { (0..n).contains(&to).then_some(to) }
+        if grid.topology.ranges[k].is_circle() { Some(to.rem_euclid(n)) } else { (0..n).contains(&to).then_some(to) }
     });
     Some(to[0]? as usize * grid.cells[1] + to[1]? as usize)
 }

@@ -1,4 +1,4 @@
-//! Slabs of joint 1 against collision tests of sampled postures, the subdivision into boxes, and the independent check.
+//! Slabs of joint 1 against collision tests of sampled configurations, the subdivision into boxes, and the independent check.
 
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, convex, disc, inside, joint, link, problem, q, recheck, rectangle,
@@ -8,9 +8,9 @@ use cplan::check::{Cell, certify};
 use cplan::engine::{Effort, Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
-use cplan::model::{Motion, Scene};
+use cplan::model::{JointType, Scene};
 use cplan::search::{Connectivity, connectivity, slab_connectivity};
-use cplan::space::{Axis, Configuration, GoalSet};
+use cplan::space::{Configuration, GoalSet, JointRange};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -20,7 +20,7 @@ const SLABS: usize = 20_000;
 const BOXES: usize = 200_000;
 
 /// Checks an answer by what shares no code with the slabs: paths by the judge of motions, proofs by the check of boxes,
-/// both against postures sampled on them. Says which answer it was.
+/// both against configurations sampled on them. Says which answer it was.
 fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
     match slab_connectivity(scene, start, goals, clearance, SLABS) {
         Connectivity::Connected(channel) => {
@@ -125,10 +125,10 @@ fn a_proof_across_the_seam() {
 /// Two segments without thickness: nothing to erode, so that only a path can be decided, or what joint 1 alone closes.
 #[test]
 fn thin_links_among_thin_walls() {
-    let turn = Motion::Revolute { sign: 1.0 };
+    let turn = JointType::Revolute { sign: 1.0 };
     let thin = |length| wall(Point::origin(), Point::new(length, 0.0));
     let arm = arm(
-        [joint("a", turn, Axis::Circle), joint("b", turn, Axis::Circle)],
+        [joint("a", turn, JointRange::Circle), joint("b", turn, JointRange::Circle)],
         [link("one", vec![thin(1.0)]), link("two", vec![thin(0.8)])],
         Vector::new(1.0, 0.0),
         Point::new(0.8, 0.0),
@@ -143,7 +143,7 @@ fn thin_links_among_thin_walls() {
 
 #[test]
 fn nothing_to_meet_is_free() {
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![]);
     assert_eq!(check(&scene, q(0.1, 0.2), &q(3.0, -3.0).into(), 0.0), Some(true));
     assert_eq!(check(&scene, q(0.1, 0.2), &q(0.1, 0.2).into(), 0.0), Some(true));
     // Copies of a goal on a circle are the goal.
@@ -152,16 +152,16 @@ fn nothing_to_meet_is_free() {
 
 #[test]
 fn a_base_inside_an_obstacle_is_never_connected() {
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(-0.1, 0.1, -0.1, 0.1)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(-0.1, 0.1, -0.1, 0.1)]);
     assert_ne!(check(&scene, q(0.0, 0.0), &q(1.0, 0.0).into(), 0.0), Some(true));
 }
 
 /// Links that do not contain their pivots, and an elbow whose circle passes through an obstacle or touches it.
 #[test]
 fn odd_links_and_elbows_on_obstacles() {
-    let turn = Motion::Revolute { sign: -1.0 };
+    let turn = JointType::Revolute { sign: -1.0 };
     let arm = arm(
-        [joint("a", turn, Axis::Circle), joint("b", turn, Axis::Circle)],
+        [joint("a", turn, JointRange::Circle), joint("b", turn, JointRange::Circle)],
         [link("one", vec![rectangle(0.2, 0.5, 0.1, 0.2)]), link("two", vec![rectangle(0.3, 0.8, -0.3, -0.25)])],
         Vector::new(0.0, 1.0),
         Point::new(0.8, 0.0),
@@ -190,11 +190,11 @@ fn odd_links_and_elbows_on_obstacles() {
     assert!(decided == answers.len(), "{decided} of {}", answers.len());
 }
 
-/// Within limits longer than a turn postures repeat, configurations do not: the way between them can be closed.
+/// Within limits longer than a turn poses repeat, configurations do not: the way between them can be closed.
 #[test]
 fn limits_longer_than_a_turn() {
-    let long = Axis::Interval { lower: -5.0, upper: 5.0 };
-    let narrow = Axis::Interval { lower: -0.5, upper: 0.5 };
+    let long = JointRange::Interval { lower: -5.0, upper: 5.0 };
+    let narrow = JointRange::Interval { lower: -0.5, upper: 0.5 };
     let pole = disc(Point::new(0.0, 0.7), 0.1);
     let closed = scene(rr([long, narrow]), vec![pole.clone()]);
     let turn = std::f64::consts::TAU;
@@ -208,8 +208,8 @@ fn limits_longer_than_a_turn() {
 
 #[test]
 fn clearance_closes_ways() {
-    let half = Axis::Interval { lower: 0.0, upper: 3.0 };
-    let folding = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let half = JointRange::Interval { lower: 0.0, upper: 3.0 };
+    let folding = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let pole = scene(rr([half, folding]), vec![disc(Point::new(0.0, 1.4), 0.05)]);
     let (start, goal) = (q(0.5, 0.0), q(2.6, 0.0));
     assert_eq!(check(&pole, start, &goal.into(), 0.0), Some(true));
@@ -218,8 +218,8 @@ fn clearance_closes_ways() {
 
 #[test]
 fn joints_that_cannot_move_are_left_to_others() {
-    let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
-    let scene = scene(rr([fixed, Axis::Circle]), clutter());
+    let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
+    let scene = scene(rr([fixed, JointRange::Circle]), clutter());
     assert_eq!(check(&scene, q(0.5, 0.0), &q(0.5, 0.1).into(), 0.0), None);
 }
 

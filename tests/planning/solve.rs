@@ -2,7 +2,7 @@
 
 use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene};
 use cplan::engine::{Answer, Effort, Method, Verdict, solve};
-use cplan::space::Axis;
+use cplan::space::JointRange;
 
 fn answer(which: Benchmark, method: Method) -> Answer {
     solve(&problem(which), method, &Effort::default(), &mut |_| {})
@@ -68,7 +68,7 @@ fn closed_ways_are_proven_closed() {
 /// The outstretched arm points at a wall a micrometre away, far less than the margin that polygons are grown by.
 #[test]
 fn ends_with_little_room_are_answered_at_the_first_level() {
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
     let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
     let effort = Effort { levels: 1, ..Effort::default() };
     for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {

@@ -1,14 +1,14 @@
-//! The choice of postures and order against trying all of them.
+//! The choice of IK solutions and order against trying all of them.
 
 use crate::common::{arm, disc, joint, link, obstacle, placed, q, rectangle};
 use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan, rest_to_rest};
 use cplan::engine::{Effort, Method};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
-    Action, Arm, Goal, Heights, Holding, Item, Motion, Object, Shape, Step, Task, Workspace, inverse, within,
+    Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, inverse, within,
 };
 use cplan::motion::Drive;
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Configuration, JointRange};
 use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 
@@ -22,8 +22,8 @@ fn planned(task: &Task) -> TaskAnswer {
 
 /// Two bars among three obstacles as high as they.
 fn cell(limits: [[f64; 2]; 2]) -> (Arm, Workspace) {
-    let turn = Motion::Revolute { sign: 1.0 };
-    let [one, two] = limits.map(|[lower, upper]| Axis::Interval { lower, upper });
+    let turn = JointType::Revolute { sign: 1.0 };
+    let [one, two] = limits.map(|[lower, upper]| JointRange::Interval { lower, upper });
     let arm = arm(
         [joint("shoulder", turn, one), joint("elbow", turn, two)],
         [link("upper", vec![rectangle(0.0, 1.0, -0.05, 0.05)]), link("fore", vec![rectangle(0.0, 0.8, -0.05, 0.05)])],
@@ -71,18 +71,18 @@ fn task(limits: [[f64; 2]; 2], spots: &[[Point; 2]], free: bool) -> Task {
     Task { arm, workspace, objects, start: home, items, wrist: None, stroke: None }
 }
 
-/// All postures within the limits that put the tip somewhere.
-fn postures(arm: &Arm, at: Point) -> Vec<Configuration> {
+/// All IK solutions within the limits that put the tip somewhere.
+fn ik_solutions(arm: &Arm, at: Point) -> Vec<Configuration> {
     let mut all = Vec::new();
     for branch in inverse(arm, at, Configuration::zeros()).branches {
-        for first in within(arm.joints[0].axis, true, branch[0]) {
-            all.extend(within(arm.joints[1].axis, true, branch[1]).into_iter().map(|second| q(first, second)));
+        for first in within(arm.joints[0].range, true, branch[0]) {
+            all.extend(within(arm.joints[1].range, true, branch[1]).into_iter().map(|second| q(first, second)));
         }
     }
     all
 }
 
-/// Seconds of the least sequence through layers of postures, each order of the pairs tried in turn.
+/// Seconds of the least sequence through layers of IK solutions, each order of the pairs tried in turn.
 fn least(
     start: Configuration,
     layers: &[[Vec<Configuration>; 2]],
@@ -134,10 +134,10 @@ fn spots(seed: u32, count: usize, arm: &Arm) -> Vec<[Point; 2]> {
 }
 
 #[test]
-fn the_fastest_of_all_postures_and_orders_is_found() {
+fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
     let (mut free_differs, mut compared) = (0, 0);
     for seed in 0..24 {
-        // Wide limits: postures come with copies by whole turns.
+        // Wide limits: IK solutions come with copies by whole turns.
         let limits = if seed % 3 == 0 { [[-3.5, 3.5], [-2.6, 2.6]] } else { [[-2.6, 2.6], [-2.2, 1.4]] };
         let (arm, _) = cell(limits);
         let spots = spots(seed, 3, &arm);
@@ -146,7 +146,7 @@ fn the_fastest_of_all_postures_and_orders_is_found() {
             let task = task(limits, &spots, free);
             let answer = planned(&task);
             let layers: Vec<[Vec<Configuration>; 2]> =
-                spots.iter().map(|pair| pair.map(|at| postures(&task.arm, at))).collect();
+                spots.iter().map(|pair| pair.map(|at| ik_solutions(&task.arm, at))).collect();
             let orders = if free { orders(3) } else { vec![vec![0, 1, 2]] };
             let mut known = BTreeMap::new();
             let alone = |from: Configuration, to: Configuration| {
@@ -200,7 +200,7 @@ fn a_large_group_gets_a_good_order() {
     let free = |at: &Point| {
         let empty = task(limits, &[], false);
         let scene = placed(empty.arm.clone(), empty.workspace.clone());
-        postures(&arm, *at).iter().any(|q| scene.obstructions(*q).is_empty())
+        ik_solutions(&arm, *at).iter().any(|q| scene.obstructions(*q).is_empty())
     };
     let spots: Vec<[Point; 2]> = spots(3, 30, &arm).into_iter().filter(|pair| pair.iter().all(free)).take(12).collect();
     assert_eq!(spots.len(), 12);

@@ -92,13 +92,13 @@ fn carrying_closes_a_passage() {
     let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
     assert_eq!(impossible.step.number, 3, "the board is what does not pass");
     assert_eq!(answer.legs.len(), 2, "the way there and back is done before");
-    // What is said of the motion that fails bears checking: a gantry has one posture for a place, its coordinates.
-    let [to] = &impossible.postures[..] else { panic!("{:?}", impossible.postures) };
-    assert_eq!((impossible.from, to.posture), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
+    // What is said of the motion that fails bears checking: a gantry has one IK solution for a place, its coordinates.
+    let [to] = &impossible.ik_solutions[..] else { panic!("{:?}", impossible.ik_solutions) };
+    assert_eq!((impossible.from, to.ik_solution), (Configuration::new(0.4, 1.1), Configuration::new(1.6, 0.9)));
     assert!(impossible.reasons[0].starts_with("to joints (1.6, 0.9) m: there is no way"), "{:?}", impossible.reasons);
     let clearance = impossible.scene.workspace().clearance;
     let stuck = to.proof.as_ref().expect("a proof").stuck();
-    assert_eq!(recheck(stuck, &impossible.scene, impossible.from, &to.posture.into(), clearance), Ok(()));
+    assert_eq!(recheck(stuck, &impossible.scene, impossible.from, &to.ik_solution.into(), clearance), Ok(()));
     assert!(!stuck.is_empty());
 }
 
@@ -108,17 +108,17 @@ fn reasons_name_the_motions_that_were_tried() {
     let task = shipped("slot_rigid");
     let answer = planned(&task);
     let TaskVerdict::Infeasible(impossible) = &answer.verdict else { panic!("{:?}", answer.verdict) };
-    assert_eq!((impossible.postures.len(), impossible.reasons.len()), (2, 4));
+    assert_eq!((impossible.ik_solutions.len(), impossible.reasons.len()), (2, 4));
     let from = format!("from joints ({:.4}, {:.4}) rad to (", impossible.from[0], impossible.from[1]);
     assert_eq!(impossible.reasons.iter().filter(|reason| reason.starts_with(&from)).count(), 2);
     assert!(impossible.reasons.iter().all(|reason| reason.starts_with("from joints (")));
-    for to in &impossible.postures {
-        assert!(!impossible.scene.obstructions(to.posture).is_empty() && to.proof.is_none(), "{to:?}");
+    for to in &impossible.ik_solutions {
+        assert!(!impossible.scene.obstructions(to.ik_solution).is_empty() && to.proof.is_none(), "{to:?}");
     }
 }
 
-/// All postures within the limits that put the tip where a step wants it, from the closed form.
-fn postures(task: &Task, step: &Step) -> Vec<Configuration> {
+/// All IK solutions within the limits that put the tip where a step wants it, from the closed form.
+fn ik_solutions(task: &Task, step: &Step) -> Vec<Configuration> {
     let target = match &step.action {
         Action::Pick { object, .. } => Point::from(task.objects[*object].at.translation.vector),
         Action::Place { at, .. } => *at,
@@ -126,7 +126,7 @@ fn postures(task: &Task, step: &Step) -> Vec<Configuration> {
     };
     let branches = inverse(&task.arm, target, task.start).branches;
     let copies = |q: &Configuration| {
-        let [a, b] = [0, 1].map(|k| within(task.arm.joints[k].axis, true, q[k]));
+        let [a, b] = [0, 1].map(|k| within(task.arm.joints[k].range, true, q[k]));
         a.into_iter()
             .flat_map(move |a| b.clone().into_iter().map(move |b| Configuration::new(a, b)))
             .collect::<Vec<_>>()
@@ -134,23 +134,23 @@ fn postures(task: &Task, step: &Step) -> Vec<Configuration> {
     branches.iter().flat_map(copies).collect()
 }
 
-/// Taking the posture that is nearest in time, step by step, is at least a fifth slower.
+/// Taking the IK solution that is nearest in time, step by step, is at least a fifth slower.
 #[test]
-fn the_greedy_choice_of_postures_is_slower() {
+fn the_greedy_choice_of_ik_solutions_is_slower() {
     let task = shipped("elbow_choice");
     let mut taken: Vec<Item> = Vec::new();
     let mut greedy = 0.0;
     for step in task.steps() {
-        // Going to a posture first and doing the step there forces that posture; objects lie below the arm.
+        // Going to an IK solution first and doing the step there forces that IK solution; objects lie below the arm.
         let forced = |q: &Configuration| {
             let there = Step { action: Action::Move(Goal::Joints(*q)), dwell: 0.0, ..step.clone() };
             let items = taken.iter().cloned().chain([Item::Step(there), Item::Step(step.clone())]).collect();
             let answer = planned(&Task { items, ..task.clone() });
             (answer.verdict == TaskVerdict::Found(())).then(|| (answer.duration(), *q))
         };
-        let all = postures(&task, step);
+        let all = ik_solutions(&task, step);
         let (seconds, q) =
-            all.iter().filter_map(forced).min_by(|a, b| a.0.total_cmp(&b.0)).expect("a posture that can be taken");
+            all.iter().filter_map(forced).min_by(|a, b| a.0.total_cmp(&b.0)).expect("an IK solution that can be taken");
         let there = Step { action: Action::Move(Goal::Joints(q)), dwell: 0.0, ..step.clone() };
         taken.extend([Item::Step(there), Item::Step(step.clone())]);
         greedy = seconds;

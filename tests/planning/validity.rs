@@ -6,13 +6,13 @@ use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall}
 use crate::random_worlds::world::{self, Dice};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{
-    Convex, ConvexDefect, Orientation, Point, Polygon, PolygonDefect, RingDefect, SimplePolygon, Vector, orientation,
+    Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
 };
 use cplan::model::{
-    Arm, Grip, Heights, Motion, MotionProblem, Payload, Preference, ProblemDefect, Region, Scene, SceneDefect,
+    Arm, Grip, Heights, JointType, MotionProblem, MotionProblemError, Payload, Preference, Region, Scene, SceneError,
     Workspace,
 };
-use cplan::space::{Axis, GoalSet, Segment};
+use cplan::space::{GoalSet, JointRange, Segment};
 use std::f64::consts::PI;
 
 const NAN: f64 = f64::NAN;
@@ -26,11 +26,11 @@ fn points(list: Corners) -> Vec<Point> {
 
 #[test]
 fn no_convex_shape_is_made_of_what_is_none() {
-    use ConvexDefect::*;
+    use ConvexError::*;
     let square = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)];
     let clockwise: Vec<_> = square.iter().rev().copied().collect();
     let pentagram: Vec<_> = (0..5).map(|k| (f64::from(k) * 0.8 * PI).sin_cos()).collect();
-    let cases: &[(Corners, f64, ConvexDefect)] = &[
+    let cases: &[(Corners, f64, ConvexError)] = &[
         (&[], 0.1, NoCorner),
         (&square, -0.1, Radius { radius: -0.1 }),
         (&square, INFINITE, Radius { radius: INFINITE }),
@@ -43,8 +43,8 @@ fn no_convex_shape_is_made_of_what_is_none() {
         // Twice round by left turns, one of them back along a side.
         (&[(-2., 0.), (3., 2.), (-3., 0.), (-1., 0.), (-1., 1.)], 0.0, NotConvex { corner: 0 }),
     ];
-    for (corners, radius, defect) in cases {
-        assert_eq!(Convex::new(points(corners), *radius), Err(*defect), "{corners:?}");
+    for (corners, radius, error) in cases {
+        assert_eq!(Convex::new(points(corners), *radius), Err(*error), "{corners:?}");
     }
     assert!(matches!(Convex::new(points(&pentagram), 0.0), Err(NotConvex { .. })), "{pentagram:?}");
     assert!(matches!(Convex::disc(Point::origin(), NAN), Err(Radius { .. })));
@@ -55,20 +55,20 @@ fn no_convex_shape_is_made_of_what_is_none() {
 #[test]
 fn no_polygon_is_made_of_what_is_none() {
     let bow = points(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]);
-    assert_eq!(SimplePolygon::new(bow.clone()), Err(PolygonDefect::SidesCross { first: 0, second: 2 }));
+    assert_eq!(SimplePolygon::new(bow.clone()), Err(PolygonError::SidesCross { first: 0, second: 2 }));
     assert_eq!(
         SimplePolygon::new(points(&[(0., 0.), (1., NAN), (1., 1.)])),
-        Err(PolygonDefect::NotFinite { corner: 1 })
+        Err(PolygonError::NotFinite { corner: 1 })
     );
-    assert!(matches!(Polygon::new(bow, Vec::new()), Err(RingDefect::Outer(PolygonDefect::SidesCross { .. }))));
+    assert!(matches!(Polygon::new(bow, Vec::new()), Err(RingError::Outer(PolygonError::SidesCross { .. }))));
     let square = points(&[(0., 0.), (1., 0.), (1., 1.), (0., 1.)]);
     let outside = points(&[(2., 0.), (3., 0.), (3., 1.)]);
-    assert_eq!(Polygon::new(square, vec![outside]), Err(RingDefect::Misplaced { hole: 1 }));
+    assert_eq!(Polygon::new(square, vec![outside]), Err(RingError::Misplaced { hole: 1 }));
 }
 
 /// The arm of the tests, changed.
 fn arm(change: impl Fn(&mut Arm)) -> Arm {
-    let mut arm = rr([Axis::Circle, Axis::Interval { lower: -2.0, upper: 2.0 }]);
+    let mut arm = rr([JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }]);
     change(&mut arm);
     arm
 }
@@ -85,18 +85,24 @@ fn workspace(change: impl Fn(&mut Workspace)) -> Workspace {
 fn no_scene_is_made_of_an_arm_that_cannot_be() {
     type Change = fn(&mut Arm);
     let long = arm(|arm| {
-        arm.joints[1].motion = Motion::Prismatic { direction: Vector::y() * 2.0 };
+        arm.joints[1].joint_type = JointType::Prismatic { direction: Vector::y() * 2.0 };
     });
-    assert_eq!(Scene::new(long, workspace(|_| ())), Err(SceneDefect::Motion { joint: "elbow".into() }));
+    assert_eq!(Scene::new(long, workspace(|_| ())), Err(SceneError::JointType { joint: "elbow".into() }));
     let cases: &[(Change, &str)] = &[
-        (|a| a.joints[1].axis = Axis::Interval { lower: 1.0, upper: -1.0 }, "joint \"elbow\": no range from 1 to -1"),
-        (|a| a.joints[1].axis = Axis::Interval { lower: NAN, upper: 1.0 }, "joint \"elbow\": no range from NaN to 1"),
         (
-            |a| a.joints[1].axis = Axis::Interval { lower: 0.0, upper: INFINITE },
+            |a| a.joints[1].range = JointRange::Interval { lower: 1.0, upper: -1.0 },
+            "joint \"elbow\": no range from 1 to -1",
+        ),
+        (
+            |a| a.joints[1].range = JointRange::Interval { lower: NAN, upper: 1.0 },
+            "joint \"elbow\": no range from NaN to 1",
+        ),
+        (
+            |a| a.joints[1].range = JointRange::Interval { lower: 0.0, upper: INFINITE },
             "joint \"elbow\": no range from 0 to inf",
         ),
-        (|a| a.joints[0].motion = Motion::Prismatic { direction: Vector::x() }, "joint \"shoulder\" slides"),
-        (|a| a.joints[0].motion = Motion::Revolute { sign: 0.5 }, "joint \"shoulder\": a sign is 1 or -1"),
+        (|a| a.joints[0].joint_type = JointType::Prismatic { direction: Vector::x() }, "joint \"shoulder\" slides"),
+        (|a| a.joints[0].joint_type = JointType::Revolute { sign: 0.5 }, "joint \"shoulder\": a sign is 1 or -1"),
         (|a| a.joints[0].velocity = 0.0, "joint \"shoulder\": its velocity must be positive and finite, is 0"),
         (|a| a.joints[0].acceleration = NAN, "its acceleration must be positive and finite, is NaN"),
         (|a| a.joints[1].jerk = Some(-1.0), "joint \"elbow\": its jerk must be positive and finite, is -1"),
@@ -108,8 +114,8 @@ fn no_scene_is_made_of_an_arm_that_cannot_be() {
         (|a| a.links[0].parts[0].heights = Heights { lower: 1.0, upper: 0.0 }, "\"upper\": no heights from 1 to 0"),
     ];
     for (change, message) in cases {
-        let defect = Scene::new(arm(change), workspace(|_| ())).expect_err(message).to_string();
-        assert!(defect.contains(message), "{defect}, not {message}");
+        let error = Scene::new(arm(change), workspace(|_| ())).expect_err(message).to_string();
+        assert!(error.contains(message), "{error}, not {message}");
     }
 }
 
@@ -121,7 +127,7 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
     for (epsilon, direction) in [(NAN, None), (INFINITE, None), (0.5, Some([1.0, 1.0])), (0.5, Some([NAN, 0.0]))] {
         let wishful = workspace(|w| w.preferences = vec![preference(epsilon, direction)]);
         let refused = Scene::new(arm(|_| ()), wishful);
-        assert_eq!(refused, Err(SceneDefect::Preference { name: "wish".into() }), "{epsilon} {direction:?}");
+        assert_eq!(refused, Err(SceneError::Preference { name: "wish".into() }), "{epsilon} {direction:?}");
     }
     let cases: &[(Change, &str)] = &[
         (|w| w.clearance = -0.1, "the clearance must be finite and not negative, is -0.1"),
@@ -129,11 +135,11 @@ fn no_scene_is_made_of_a_workspace_that_cannot_be() {
         (|w| w.obstacles[0].heights = Heights { lower: 0.0, upper: NAN }, "\"post\": no heights from 0 to NaN"),
     ];
     for (change, message) in cases {
-        let defect = Scene::new(arm(|_| ()), workspace(change)).expect_err(message).to_string();
-        assert!(defect.contains(message), "{defect}, not {message}");
+        let error = Scene::new(arm(|_| ()), workspace(change)).expect_err(message).to_string();
+        assert!(error.contains(message), "{error}, not {message}");
     }
     let scene = placed(arm(|_| ()), workspace(|_| ()));
-    assert!(matches!(scene.with_clearance(INFINITE), Err(SceneDefect::Clearance { .. })));
+    assert!(matches!(scene.with_clearance(INFINITE), Err(SceneError::Clearance { .. })));
 }
 
 #[test]
@@ -147,18 +153,18 @@ fn nothing_is_carried_that_cannot_be() {
     };
     let level = |angle| Grip::Level { angle, point: Point::origin() };
     let cases = [
-        (payload(level(NAN), Heights::ALL, vec![]), vec![], SceneDefect::Grip { object: "part".into() }),
-        (payload(level(0.0), Heights::ALL, vec![1]), vec![], SceneDefect::NoObstacle { number: 1, count: 1 }),
-        (payload(level(0.0), Heights::ALL, vec![]), vec![7], SceneDefect::NoObstacle { number: 7, count: 1 }),
+        (payload(level(NAN), Heights::ALL, vec![]), vec![], SceneError::Grip { object: "part".into() }),
+        (payload(level(0.0), Heights::ALL, vec![1]), vec![], SceneError::NoObstacle { number: 1, count: 1 }),
+        (payload(level(0.0), Heights::ALL, vec![]), vec![7], SceneError::NoObstacle { number: 7, count: 1 }),
         (
             payload(level(0.0), Heights { lower: 1.0, upper: 0.5 }, vec![]),
             vec![],
-            SceneDefect::Heights { of: "part".into(), lower: 1.0, upper: 0.5 },
+            SceneError::Heights { of: "part".into(), lower: 1.0, upper: 0.5 },
         ),
     ];
-    for (payload, spared, defect) in cases {
-        let made = Scene::handling(arm(|_| ()), workspace(|_| ()), Some(payload), &spared);
-        assert_eq!(made, Err(defect));
+    for (payload, allowed_contacts, error) in cases {
+        let made = Scene::handling(arm(|_| ()), workspace(|_| ()), Some(payload), &allowed_contacts);
+        assert_eq!(made, Err(error));
     }
 }
 
@@ -169,15 +175,15 @@ fn no_problem_is_made_of_what_has_no_true_answer() {
     let elbow = |value| ("elbow".to_owned(), value);
     let refused = |start, goals: GoalSet| MotionProblem::new(scene(), start, goals).expect_err("it is refused");
     let (joint, value) = elbow(2.5);
-    assert_eq!(refused(q(0.0, 2.5), free.into()), ProblemDefect::StartOutside { joint, value });
-    assert!(matches!(refused(q(NAN, 0.0), free.into()), ProblemDefect::StartOutside { .. }));
-    assert!(matches!(refused(q(INFINITE, 0.0), free.into()), ProblemDefect::StartOutside { .. }));
+    assert_eq!(refused(q(0.0, 2.5), free.into()), MotionProblemError::StartOutside { joint, value });
+    assert!(matches!(refused(q(NAN, 0.0), free.into()), MotionProblemError::StartOutside { .. }));
+    assert!(matches!(refused(q(INFINITE, 0.0), free.into()), MotionProblemError::StartOutside { .. }));
     let hit = refused(blocked, free.into()).to_string();
     assert!(hit.starts_with("the start is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
-    assert_eq!(refused(free, GoalSet::default()), ProblemDefect::NoGoal);
+    assert_eq!(refused(free, GoalSet::default()), MotionProblemError::NoGoal);
     let (joint, value) = elbow(-2.1);
     let two: GoalSet = [Segment::point(free), Segment::new(free, q(0.0, -2.1))].into_iter().collect();
-    assert_eq!(refused(free, two), ProblemDefect::GoalOutside { goal: 1, joint, value });
+    assert_eq!(refused(free, two), MotionProblemError::GoalOutside { goal: 1, joint, value });
     let hit = refused(free, blocked.into()).to_string();
     assert!(hit.starts_with("goal 1 is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
     // Of a segment some may be blocked.
@@ -204,10 +210,10 @@ fn what_is_valid_is_taken() {
         let angles: Vec<f64> = (0..count).map(|k| 2.0 * PI * share(k, &mut dice)).collect();
         let core: Vec<Point> = angles.iter().map(|t| Point::new(a * t.cos(), b * t.sin()) + shift).collect();
         let radius = if dice.below(2) == 0 { 0.0 } else { dice.range(0.0, 0.5) };
-        let shape = Convex::new(core.clone(), radius).unwrap_or_else(|defect| panic!("seed {seed}: {defect} {core:?}"));
+        let shape = Convex::new(core.clone(), radius).unwrap_or_else(|error| panic!("seed {seed}: {error} {core:?}"));
         assert_eq!((shape.core(), shape.radius()), (&core[..], radius));
         let backwards: Vec<Point> = core.iter().rev().copied().collect();
-        assert!(matches!(Convex::new(backwards.clone(), radius), Err(ConvexDefect::NotConvex { .. })), "seed {seed}");
+        assert!(matches!(Convex::new(backwards.clone(), radius), Err(ConvexError::NotConvex { .. })), "seed {seed}");
         let [one, other] =
             [backwards, core].map(|corners| SimplePolygon::new(corners).expect("either direction").area());
         assert!((one - other).abs() < 1e-12, "seed {seed}: {one} {other}");

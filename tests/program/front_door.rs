@@ -91,7 +91,7 @@ fn an_outcome_is_one_of_three() {
     let Outcome::Found(motion) = found.outcome() else { panic!("shelf has a path") };
     assert!(motion.duration() > 1.0 && found.trajectory() == Some(motion));
     let closed = plan(&load("workspaces/singular_closed.toml"), &Options::default()).unwrap();
-    let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
+    let Outcome::Infeasible(Refutation::JointType(proof)) = closed.outcome() else { panic!("it is closed") };
     assert!(!proof.stuck().is_empty() && closed.trajectory().is_none());
     // One attempt at eight cells shows nothing, and a wave proves nothing; the judge may.
     let coarse = Options {

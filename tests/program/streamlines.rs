@@ -60,14 +60,14 @@ struct Oracle<'a> {
 impl<'a> Oracle<'a> {
     /// With about `n x n` cells.
     fn new(scene: &'a Scene, goal: Configuration, n: f64) -> Self {
-        let extents = scene.arm().topology().axes.map(|axis| axis.extent());
+        let extents = scene.arm().topology().ranges.map(|axis| axis.extent());
         let side = (extents[0] * extents[1]).sqrt() / n;
         let cells = extents.map(|extent| (extent / side).round() as usize);
         let step = [0, 1].map(|k| extents[k] / cells[k] as f64);
         let mut oracle = Self { scene, cells, step, values: vec![0.0; cells[0] * cells[1]] };
         let center = |cell: usize| {
             let at = [cell / cells[1], cell % cells[1]];
-            let [a, b] = [0, 1].map(|k| scene.arm().topology().axes[k].domain().0 + (at[k] as f64 + 0.5) * step[k]);
+            let [a, b] = [0, 1].map(|k| scene.arm().topology().ranges[k].domain().0 + (at[k] as f64 + 0.5) * step[k]);
             Configuration::new(a, b)
         };
         let free: Vec<usize> = (0..oracle.values.len()).filter(|&cell| scene.clearance(center(cell)) > 0.0).collect();
@@ -111,7 +111,7 @@ impl<'a> Oracle<'a> {
     fn cell(&self, at: [i64; 2]) -> Option<usize> {
         let on = |k: usize| {
             let n = self.cells[k] as i64;
-            let i = if self.scene.arm().topology().axes[k].is_circle() { at[k].rem_euclid(n) } else { at[k] };
+            let i = if self.scene.arm().topology().ranges[k].is_circle() { at[k].rem_euclid(n) } else { at[k] };
             usize::try_from(i).ok().filter(|&i| i < self.cells[k])
         };
         Some(on(0)? * self.cells[1] + on(1)?)
@@ -119,7 +119,7 @@ impl<'a> Oracle<'a> {
 
     /// The direction of the gradient of the bilinear interpolation of central differences; none beside obstacles.
     fn gradient(&self, q: [f64; 2]) -> Option<[f64; 2]> {
-        let at = [0, 1].map(|k| (q[k] - self.scene.arm().topology().axes[k].domain().0) / self.step[k] - 0.5);
+        let at = [0, 1].map(|k| (q[k] - self.scene.arm().topology().ranges[k].domain().0) / self.step[k] - 0.5);
         let least = at.map(|x| x.floor() as i64);
         let mut sum = [0.0; 2];
         for (i, j) in [(0, 0), (1, 0), (0, 1), (1, 1)] {

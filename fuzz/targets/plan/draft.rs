@@ -3,9 +3,9 @@
 use arbitrary::Arbitrary;
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, MotionProblem, Scene, Shape, Workspace,
+    Arm, Heights, Joint, Link, JointType, Obstacle, OutlineSource, Part, Plane, MotionProblem, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration, GoalSet};
+use cplan::space::{JointRange, Configuration, GoalSet};
 use nalgebra::Vector3;
 
 #[derive(Arbitrary, Debug)]
@@ -68,18 +68,18 @@ impl ShapeDraft {
 
 impl JointDraft {
     fn joint(&self, name: &str) -> Option<Joint> {
-        let span = |scale: f64| Axis::Interval {
+        let span = |scale: f64| JointRange::Interval {
             lower: -f64::from(self.lower) * scale,
             upper: (1.0 + f64::from(self.upper)) * scale,
         };
         let (motion, axis) = if self.turns {
-            let axis = if self.circle { Axis::Circle } else { span(1.0 / 64.0) };
-            (Motion::Revolute { sign: if self.reversed { -1.0 } else { 1.0 } }, axis)
+            let axis = if self.circle { JointRange::Circle } else { span(1.0 / 64.0) };
+            (JointType::Revolute { sign: if self.reversed { -1.0 } else { 1.0 } }, axis)
         } else {
             let direction = Vector::new(f64::from(self.direction.0), f64::from(self.direction.1)).try_normalize(0.0)?;
-            (Motion::Prismatic { direction }, span(1.0 / 128.0))
+            (JointType::Prismatic { direction }, span(1.0 / 128.0))
         };
-        Some(Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None })
+        Some(Joint { name: name.into(), joint_type: motion, range: axis, velocity: 1.0, acceleration: 1.0, jerk: None })
     }
 }
 
@@ -119,7 +119,7 @@ impl Draft {
         let topology = scene.arm().topology();
         let place = |(a, b): (i16, i16)| {
             Configuration::from_fn(|k, _| {
-                let (lower, upper) = topology.axes[k].domain();
+                let (lower, upper) = topology.ranges[k].domain();
                 let share = (f64::from([a, b][k]) + 32768.0) / 65535.0;
                 (lower + (upper - lower) * share).clamp(lower, upper)
             })

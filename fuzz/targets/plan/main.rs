@@ -6,7 +6,7 @@ mod draft;
 
 use cplan::check::{CertifiedPath, Disconnection, certify};
 use cplan::geometry::Convex;
-use cplan::model::{Motion, MotionProblem, Scene};
+use cplan::model::{JointType, MotionProblem, Scene};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::space::{Configuration, Path};
 use draft::Draft;
@@ -49,9 +49,9 @@ fn frames(scene: &Scene, q: Configuration) -> [(f64, Vector); 2] {
         if k == 1 {
             place += turned(angle, arm.offset.x, arm.offset.y);
         }
-        match arm.joints[k].motion {
-            Motion::Revolute { sign } => angle += sign * q[k],
-            Motion::Prismatic { direction } => place += turned(angle, direction.x * q[k], direction.y * q[k]),
+        match arm.joints[k].joint_type {
+            JointType::Revolute { sign } => angle += sign * q[k],
+            JointType::Prismatic { direction } => place += turned(angle, direction.x * q[k], direction.y * q[k]),
         }
         (angle, place)
     })

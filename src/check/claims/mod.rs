@@ -7,8 +7,8 @@ mod steps;
 
 pub use steps::{step_claims_kept, task_claims_kept};
 
+use super::collision::{CollisionCheck, check_collision};
 use super::motion::{Rejection, certify};
-use super::passage::{Passage, passage};
 use crate::model::{Arm, BlendsClaim, Claims, OptimumClaim, Scene};
 use crate::space::{Configuration, Metric, Path, Recording};
 use follow::follows;
@@ -122,17 +122,17 @@ impl Ledger {
     }
 
     /// A distance that is said to be kept in a scene, by what was found of the motion with the clearance asked for.
-    fn clearance(&mut self, stated: Option<Option<f64>>, scene: &Scene, recording: &Recording, found: &Passage) {
+    fn clearance(&mut self, stated: Option<Option<f64>>, scene: &Scene, recording: &Recording, found: &CollisionCheck) {
         let Some(stated) = stated else { return };
         let nearest = match found {
-            Passage::Free { nearest, clearance } => {
+            CollisionCheck::Free { nearest, clearance } => {
                 if stated.is_some_and(|stated| stated <= *clearance) {
                     return;
                 }
                 nearest.map(|nearest| nearest.contact)
             }
-            Passage::Collision { deepest, .. } => Some(deepest.contact),
-            Passage::Undecided(nearest) => Some(nearest.contact),
+            CollisionCheck::Collision { deepest, .. } => Some(deepest.contact),
+            CollisionCheck::Undecided(nearest) => Some(nearest.contact),
         };
         let Some(nearest) = nearest else { return };
         let Some(stated) = stated else {
@@ -159,8 +159,8 @@ fn nearer(
     if seen < stated {
         return Some((seen, pair));
     }
-    match passage(scene, recording, stated.max(0.0)) {
-        Passage::Collision { deepest, .. } => Some((deepest.contact.separation.distance, deepest.contact.pair)),
+    match check_collision(scene, recording, stated.max(0.0)) {
+        CollisionCheck::Collision { deepest, .. } => Some((deepest.contact.separation.distance, deepest.contact.pair)),
         _ => None,
     }
 }
@@ -170,7 +170,7 @@ fn nearer(
 /// itself is free and as long as stated, that no obstacle is nearer than the `clearance` stated, and that bounds and gaps go with
 /// lengths. That bounds are bounds is not.
 #[must_use]
-pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &Passage) -> Vec<FalseClaim> {
+pub fn claims_kept(scene: &Scene, recording: &Recording, claims: &Claims, found: &CollisionCheck) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
     ledger.general(scene.arm(), recording, claims);
     if let Some(path) = &claims.path {

@@ -18,9 +18,9 @@ pub fn step_claims_kept(
     index: usize,
 ) -> Vec<FalseClaim> {
     let mut ledger = Ledger::default();
-    let ReplayedStep { scene, passage, .. } = replayed;
+    let ReplayedStep { scene, collision_check, .. } = replayed;
     let Some(motion) = recording.part(replayed.recorded.samples.clone()) else { return Vec::new() };
-    ledger.clearance(whole.clearance, scene, &motion, passage);
+    ledger.clearance(whole.clearance, scene, &motion, collision_check);
     ledger.turn(task, replayed, whole.clearance.filter(Option::is_some), "clearance");
     ledger.within = format!("steps[{index}].");
     let Some(claims) = whole.task.steps.get(index) else { return ledger.found };
@@ -46,7 +46,7 @@ pub fn step_claims_kept(
     if let Some(path) = &claims.path {
         ledger.path(scene, &motion, path, claims.length, claims.blends);
     }
-    ledger.clearance(claims.clearance, scene, &motion, passage);
+    ledger.clearance(claims.clearance, scene, &motion, collision_check);
     ledger.turn(task, replayed, claims.clearance.filter(Option::is_some), "clearance");
     ledger.turn(task, replayed, claims.turn_clearance, "turn.clearance");
     ledger.found

@@ -13,7 +13,7 @@ pub use json::{ProofBox, ProofFormatError, read_proof};
 use super::cell::Cell;
 use crate::geometry::{Vector, penetration_depth};
 use crate::interrupt::checkpoint;
-use crate::model::{Motion, Pair, Scene};
+use crate::model::{JointType, Pair, Scene};
 use crate::space::{Configuration, GoalSet, Topology};
 use separation::not_separated;
 use serde::{Serialize, Serializer};
@@ -62,7 +62,7 @@ impl Serialize for CheckedProof {
 
 /// Why a claimed proof proves nothing.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum ProofDefect {
+pub enum ProofError {
     /// The box names shapes that cannot meet, or do not exist.
     #[error("stuck box {0} names a pair of shapes that the scene does not have")]
     UnknownPair(usize),
@@ -110,14 +110,14 @@ impl Disconnection {
     /// one another.
     ///
     /// # Errors
-    /// The first [`ProofDefect`].
+    /// The first [`ProofError`].
     pub fn checked(
         self,
         scene: &Scene,
         start: Configuration,
         goals: &GoalSet,
         clearance: f64,
-    ) -> Result<CheckedProof, ProofDefect> {
+    ) -> Result<CheckedProof, ProofError> {
         let topology = scene.arm().topology();
         for (index, stuck) in self.stuck.iter().enumerate() {
             check_box(scene, &topology, index, stuck, clearance)?;
@@ -125,7 +125,7 @@ impl Disconnection {
         }
         match not_separated(&topology, &self.stuck, start, goals) {
             None => Ok(CheckedProof { stuck: self.stuck.into() }),
-            Some(goal) => Err(ProofDefect::NotSeparated(goal)),
+            Some(goal) => Err(ProofError::NotSeparated(goal)),
         }
     }
 }
@@ -136,16 +136,16 @@ fn check_box(
     index: usize,
     stuck: &StuckBox,
     clearance: f64,
-) -> Result<(), ProofDefect> {
+) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     for k in 0..2 {
-        let (lower, upper) = topology.axes[k].domain();
+        let (lower, upper) = topology.ranges[k].domain();
         if !(lower <= cell.lower[k] && cell.lower[k] < cell.upper[k] && cell.upper[k] <= upper) {
-            return Err(ProofDefect::NotInDomain(index));
+            return Err(ProofError::NotInDomain(index));
         }
     }
     if scene.pairs().binary_search(&stuck.pair).is_err() {
-        return Err(ProofDefect::UnknownPair(index));
+        return Err(ProofError::UnknownPair(index));
     }
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
     // The middle is rounded: the farther of the two ends counts.
@@ -155,7 +155,7 @@ fn check_box(
     let depth = penetration_depth(&part, &piece);
     let motion = farthest(scene, stuck, middle, half);
     let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.coords.norm();
-    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofDefect::NotStuck { index, depth, motion }) }
+    if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotStuck { index, depth, motion }) }
 }
 
 /// Farthest that a corner of the link's part can move from where it is at `q` while each joint moves by at most `half`:
@@ -163,19 +163,19 @@ fn check_box(
 fn farthest(scene: &Scene, stuck: &StuckBox, q: Configuration, half: [f64; 2]) -> f64 {
     let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
-    let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].motion, arm.joints[1].motion) {
-        (0, Motion::Revolute { .. }, _) => a.norm() * chord(half[0]),
-        (0, Motion::Prismatic { .. }, _) => half[0],
-        (_, Motion::Revolute { .. }, Motion::Revolute { .. }) => {
+    let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+        (0, JointType::Revolute { .. }, _) => a.norm() * chord(half[0]),
+        (0, JointType::Prismatic { .. }, _) => half[0],
+        (_, JointType::Revolute { .. }, JointType::Revolute { .. }) => {
             arm.offset.norm() * chord(half[0]) + a.norm() * chord(half[0] + half[1])
         }
-        (_, Motion::Revolute { .. }, Motion::Prismatic { direction }) => {
+        (_, JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
             let at = |slide: f64| (arm.offset + direction * (q[1] + slide) + a).norm();
             // Joint 2 first, then the turn about the base at the farther of the two ends: distance is convex.
             half[1] + at(half[1]).max(at(-half[1])) * chord(half[0])
         }
-        (_, Motion::Prismatic { .. }, Motion::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
-        (_, Motion::Prismatic { .. }, Motion::Prismatic { .. }) => half[0] + half[1],
+        (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
+        (_, JointType::Prismatic { .. }, JointType::Prismatic { .. }) => half[0] + half[1],
     };
     scene.part(stuck.pair).core().iter().map(|p| of_corner(p.coords)).fold(0.0, f64::max)
 }

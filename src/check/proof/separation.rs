@@ -32,8 +32,8 @@ struct Slabs {
 
 impl Slabs {
     fn new(topology: &Topology, boxes: &[StuckBox]) -> Self {
-        let (left, right) = topology.axes[0].domain();
-        let (bottom, top) = topology.axes[1].domain();
+        let (left, right) = topology.ranges[0].domain();
+        let (bottom, top) = topology.ranges[1].domain();
         let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b.cell.lower[0], b.cell.upper[0]]).collect();
         ends.extend([left, right]);
         ends.sort_by(f64::total_cmp);
@@ -99,7 +99,7 @@ impl Slabs {
     fn groups(&self, topology: &Topology) -> UnionFind<usize> {
         let strips = self.first.len() - 1;
         let mut groups = UnionFind::new(self.gaps.len());
-        let round = topology.axes[0].is_circle().then_some((strips - 1, 0));
+        let round = topology.ranges[0].is_circle().then_some((strips - 1, 0));
         for (a, b) in (1..strips).map(|i| (i - 1, i)).chain(round) {
             let (mut i, mut j) = (self.strip(a).start, self.strip(b).start);
             while i < self.strip(a).end && j < self.strip(b).end {
@@ -110,8 +110,8 @@ impl Slabs {
                 if to_a < to_b { i += 1 } else { j += 1 }
             }
         }
-        if topology.axes[1].is_circle() {
-            let (bottom, top) = topology.axes[1].domain();
+        if topology.ranges[1].is_circle() {
+            let (bottom, top) = topology.ranges[1].domain();
             for strip in (0..strips).map(|i| self.strip(i)).filter(|s| !s.is_empty()) {
                 if self.gaps[strip.start][0] == bottom && self.gaps[strip.end - 1][1] == top {
                     groups.union(strip.start, strip.end - 1);
@@ -127,14 +127,14 @@ mod tests {
     use super::*;
     use crate::check::Cell;
     use crate::model::Pair;
-    use crate::space::Axis;
+    use crate::space::JointRange;
     use std::f64::consts::PI;
 
     /// A box all along one axis leaves two parts, which are one across the seam of the other axis if that is a circle.
     #[test]
     fn a_seam_joins_what_a_band_leaves() {
-        let turn = Axis::Circle;
-        let bounded = Axis::Interval { lower: -PI, upper: PI };
+        let turn = JointRange::Circle;
+        let bounded = JointRange::Interval { lower: -PI, upper: PI };
         for band in [0, 1] {
             let mut cell = Cell { lower: [-PI; 2], upper: [PI; 2] };
             cell.lower[band] = 0.0;
@@ -147,7 +147,7 @@ mod tests {
             for across in [turn, bounded] {
                 let mut axes = [turn; 2];
                 axes[band] = across;
-                let topology = Topology { axes };
+                let topology = Topology { ranges: axes };
                 let slabs = Slabs::new(&topology, &boxes);
                 let at = |q| slabs.locate(q).expect("no box holds it");
                 let joined = slabs.groups(&topology).equiv(at(below), at(above));

@@ -51,7 +51,7 @@ pub enum Fault {
     },
     /// The wrist turns faster than it can.
     #[error("the wrist turns in {seconds:.6} s, but needs {least:.6} s")]
-    Haste {
+    TooFast {
         /// What was recorded.
         seconds: f64,
         /// What it takes at the least.

@@ -10,10 +10,10 @@ mod state;
 
 pub use fault::{Departure, Fault};
 
-use super::{Excess, Passage, TurnContact, WristTurn, limits_kept, passage};
+use super::{CollisionCheck, Excess, TurnContact, WristTurn, check_collision, limits_kept};
 use crate::geometry::{Point, Pose};
 use crate::model::{Action, Goal, RecordedStep, RecordedTurn, Scene, Step, Task};
-use crate::space::{Axis, Configuration, Recording};
+use crate::space::{Configuration, JointRange, Recording};
 use order::{Matched, matched};
 use state::{State, stroke_seconds};
 
@@ -73,7 +73,7 @@ pub struct ReplayedStep<'a> {
     /// What the gripper does, if anything.
     pub event: Option<Happening>,
     /// The motion among the obstacles of the scene; moments are the whole recording's.
-    pub passage: Passage,
+    pub collision_check: CollisionCheck,
     /// Limits of the joints that the motion does not keep: their own, whatever share of them the step asks for.
     pub broken: Vec<Excess>,
     /// The turn of the wrist after it. None too for one that was recorded with nothing in the hand to turn, which is a fault.
@@ -97,7 +97,7 @@ pub struct Replay<'a> {
 /// Puts the steps of a record beside those of the task: fixed steps in order, pairs of a free group in any order, and between
 /// them the arm stands still. Iterating then judges, up to where the record departs from the task:
 ///
-/// - each motion from rest to rest, by [`passage`] with the workspace's clearance, in the scene of its moment: objects where
+/// - each motion from rest to rest, by [`check_collision`] with the workspace's clearance, in the scene of its moment: objects where
 ///   the steps before have left them; what is carried, held as the arm was when it took it; link 2 free to meet the object
 ///   that it goes to and the one that it has just let go of; payloads free to rest on their supports. The last step's end is judged after it, too. And by [`limits_kept`];
 /// - at its end, that the tip is at the grasp, the object or the arm where it was to go, within a micrometre; that turns
@@ -150,7 +150,8 @@ impl<'a> Iterator for Replay<'a> {
             _ => None,
         };
         let mut scene = self.state.scene(task, picked);
-        let mut passage = shifted(passage(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
+        let mut collision_check =
+            shifted(check_collision(&scene, &motion, task.workspace.clearance), *recorded.samples.start());
         let mut broken = limits_kept(&task.arm.joints, &motion);
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;
@@ -184,26 +185,26 @@ impl<'a> Iterator for Replay<'a> {
             + object.map_or(0.0, |object| stroke_seconds(task, object));
         let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
         if let (Some(below), Some(standing)) = (lowered, standing()) {
-            let found = super::passage(&below, &standing, task.workspace.clearance);
-            match (&mut passage, found) {
-                (Passage::Free { clearance, .. }, Passage::Free { clearance: least, .. }) => {
+            let found = super::check_collision(&below, &standing, task.workspace.clearance);
+            match (&mut collision_check, found) {
+                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
                     *clearance = clearance.min(least);
                 }
-                (Passage::Free { .. }, found) => {
-                    (scene, passage) = (below, shifted(found, *recorded.samples.end()));
+                (CollisionCheck::Free { .. }, found) => {
+                    (scene, collision_check) = (below, shifted(found, *recorded.samples.end()));
                 }
                 _ => {}
             }
         }
         // Where a step leaves the arm the next one begins; the last leaves it there, by what it came by.
         if self.next == self.matched.len()
-            && matches!(passage, Passage::Free { .. })
+            && matches!(collision_check, CollisionCheck::Free { .. })
             && let Some(standing) = standing()
         {
             let after = self.state.scene(task, released);
-            let found = super::passage(&after, &standing, task.workspace.clearance);
-            if !matches!(found, Passage::Free { .. }) {
-                (scene, passage) = (after, shifted(found, *recorded.samples.end()));
+            let found = super::check_collision(&after, &standing, task.workspace.clearance);
+            if !matches!(found, CollisionCheck::Free { .. }) {
+                (scene, collision_check) = (after, shifted(found, *recorded.samples.end()));
             }
         }
         if let Some(stood) = matched.rest.filter(|stood| *stood < asked - SHORT) {
@@ -227,7 +228,7 @@ impl<'a> Iterator for Replay<'a> {
             seconds,
             times,
             event,
-            passage,
+            collision_check,
             broken,
             turn,
             faults,
@@ -253,18 +254,18 @@ fn missed(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
 
 /// The difference between two orientations, from none to half a turn.
 pub(super) fn angle_between(a: f64, b: f64) -> f64 {
-    Axis::Circle.displacement(b, a).abs()
+    JointRange::Circle.displacement(b, a).abs()
 }
 
 /// What was found, with the samples counted from the beginning of the whole recording.
-fn shifted(mut passage: Passage, by: usize) -> Passage {
-    match &mut passage {
-        Passage::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),
-        Passage::Collision { first, deepest, .. } => {
+fn shifted(mut collision_check: CollisionCheck, by: usize) -> CollisionCheck {
+    match &mut collision_check {
+        CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),
+        CollisionCheck::Collision { first, deepest, .. } => {
             first.moment.sample += by;
             deepest.moment.sample += by;
         }
-        Passage::Undecided(nearest) => nearest.moment.sample += by,
+        CollisionCheck::Undecided(nearest) => nearest.moment.sample += by,
     }
-    passage
+    collision_check
 }

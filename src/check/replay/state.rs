@@ -41,11 +41,11 @@ impl State {
     }
 
     /// The scene as it is. Link 2 is free to meet the object just let go of, and another one.
-    pub fn scene(&self, task: &Task, spared: Option<usize>) -> Scene {
-        let spared: Vec<usize> =
-            self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
+    pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
+        let allowed_contacts: Vec<usize> =
+            self.released.into_iter().chain(allowed_contacts).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|(_, payload)| payload.clone());
-        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
+        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &allowed_contacts)
     }
 
     /// Takes the object that a step picks with the arm at `q`, held as it lies to the arm then; `then` is what it will rest
@@ -90,10 +90,10 @@ impl State {
     pub fn lowered(&self, task: &Task) -> Option<Scene> {
         let (stroke, (object, payload)) = task.stroke.as_ref().zip(self.held.as_ref())?;
         let object = &task.objects[*object];
-        let spared: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
+        let allowed_contacts: Vec<usize> = self.released.iter().map(|&object| task.obstacle_number(object)).collect();
         let payload = Payload { heights: object.handled_heights(), ..payload.clone() };
         let arm = stroke.swept(&task.arm, stroke.depth(object));
-        Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &spared))
+        Some(Scene::handling_trusted(arm, task.obstacles(&self.poses), Some(payload), &allowed_contacts))
     }
 
     /// Goes on after a motion without an event.
@@ -114,7 +114,7 @@ impl State {
             Some(wrist) => {
                 let least = least_seconds((turn.to - turn.from).abs(), wrist.velocity, wrist.acceleration);
                 if turn.seconds < least - SHORT {
-                    faults.push(Fault::Haste { seconds: turn.seconds, least });
+                    faults.push(Fault::TooFast { seconds: turn.seconds, least });
                 }
             }
             None => faults.push(Fault::NoWrist),

@@ -3,7 +3,7 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
-use crate::input::{self, DefectKind, Overrides, Refused, Suite};
+use crate::input::{self, DiagnosticKind, Overrides, Refused, Suite};
 use crate::model::{Joint, MotionProblem};
 use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
@@ -63,7 +63,7 @@ impl Cases {
     /// Reads what the arguments name.
     ///
     /// # Errors
-    /// Every defect of all files at once.
+    /// Every diagnostic of all files at once.
     pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
         let suite = match (&args.urdf, &args.world, &args.suite) {
             (Some(urdf), Some(world), _) => one(urdf, world)?,
@@ -146,10 +146,10 @@ fn problems(suite: Suite, overrides: &Overrides) -> Result<Bases, Failure> {
 
 /// Why a problem is not run, on a line.
 fn refusal(refused: &Refused) -> Refusal {
-    let defect = refused.error.defects().first();
-    let kind = match defect.map(|defect| defect.kind) {
-        Some(DefectKind::Start) => "start",
-        Some(DefectKind::Goal) => "goal",
+    let diagnostic = refused.error.diagnostics().first();
+    let kind = match diagnostic.map(|diagnostic| diagnostic.kind) {
+        Some(DiagnosticKind::Start) => "start",
+        Some(DiagnosticKind::Goal) => "goal",
         _ => "input",
     };
     let reason = refused.error.to_string().lines().next().unwrap_or_default().to_owned();

@@ -76,11 +76,11 @@ fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay 
         let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());
         found.map(|path| path.waypoints().iter().map(|q| [q[0], q[1]]).collect()).collect()
     };
-    let axes = scene.arm().topology().axes;
+    let axes = scene.arm().topology().ranges;
     Overlay {
         title: output::title_of(scene),
         joints: scene.arm().joints.each_ref().map(|joint| {
-            let around = if joint.axis.is_circle() { ", wraps around" } else { "" };
+            let around = if joint.range.is_circle() { ", wraps around" } else { "" };
             format!("{} [{}{around}]", joint.name, joint.unit())
         }),
         window: axes.map(|axis| axis.domain()),

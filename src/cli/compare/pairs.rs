@@ -38,7 +38,7 @@ pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configu
 }
 
 fn free(scene: &Scene, random: &mut SplitMix64) -> Option<Configuration> {
-    let axes = scene.arm().topology().axes;
+    let axes = scene.arm().topology().ranges;
     (0..MOST_DRAWS).find_map(|_| {
         let [q1, q2] = axes.map(|axis| {
             let (lower, upper) = axis.domain();

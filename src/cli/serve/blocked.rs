@@ -1,11 +1,11 @@
 //! A start or goal that cannot be taken, for a page: where it is, what is in the way, and in words that need no file.
 
 use super::protocol::{About, AnswerReply, BlockedReply, HitReply};
-use crate::input::{Defect, DefectKind, InputError, LoadedScene};
+use crate::input::{Diagnostic, DiagnosticKind, InputError, LoadedScene};
 use crate::model::{Goal, Obstruction, Scene, inverse};
 use crate::space::{Configuration, Segment};
 
-/// More postures are not drawn: they would hide each other.
+/// More configurations are not drawn: they would hide each other.
 const MOST_SHOWN: usize = 4;
 
 /// Depths below this, metres, are called touching.
@@ -14,14 +14,14 @@ const SHALLOW: f64 = 1e-9;
 /// The answer to a world of which something cannot be used.
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
     let [start, goal] = loaded.given();
-    let kinds = error.defects().iter().map(|defect| defect.kind);
-    let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DefectKind::Input) {
-        Some(DefectKind::Start) => (About::Start, "start", start),
-        Some(DefectKind::Goal) => (About::Goal, "goal", goal),
+    let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
+    let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
+        Some(DiagnosticKind::Start) => (About::Start, "start", start),
+        Some(DiagnosticKind::Goal) => (About::Goal, "goal", goal),
         _ => (About::World, "world", None),
     };
     let scene = &loaded.scene;
-    let blocked: Vec<_> = place.map_or_else(Vec::new, |place| postures(scene, place, near).collect());
+    let blocked: Vec<_> = place.map_or_else(Vec::new, |place| configurations(scene, place, near).collect());
     let is_hit = !blocked.is_empty() && blocked.iter().all(|(_, hits)| !hits.is_empty());
     let error = if is_hit { in_the_way(scene, what, &blocked) } else { without_places(error) };
     let reply = |(q, hits): &(Configuration, Vec<Obstruction>)| BlockedReply {
@@ -37,8 +37,8 @@ pub fn unread(error: &InputError) -> AnswerReply {
     AnswerReply { error: Some(without_places(error)), about: Some(About::World), ..AnswerReply::default() }
 }
 
-/// The postures that a place stands for, each with what is in its way: deepest first.
-fn postures(
+/// The configurations that a place stands for, each with what is in its way: deepest first.
+fn configurations(
     scene: &Scene,
     place: Goal,
     near: Configuration,
@@ -73,14 +73,14 @@ fn reply(obstruction: &Obstruction) -> HitReply {
 fn in_the_way(scene: &Scene, what: &str, blocked: &[(Configuration, Vec<Obstruction>)]) -> String {
     let one = |hits: &[Obstruction]| hits.iter().map(|hit| in_words(scene, hit)).collect::<Vec<_>>().join("; ");
     let touches = blocked.iter().all(|(_, hits)| hits.iter().any(|hit| hit.touches));
-    let cure = if touches { "Move" } else { "Ask for less clearance, or move" };
-    let cure = format!("{cure} the {what} or the obstacle.");
+    let help = if touches { "Move" } else { "Ask for less clearance, or move" };
+    let help = format!("{help} the {what} or the obstacle.");
     match blocked {
-        [(_, hits)] => format!("The {what} is blocked: {}. {cure}", one(hits)),
+        [(_, hits)] => format!("The {what} is blocked: {}. {help}", one(hits)),
         _ => {
             let each: Vec<String> =
-                blocked.iter().zip(1..).map(|((_, hits), k)| format!("posture {k}: {}", one(hits))).collect();
-            format!("The {what} is blocked, whichever way the arm bends. {}. {cure}", each.join(". "))
+                blocked.iter().zip(1..).map(|((_, hits), k)| format!("configuration {k}: {}", one(hits))).collect();
+            format!("The {what} is blocked, whichever way the arm bends. {}. {help}", each.join(". "))
         }
     }
 }
@@ -114,14 +114,14 @@ fn millimetres(metres: f64) -> String {
     if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
 }
 
-/// The defects without file, line and column: the page has written the text, and its user has not seen it.
+/// The diagnostics without file, line and column: the page has written the text, and its user has not seen it.
 fn without_places(error: &InputError) -> String {
-    let sentence = |defect: &Defect| {
-        let mut letters = defect.message.chars();
+    let sentence = |diagnostic: &Diagnostic| {
+        let mut letters = diagnostic.message.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
         format!("{first}{}", letters.as_str())
     };
-    let mut sentences: Vec<String> = error.defects().iter().map(sentence).collect();
+    let mut sentences: Vec<String> = error.diagnostics().iter().map(sentence).collect();
     sentences.dedup();
     sentences.join("\n")
 }

@@ -14,7 +14,7 @@ use crate::geometry::Point;
 use crate::input::{LoadedScene, Overrides};
 use crate::interrupt::{Interrupt, Interrupted};
 use crate::model::{Arm, Goal, Scene, inverse, within};
-use crate::space::{Axis, Configuration, Measure, Metric, Segment};
+use crate::space::{Configuration, JointRange, Measure, Metric, Segment};
 use std::cell::Cell;
 use std::time::{Duration, Instant};
 
@@ -75,13 +75,13 @@ impl<'a> Desk<'a> {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
         let pieces = names.zip(self.document.forms());
-        let limits = |axis: &Axis| match *axis {
-            Axis::Circle => None,
-            Axis::Interval { lower, upper } => Some([lower, upper]),
+        let limits = |axis: &JointRange| match *axis {
+            JointRange::Circle => None,
+            JointRange::Interval { lower, upper } => Some([lower, upper]),
         };
         let joint = |k: usize| {
             let joint = &arm.joints[k];
-            JointReply { name: joint.name.clone(), unit: joint.unit(), limits: limits(&joint.axis) }
+            JointReply { name: joint.name.clone(), unit: joint.unit(), limits: limits(&joint.range) }
         };
         Reply::World(Box::new(WorldReply {
             id,
@@ -287,10 +287,10 @@ fn time_up(limit: Duration) -> String {
     format!("not decided within {} s", limit.as_secs_f64())
 }
 
-/// The posture within the limits that puts the tip at a place and is nearest to another posture; where it does not reach
+/// The IK solution within the limits that puts the tip at a place and is nearest to some configuration; where it does not reach
 /// that far, as far as it can on the straight way from where the tip is then.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
-    let reached = |tip: Point| nearest_posture(arm, tip, near);
+    let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {
         return q;
     }
@@ -306,9 +306,9 @@ fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     best
 }
 
-fn nearest_posture(arm: &Arm, tip: Point, near: Configuration) -> Option<Configuration> {
+fn nearest_ik_solution(arm: &Arm, tip: Point, near: Configuration) -> Option<Configuration> {
     let topology = arm.topology();
-    let values = |q: Configuration, k: usize| within(arm.joints[k].axis, arm.joints[k].motion.is_revolute(), q[k]);
+    let values = |q: Configuration, k: usize| within(arm.joints[k].range, arm.joints[k].joint_type.is_revolute(), q[k]);
     let branches = inverse(arm, tip, near).branches.into_iter().flat_map(|q| {
         let second = values(q, 1);
         values(q, 0).into_iter().flat_map(move |a| second.clone().into_iter().map(move |b| Configuration::new(a, b)))

@@ -15,7 +15,7 @@
 //!   are, are kept (`contours`).
 //! - Menus come from the command line's grammar (`menus`); what nobody has chosen is not sent, so the page has no
 //!   defaults of its own.
-//! - Errors say what they are about; of a start or goal that is not free the postures and what is in their way
+//! - Errors say what they are about; of a start or goal that is not free the IK solutions and what is in their way
 //!   (`blocked`), in words that need no file.
 //! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number it was asked with.
 //!   The badge says certified only of the final answer to the present number, on a line that is up. Edits are kept in the

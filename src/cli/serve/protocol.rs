@@ -126,7 +126,7 @@ pub enum Begin {
         /// Base to tip.
         joints: Pair,
     },
-    /// Where the tip is here, in the posture nearest to another one.
+    /// Where the tip is here, in the IK solution nearest to some configuration.
     Tip {
         /// Place of the tip.
         tip: Pair,
@@ -141,7 +141,7 @@ pub enum Begin {
 pub enum End {
     /// To these joint values.
     Joints(Pair),
-    /// To any posture that puts the tip here.
+    /// To any IK solution that puts the tip here.
     Tip(Pair),
 }
 
@@ -254,7 +254,7 @@ pub struct AnswerReply {
     pub error: Option<String>,
     /// What that is about.
     pub about: Option<About>,
-    /// Postures of the start or the goal that are not free.
+    /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<BlockedReply>,
     /// `found`, `infeasible` or `unknown`; none with an error, and where the plan is not done.
     pub verdict: Option<&'static str>,
@@ -266,7 +266,7 @@ pub struct AnswerReply {
     pub figures: Figures,
     /// The start, whose joint values the page may not know.
     pub start: Option<Pair>,
-    /// Postures that fulfil the goal.
+    /// Configurations that fulfil the goal.
     pub goals: Vec<Pair>,
     /// The world as text; of final answers.
     pub toml: Option<String>,
@@ -288,12 +288,12 @@ pub enum About {
     Goal,
 }
 
-/// A posture that is not free.
+/// A configuration that is not free.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct BlockedReply {
     /// The joint values, in which it is not free.
     pub at: Pair,
-    /// What is in the way, deepest first; nothing where the posture is outside the joint limits.
+    /// What is in the way, deepest first; nothing where the configuration is outside the joint limits.
     pub hits: Vec<HitReply>,
 }
 

@@ -1,7 +1,7 @@
 //! What `verify` found, as data.
 
 use super::task::StepFinding;
-use crate::check::{Encounter, Excess, Limit, Moment, Passage};
+use crate::check::{CollisionCheck, Encounter, Excess, Limit, Moment};
 use crate::model::{Claims, Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;
@@ -132,11 +132,17 @@ pub(super) struct LimitFinding {
 
 impl Findings {
     /// Collects what the checks found of one motion.
-    pub fn new(scene: &Scene, recording: &Recording, passage: &Passage, broken: &[Excess], notes: Vec<String>) -> Self {
+    pub fn new(
+        scene: &Scene,
+        recording: &Recording,
+        collision_check: &CollisionCheck,
+        broken: &[Excess],
+        notes: Vec<String>,
+    ) -> Self {
         let timed = recording.times().is_some();
         Self {
-            verdict: verdict(passage, broken),
-            way: WayFinding::new(scene, passage, timed),
+            verdict: verdict(collision_check, broken),
+            way: WayFinding::new(scene, collision_check, timed),
             limits_broken: limits(&scene.arm().joints, broken, timed),
             notes,
             ..Self::of_nothing(scene, recording)
@@ -179,32 +185,32 @@ impl Findings {
 }
 
 /// What to say of a motion in a word.
-pub(super) fn verdict(passage: &Passage, broken: &[Excess]) -> Verdict {
-    match passage {
-        Passage::Collision { .. } => Verdict::Collision,
+pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Verdict {
+    match collision_check {
+        CollisionCheck::Collision { .. } => Verdict::Collision,
         _ if !broken.is_empty() => Verdict::Limits,
-        Passage::Free { .. } => Verdict::Free,
-        Passage::Undecided(_) => Verdict::Undecided,
+        CollisionCheck::Free { .. } => Verdict::Free,
+        CollisionCheck::Undecided(_) => Verdict::Undecided,
     }
 }
 
 impl WayFinding {
     /// What the check found of a motion, which has times or not.
-    pub fn new(scene: &Scene, passage: &Passage, timed: bool) -> Self {
+    pub fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
-        match passage {
-            Passage::Free { clearance, nearest } => Self {
+        match collision_check {
+            CollisionCheck::Free { clearance, nearest } => Self {
                 clearance: Some(*clearance).filter(|c| c.is_finite()),
                 nearest: nearest.as_ref().map(encounter),
                 ..Self::default()
             },
-            Passage::Collision { first, free_until, deepest } => Self {
+            CollisionCheck::Collision { first, free_until, deepest } => Self {
                 first_contact: Some(encounter(first)),
                 free_until: Some(*free_until),
                 deepest: Some(encounter(deepest)),
                 ..Self::default()
             },
-            Passage::Undecided(nearest) => Self { undecided: Some(encounter(nearest)), ..Self::default() },
+            CollisionCheck::Undecided(nearest) => Self { undecided: Some(encounter(nearest)), ..Self::default() },
         }
     }
 }

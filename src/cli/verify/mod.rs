@@ -9,7 +9,7 @@ use super::args::VerifyArgs;
 use super::failure::Failure;
 use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
-use crate::check::{ENDS_WITHIN, claims_kept, ends_kept, limits_kept, passage, replay};
+use crate::check::{ENDS_WITHIN, check_collision, claims_kept, ends_kept, limits_kept, replay};
 use crate::draw::Picture;
 use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 use crate::model::{Claims, RecordedStep, Scene};
@@ -86,11 +86,11 @@ fn judge_motion(
         }
         (false, false) => "where it begins and ends is not judged".into(),
     });
-    let passage = passage(scene, recording, scene.workspace().clearance);
+    let collision_check = check_collision(scene, recording, scene.workspace().clearance);
     let broken = limits_kept(&scene.arm().joints, recording);
-    let findings = Findings::new(scene, recording, &passage, &broken, notes);
+    let findings = Findings::new(scene, recording, &collision_check, &broken, notes);
     let misses = ends_kept(scene.arm(), recording, start, goal);
-    let false_claims = claims_kept(scene, recording, claims, &passage);
+    let false_claims = claims_kept(scene, recording, claims, &collision_check);
     Ok(findings.but(Verdict::Ends, misses).but(Verdict::Claims, false_claims).leaving(claims))
 }
 

@@ -59,7 +59,7 @@ pub(super) struct TurnContactFinding {
 
 impl StepFinding {
     fn new(task: &Task, replayed: &ReplayedStep) -> Self {
-        let ReplayedStep { step, recorded, scene, passage, broken, faults, .. } = replayed;
+        let ReplayedStep { step, recorded, scene, collision_check, broken, faults, .. } = replayed;
         let name = |object: usize| task.objects[object].name.clone();
         let turn = replayed.turn.map(|turn| TurnFinding::new(scene, &turn));
         let of_turn = match &turn {
@@ -73,11 +73,11 @@ impl StepFinding {
             action: step.action.describe(&task.objects),
             object: replayed.object.map(name),
             carried: replayed.carried.map(name),
-            verdict: verdict(passage, broken).max(of_turn).max(of_faults),
+            verdict: verdict(collision_check, broken).max(of_turn).max(of_faults),
             first_sample: *recorded.samples.start(),
             last_sample: *recorded.samples.end(),
             seconds: replayed.seconds,
-            way: WayFinding::new(scene, passage, true),
+            way: WayFinding::new(scene, collision_check, true),
             turn,
             limits_broken: limits(&scene.arm().joints, broken, true),
             faults: faults.iter().map(ToString::to_string).collect(),

@@ -93,7 +93,7 @@ fn keys(picture: &TaskPicture) -> Vec<Key> {
     if legs.iter().any(|leg| leg.event.is_some()) {
         keys.push((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned()));
     }
-    let unreached = || picture.answer.impossible().into_iter().flat_map(|fails| &fails.postures);
+    let unreached = || picture.answer.impossible().into_iter().flat_map(|fails| &fails.ik_solutions);
     keys.extend(unreached().next().map(|_| (Sign::Unreached, "not reached".to_owned())));
     let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
     keys.extend(unreached().next().map(|_| (Sign::Line(pen), "the arm there".to_owned())));

@@ -20,7 +20,7 @@ pub struct Panel<'a> {
     /// World and payload, with link 2 free of nothing.
     pub scene: Scene,
     /// The obstacles that link 2 may reach into, in some of the motions at least.
-    pub spared: Vec<usize>,
+    pub allowed_contacts: Vec<usize>,
     /// The motions that take place in this world.
     pub motions: Vec<&'a Leg>,
     /// Where the arm is at first.
@@ -35,20 +35,27 @@ impl<'a> Panel<'a> {
     pub fn new(state: &PayloadState<'a>, task: &Task, rounds: usize) -> Option<Self> {
         let first = state.motions.first()?;
         let scenes: Vec<&Scene> = state.motions.iter().map(|leg| &*leg.scene).collect();
-        let (scene, spared) = unspared(task, &first.scene, &scenes);
+        let (scene, allowed_contacts) = without_allowed_contacts(task, &first.scene, &scenes);
         let start = first.timed.curve.curve().path().start();
-        Some(Self { title: state.title(rounds), scene, spared, motions: state.motions.clone(), start, fails: None })
+        Some(Self {
+            title: state.title(rounds),
+            scene,
+            allowed_contacts,
+            motions: state.motions.clone(),
+            start,
+            fails: None,
+        })
     }
 
     /// The panel of the motion that fails: where the arm stands and where it cannot go.
     #[must_use]
     pub fn failing(fails: &'a Impossible, task: &Task) -> Self {
-        let (scene, spared) = unspared(task, &fails.scene, &[&*fails.scene]);
+        let (scene, allowed_contacts) = without_allowed_contacts(task, &fails.scene, &[&*fails.scene]);
         let payload = describe(scene.payload().map(|payload| payload.object.as_str()));
         let (number, cycle) = (fails.step.number, fails.step.cycle);
         let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
         let title = format!("{number} fails: {payload}{round}");
-        Self { title, scene, spared, motions: Vec::new(), start: fails.from, fails: Some(fails) }
+        Self { title, scene, allowed_contacts, motions: Vec::new(), start: fails.from, fails: Some(fails) }
     }
 
     /// The panel of the world as it is at first, without motions.
@@ -56,7 +63,14 @@ impl<'a> Panel<'a> {
     pub fn at_start(task: &Task) -> Self {
         let poses: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
         let scene = Scene::trusted(task.arm.clone(), task.obstacles(&poses));
-        Self { title: describe(None), scene, spared: Vec::new(), motions: Vec::new(), start: task.start, fails: None }
+        Self {
+            title: describe(None),
+            scene,
+            allowed_contacts: Vec::new(),
+            motions: Vec::new(),
+            start: task.start,
+            fails: None,
+        }
     }
 
     /// Draws it, without values and titles of the axes.
@@ -69,20 +83,20 @@ impl<'a> Panel<'a> {
         let curves: Vec<_> = self.motions.iter().map(|leg| leg.timed.curve.curve().outline()).collect();
         let pens = self.motions.iter().map(|leg| motion_pen(picture.task, leg));
         inside.extend(page::lines(curves.iter().map(|path| chart.outline(path)).zip(pens)));
-        let unreached = || self.fails.iter().flat_map(|fails| &fails.postures);
+        let unreached = || self.fails.iter().flat_map(|fails| &fails.ik_solutions);
         let proofs = unreached().filter_map(|unreached| unreached.proof.as_ref());
         inside.extend(proofs.map(|proof| boxes::proof(proof.stuck(), frame)));
         let mut items = vec![Item::Clip(frame.rect, inside)];
         items.extend(frame.sides(chart.seams()));
         items.extend(curves.iter().flat_map(|path| goal_marker(chart.place(path.goal()), true)));
-        items.extend(unreached().flat_map(|unreached| goal_marker(chart.place(unreached.posture), false)));
+        items.extend(unreached().flat_map(|unreached| goal_marker(chart.place(unreached.ik_solution), false)));
         items.extend(start_marker(chart.place(self.start)));
         let mut numbers = Vec::new();
         for (leg, path) in self.motions.iter().zip(&curves) {
             tags::add(&mut numbers, chart.place(path.goal()), leg.step.number);
         }
         if let Some(fails) = self.fails {
-            unreached().for_each(|to| tags::add(&mut numbers, chart.place(to.posture), fails.step.number));
+            unreached().for_each(|to| tags::add(&mut numbers, chart.place(to.ik_solution), fails.step.number));
         }
         if numbers.len() > 1 {
             items.extend(tags::items(&numbers, frame.rect, &[], &[]));
@@ -95,16 +109,17 @@ impl<'a> Panel<'a> {
     fn c_obstacles(&self, picture: &TaskPicture, chart: &Chart) -> Vec<Item> {
         let whole = (picture.c_obstacles)(&self.scene);
         let mut items = Vec::new();
-        let solid = if self.spared.is_empty() {
+        let solid = if self.allowed_contacts.is_empty() {
             whole
         } else {
             let (arm, workspace) = (picture.task.arm.clone(), self.scene.workspace().clone());
-            let spares = Scene::handling_trusted(arm, workspace, self.scene.payload().cloned(), &self.spared);
-            for &obstacle in &self.spared {
+            let with_allowed_contacts =
+                Scene::handling_trusted(arm, workspace, self.scene.payload().cloned(), &self.allowed_contacts);
+            for &obstacle in &self.allowed_contacts {
                 let contours = whole.iter().filter(|c| c.obstacle == obstacle && c.link == 1);
                 items.push(chart.c_obstacle(contours, passable(color::obstacle(obstacle))));
             }
-            (picture.c_obstacles)(&spares)
+            (picture.c_obstacles)(&with_allowed_contacts)
         };
         for obstacle in 0..self.scene.workspace().obstacles.len() {
             let contours = solid.iter().filter(|c| c.obstacle == obstacle);
@@ -116,15 +131,15 @@ impl<'a> Panel<'a> {
 
 /// World and payload of a scene with link 2 free of nothing, and the obstacles that it may reach into in some of these
 /// scenes, which differ in nothing else.
-fn unspared(task: &Task, scene: &Scene, scenes: &[&Scene]) -> (Scene, Vec<usize>) {
+fn without_allowed_contacts(task: &Task, scene: &Scene, scenes: &[&Scene]) -> (Scene, Vec<usize>) {
     let all = Scene::handling_trusted(task.arm.clone(), scene.workspace().clone(), scene.payload().cloned(), &[]);
     let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
-    let spared = |obstacle: &usize| {
+    let allowed_contacts = |obstacle: &usize| {
         let most = pairs(&all, *obstacle);
         scenes.iter().any(|scene| pairs(scene, *obstacle) < most)
     };
-    let spared = (0..all.workspace().obstacles.len()).filter(spared).collect();
-    (all, spared)
+    let allowed_contacts = (0..all.workspace().obstacles.len()).filter(allowed_contacts).collect();
+    (all, allowed_contacts)
 }
 
 /// How the C-obstacle of an obstacle is drawn that link 2 may reach into.

@@ -2,9 +2,9 @@
 
 use super::states::PayloadState;
 use super::{TaskPicture, motion_pen, object_color, tags};
+use crate::draw::arm::{self, GOAL, START, UNREACHED};
 use crate::draw::color::{self, BARRED, INK, WHITE};
 use crate::draw::figure::{Item, Rect, Spot, Step, Style};
-use crate::draw::posture::{self, GOAL, START, UNREACHED};
 use crate::draw::workspace::{framed, ground, tip_trace};
 use crate::draw::{extent, page, preferences, shapes};
 use crate::engine::task::{Event, Leg};
@@ -34,13 +34,14 @@ pub fn panel(picture: &TaskPicture, states: &[PayloadState], area: Rect) -> Vec<
     inside.extend(placed.iter().map(|(k, object)| shapes::dashed(&frame, object, object_color(task, *k))));
     inside.extend(preferences::in_workspace(&task.workspace.preferences, &frame));
     let fails = picture.answer.impossible();
-    let unreached = || fails.into_iter().flat_map(|fails| fails.postures.iter().map(move |to| (fails, to.posture)));
-    inside.extend(unreached().flat_map(|(fails, q)| posture::items(&frame, &fails.scene, q, &UNREACHED)));
-    inside.extend(posture::items(&frame, &overview, task.start, &START));
+    let unreached =
+        || fails.into_iter().flat_map(|fails| fails.ik_solutions.iter().map(move |to| (fails, to.ik_solution)));
+    inside.extend(unreached().flat_map(|(fails, q)| arm::items(&frame, &fails.scene, q, &UNREACHED)));
+    inside.extend(arm::items(&frame, &overview, task.start, &START));
     if let Some(last) = legs.last() {
         // What was let go of at the end lies there.
         let scene = if last.event.is_some() { &overview } else { &*last.scene };
-        inside.extend(posture::items(&frame, scene, last.timed.curve.curve().path().goal(), &GOAL));
+        inside.extend(arm::items(&frame, scene, last.timed.curve.curve().path().goal(), &GOAL));
     }
     let motions = || states.iter().flat_map(|state| &state.motions);
     let trace = |leg: &Leg| tip_trace(&frame, arm, &leg.timed.curve.curve().outline());

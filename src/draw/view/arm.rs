@@ -1,9 +1,9 @@
-//! The arm: enough of it to put it into any posture.
+//! The arm: enough of it to put it into any configuration.
 
 use super::super::workspace;
 use super::round::Grain;
 use crate::geometry::Convex;
-use crate::model::{Joint, Motion, Scene};
+use crate::model::{Joint, JointType, Scene};
 use serde::Serialize;
 
 /// A rounded convex polygon.
@@ -91,17 +91,17 @@ impl ArmView {
 
 /// Unrounded: what comes of these numbers is multiplied and added up.
 fn joint(joint: &Joint) -> JointView {
-    let (sign, direction) = match joint.motion {
-        Motion::Revolute { sign } => (Some(sign), None),
-        Motion::Prismatic { direction } => (None, Some([direction.x, direction.y])),
+    let (sign, direction) = match joint.joint_type {
+        JointType::Revolute { sign } => (Some(sign), None),
+        JointType::Prismatic { direction } => (None, Some([direction.x, direction.y])),
     };
     JointView {
         name: joint.name.clone(),
         unit: joint.unit(),
         sign,
         direction,
-        domain: joint.axis.domain().into(),
-        circle: joint.axis.is_circle(),
+        domain: joint.range.domain().into(),
+        circle: joint.range.is_circle(),
         velocity: joint.velocity,
         acceleration: joint.acceleration,
     }

@@ -26,7 +26,7 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let begin = |k: usize, i: usize| (i as f64 + 0.5) / BEGINNINGS as f64 * (size[k] - 1) as f64;
     let beginnings = (0..BEGINNINGS).flat_map(|i| (0..BEGINNINGS).map(move |j| [i, j]));
     let lines = beginnings.map(|[i, j]| line(samples, [begin(0, i), begin(1, j)]));
-    let domain = topology.axes.map(|axis| axis.domain());
+    let domain = topology.ranges.map(|axis| axis.domain());
     let clamp = |q: [f64; 2]| [0, 1].map(|k| q[k].clamp(domain[k].0, domain[k].1));
     lines.filter(|line| line.len() > 2).map(|line| line.into_iter().map(clamp).collect()).collect()
 }
@@ -83,10 +83,10 @@ fn place(samples: &Samples, at: Spot) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::Axis;
+    use crate::space::JointRange;
 
     fn topology() -> Topology {
-        Topology { axes: [Axis::Interval { lower: -1.0, upper: 1.0 }; 2] }
+        Topology { ranges: [JointRange::Interval { lower: -1.0, upper: 1.0 }; 2] }
     }
 
     fn samples(f: impl Fn(f64, f64) -> f64) -> Samples {

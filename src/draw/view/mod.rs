@@ -20,7 +20,7 @@ mod world;
 
 pub use html::{page, shell};
 
-use super::{Picture, Posture, TaskPicture, extent};
+use super::{ArmPicture, Picture, TaskPicture, extent};
 use crate::model::Status;
 use crate::motion::Trajectory;
 use crate::space::Segment;
@@ -30,7 +30,7 @@ use round::Grain;
 use serde::{Serialize, Serializer};
 use world::WorldView;
 
-/// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a posture.
+/// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a configuration.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
@@ -110,14 +110,14 @@ impl View {
 
     /// The view of an arm in one configuration, without its configuration space.
     #[must_use]
-    pub fn of_posture(posture: &Posture) -> Self {
-        let grain = Grain::of(posture.scene.arm());
-        let frames = posture.frames.iter().map(|frame| FrameView {
+    pub fn of_arm(arm_picture: &ArmPicture) -> Self {
+        let grain = Grain::of(arm_picture.scene.arm());
+        let frames = arm_picture.frames.iter().map(|frame| FrameView {
             name: frame.name.clone(),
             at: grain.point(frame.at),
             axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(|x| grain.number(x))),
         });
-        Self { frames: frames.collect(), ..Self::of_picture(&posture.picture(), None, Vec::new(), None) }
+        Self { frames: frames.collect(), ..Self::of_picture(&arm_picture.picture(), None, Vec::new(), None) }
     }
 
     /// The view of a task: a world for each set of motions that share one.

@@ -28,8 +28,8 @@ impl Grain {
     /// That of an arm: its reach for lengths, a radian or the stroke for joints.
     #[must_use]
     pub fn of(arm: &Arm) -> Self {
-        let stroke = |k: usize| arm.joints[k].axis.extent().max(f64::MIN_POSITIVE);
-        let joints = [0, 1].map(|k| grains(if arm.joints[k].motion.is_revolute() { 1.0 } else { stroke(k) }));
+        let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
+        let joints = [0, 1].map(|k| grains(if arm.joints[k].joint_type.is_revolute() { 1.0 } else { stroke(k) }));
         Self { lengths: grains(arm.reach()), joints }
     }
 

@@ -86,8 +86,8 @@ impl Worlds<'_> {
     /// The world of the step that fails, with what proves that.
     fn failing(&mut self, fails: &Impossible) -> usize {
         let world = self.add(&fails.scene);
-        let proofs = fails.postures.iter().filter_map(|to| to.proof.as_ref());
-        let unreached = fails.postures.iter().map(|to| self.grain.configuration(to.posture)).collect();
+        let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
+        let unreached = fails.ik_solutions.iter().map(|to| self.grain.configuration(to.ik_solution)).collect();
         self.views[world] = self.views[world].clone().proven(proofs, self.grain).without(unreached);
         world
     }

@@ -25,8 +25,9 @@ pub struct LevelView {
 pub enum TraceView {
     /// Arcs of the visibility graph: both ends of each.
     Roadmap { edges: Vec<f64>, whole: bool },
-    /// Free stretches of rows: both ends of each.
-    Rows { free: Vec<f64> },
+    /// Free stretches of slices: both ends of each.
+    #[serde(rename = "rows")]
+    Slices { free: Vec<f64> },
     /// Cells of the decomposition, and which of them make the channel.
     Channel { cells: Vec<Vec<f64>>, channel: Vec<usize> },
     /// Boxes of a subdivision: least and greatest values of each.
@@ -52,7 +53,7 @@ impl TraceView {
             Trace::Roadmap { edges, whole } => {
                 Self::Roadmap { edges: grain.configurations(edges.iter().flatten()), whole: *whole }
             }
-            Trace::Rows { free } => Self::Rows { free: boxes(free) },
+            Trace::Slices { free } => Self::Slices { free: boxes(free) },
             Trace::Channel { cells, channel } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),

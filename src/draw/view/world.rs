@@ -88,7 +88,7 @@ pub struct WorldView {
     trace: Option<TraceView>,
     /// Boxes that prove that there is no path: least and greatest values of each.
     proof: Vec<f64>,
-    /// Postures that were to be reached and are not.
+    /// Configurations that were to be reached and are not.
     unreached: Vec<[f64; 2]>,
 }
 
@@ -120,7 +120,7 @@ impl WorldView {
         Self { trace: TraceView::new(trace, topology, grain), ..self }
     }
 
-    /// The same with postures that are not reached.
+    /// The same with configurations that are not reached.
     pub fn without(self, unreached: Vec<[f64; 2]>) -> Self {
         Self { unreached, ..self }
     }
@@ -160,7 +160,7 @@ fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
     let own = scene.own_parts(1).len();
     Some(PayloadView {
         object: payload.object.clone(),
-        color: crate::draw::posture::payload_color(scene).to_string(),
+        color: crate::draw::arm::payload_color(scene).to_string(),
         pieces: shapes(&payload.pieces),
         grip: match payload.grip {
             Grip::Rigid(pose) => GripView::Rigid(

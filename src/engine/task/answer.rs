@@ -115,7 +115,7 @@ impl Leg {
     }
 }
 
-/// What became of a task: all steps can be done as planned; it cannot be done, whatever the postures and the order: proven; or
+/// What became of a task: all steps can be done as planned; it cannot be done, whatever the IK solutions and the order: proven; or
 /// neither is known within the effort. Both name the step that fails.
 pub type TaskVerdict = Outcome<(), Impossible, Impossible>;
 
@@ -128,7 +128,7 @@ pub struct TaskAnswer {
     pub legs: Vec<Leg>,
     /// No sequence of motions that does the whole task, from rest to rest at each step, takes less: proven, seconds.
     pub lower_bound: f64,
-    /// Whether no other choice of postures, turns and order is faster with the motions that this planner finds.
+    /// Whether no other choice of IK solutions, turns and order is faster with the motions that this planner finds.
     pub exact: bool,
     /// Motions that were planned, those that were not needed in the end included.
     pub motions: usize,

@@ -6,9 +6,9 @@ use crate::check::CheckedProof;
 use crate::model::Task;
 use serde::Serialize;
 
-/// A posture at a step's target that the arm cannot take, or is not known to.
+/// An IK solution at a step's target that the arm cannot take, or is not known to.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct PostureReport {
+pub struct IkSolutionReport {
     /// The values of both joints, radians or metres.
     pub joints: [f64; 2],
     /// Why the arm cannot take it, in words.
@@ -18,9 +18,9 @@ pub struct PostureReport {
     pub proof: Option<CheckedProof>,
 }
 
-impl From<&Unreached> for PostureReport {
-    fn from(Unreached { posture, reason, proof }: &Unreached) -> Self {
-        Self { joints: [posture[0], posture[1]], reason: reason.clone(), proof: proof.clone() }
+impl From<&Unreached> for IkSolutionReport {
+    fn from(Unreached { ik_solution, reason, proof }: &Unreached) -> Self {
+        Self { joints: [ik_solution[0], ik_solution[1]], reason: reason.clone(), proof: proof.clone() }
     }
 }
 
@@ -44,13 +44,14 @@ pub struct FailedStep {
     pub carried: Option<String>,
     /// Joint values after the steps before.
     pub from: [f64; 2],
-    /// The postures that were tried from there; none if no posture within the joint limits reaches the target.
-    pub postures: Vec<PostureReport>,
+    /// The IK solutions that were tried from there; none if no IK solution within the joint limits reaches the target.
+    #[serde(rename = "postures")]
+    pub ik_solutions: Vec<IkSolutionReport>,
 }
 
 impl FailedStep {
     pub(super) fn new(task: &Task, why: &Impossible) -> Self {
-        let Impossible { step, reasons, scene, from, postures } = why;
+        let Impossible { step, reasons, scene, from, ik_solutions } = why;
         Self {
             step: step.number,
             cycle: step.cycle,
@@ -60,7 +61,7 @@ impl FailedStep {
             reasons: reasons.clone(),
             carried: scene.payload().map(|payload| payload.object.clone()),
             from: [from[0], from[1]],
-            postures: postures.iter().map(PostureReport::from).collect(),
+            ik_solutions: ik_solutions.iter().map(IkSolutionReport::from).collect(),
         }
     }
 }

@@ -12,11 +12,11 @@ const NAMED: usize = 4;
 /// Digits behind the point of joint values in words.
 const DIGITS: i32 = 4;
 
-/// A posture at the target of a step that the arm cannot take, or is not known to.
+/// An IK solution at the target of a step that the arm cannot take, or is not known to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unreached {
     /// The values of both joints.
-    pub posture: Configuration,
+    pub ik_solution: Configuration,
     /// Why, in words.
     pub reason: String,
     /// That boxes of colliding configurations separate it from where the arm stands, where that is the reason.
@@ -28,15 +28,15 @@ pub struct Unreached {
 pub struct Impossible {
     /// The first step that cannot be done after as many as possible before it.
     pub step: Step,
-    /// Why, in words, with the motions that were tried: also those from other postures, or with other grips, than the
+    /// Why, in words, with the motions that were tried: also those from other IK solutions, or with other grips, than the
     /// steps before end with in the answer.
     pub reasons: Vec<String>,
     /// The world after the steps before, as it is for the motion that fails, and what is carried.
     pub scene: Arc<Scene>,
     /// Where the arm stands then.
     pub from: Configuration,
-    /// The postures that were tried from there; none if no posture within the joint limits reaches the target.
-    pub postures: Vec<Unreached>,
+    /// The IK solutions that were tried from there; none if no IK solution within the joint limits reaches the target.
+    pub ik_solutions: Vec<Unreached>,
 }
 
 /// A step that could not be done.
@@ -46,23 +46,23 @@ pub(super) struct Refused<'a> {
     /// The node of the search from which it was tried.
     pub node: usize,
     pub step: &'a Step,
-    /// With which posture; none if there is none.
-    pub posture: Option<Configuration>,
+    /// With which IK solution; none if there is none.
+    pub ik_solution: Option<Configuration>,
     pub refusal: Refusal,
 }
 
 impl Refused<'_> {
-    /// The posture that is out of reach, if there is one.
+    /// The IK solution that is out of reach, if there is one.
     pub fn unreached(&self) -> Option<Unreached> {
         let Refusal { reason, proof, .. } = &self.refusal;
-        self.posture.map(|posture| Unreached { posture, reason: reason.clone(), proof: proof.clone() })
+        self.ik_solution.map(|ik_solution| Unreached { ik_solution, reason: reason.clone(), proof: proof.clone() })
     }
 }
 
 /// A motion that was tried, and why it is refused.
 pub(super) struct Tried<'a> {
     pub from: Configuration,
-    /// None where there is no posture at the target.
+    /// None where there is no IK solution at the target.
     pub to: Option<Configuration>,
     pub reason: &'a str,
 }

@@ -6,9 +6,9 @@
 
 use super::answer::{Event, Leg};
 use super::sequence::Sequence;
-use crate::model::{Driver, Drives, Holding, Motion, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
+use crate::model::{Driver, Drives, Holding, JointType, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use crate::motion::{AccelerationJump, JointMotion, nanoseconds, seconds, single, whole_nanoseconds};
-use crate::space::Axis;
+use crate::space::JointRange;
 use thiserror::Error;
 
 /// Why messages cannot name all joints as asked.
@@ -176,9 +176,9 @@ impl Tool<'_> {
 
     /// By how much link 2 is turned, or how fast.
     fn turned(&self, planned: [f64; 2]) -> f64 {
-        let of = |k: usize| match self.task.arm.joints[k].motion {
-            Motion::Revolute { sign } => sign * planned[k],
-            Motion::Prismatic { .. } => 0.0,
+        let of = |k: usize| match self.task.arm.joints[k].joint_type {
+            JointType::Revolute { sign } => sign * planned[k],
+            JointType::Prismatic { .. } => 0.0,
         };
         of(0) + of(1)
     }
@@ -241,8 +241,8 @@ fn beyond(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<Str
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
         return Some(format!("turn at {:.3} rad/s, and its top speed is {} rad/s", rate.abs(), limits.velocity));
     }
-    match joint.axis {
-        Axis::Interval { lower, upper } if value < lower - ROUNDING || value > upper + ROUNDING => {
+    match joint.range {
+        JointRange::Interval { lower, upper } if value < lower - ROUNDING || value > upper + ROUNDING => {
             Some(format!("be at {value:.3} rad, outside its limits [{lower}, {upper}] rad"))
         }
         _ => None,

@@ -336,8 +336,8 @@ fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> Scen
     let mut key = Vec::new();
     let picked = step.action.picked();
     for (object, pose) in from.poses.iter().enumerate().filter(|(object, _)| matters(*object)) {
-        let spared = from.released == Some(object) || picked == Some(object);
-        key.extend([object as u64, u64::from(spared)]);
+        let allowed_contacts = from.released == Some(object) || picked == Some(object);
+        key.extend([object as u64, u64::from(allowed_contacts)]);
         match pose {
             None => key.push(u64::MAX),
             Some(pose) => key.extend([pose.translation.x, pose.translation.y, pose.rotation.angle()].map(f64::to_bits)),

@@ -1,4 +1,4 @@
-//! From a task to a sequence of certified motions: which posture to take at each target, how to grip, and in which
+//! From a task to a sequence of certified motions: which IK solution to take at each target, how to grip, and in which
 //! order, are chosen together, for the least total time.
 //!
 //! Each motion has a scene of its own: objects lie where the steps before have left them, and what is carried is part of
@@ -7,7 +7,7 @@
 //!
 //! [`plan`] searches a layered graph, whose nodes say what is done, where the arm and the objects are, and what is
 //! carried, by A* over times. Motions are planned only when they matter: until then an edge counts as the time that the
-//! joints would take if nothing were in the way, which no motion undercuts. Such times to the end, over all postures (and
+//! joints would take if nothing were in the way, which no motion undercuts. Such times to the end, over all IK solutions (and
 //! orders, by a table of subsets), are the heuristic; at the start they bound the whole task from below.
 //!
 //! # Scenes
@@ -44,10 +44,10 @@ mod joints;
 mod legs;
 mod least_time;
 mod order;
-mod outlook;
+mod heuristic;
 mod part;
 mod plan;
-mod postures;
+mod ik_solutions;
 mod report;
 mod search;
 mod sequence;
@@ -56,7 +56,7 @@ mod step_report;
 mod stroke;
 
 pub use answer::{Event, Leg, TaskAnswer, TaskVerdict};
-pub use failed_step::{FailedStep, PostureReport};
+pub use failed_step::{FailedStep, IkSolutionReport};
 pub use impossible::{Impossible, Unreached};
 pub use joints::MessageError;
 pub use least_time::rest_to_rest;

@@ -6,8 +6,8 @@
 
 use super::Manner;
 use super::answer::TaskVerdict;
+use super::heuristic::Heuristic;
 use super::legs::Legs;
-use super::outlook::Outlook;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
 use crate::model::{Action, Item, Shape, Task};
@@ -37,10 +37,10 @@ pub(super) fn impossible(
     let parts = [vec![first]].into_iter().chain(others.iter().map(|&other| vec![first, other])).chain(together);
     parts.into_iter().find_map(|part| {
         let alone = part_of(task, item, &part)?;
-        let outlook = Outlook::new(&alone);
+        let heuristic = Heuristic::new(&alone);
         // With legs of its own: its objects are not the same.
         let mut legs = Legs::new(*manner);
-        let mut search = Search::new(&alone, &outlook, &mut legs);
+        let mut search = Search::new(&alone, &heuristic, &mut legs);
         let ending = search.run(limits(&alone, MOTIONS), progress);
         if ending != Ending::Dry {
             return None;

@@ -2,9 +2,9 @@
 
 use super::Manner;
 use super::answer::{TaskAnswer, TaskVerdict};
+use super::heuristic::Heuristic;
 use super::legs::Legs;
 use super::order::{Orders, Outcome};
-use super::outlook::Outlook;
 use super::part;
 use super::search::{Ending, Limits, Search};
 use super::state::State;
@@ -28,28 +28,28 @@ const CLOSE: f64 = 1.15;
 /// States for each step of a task, beside these: long tasks have more of them.
 const EXPANDED_PER_STEP: usize = 16;
 
-/// A search in haste ends without an answer after so many times the first two numbers.
-const PATIENCE: usize = 10;
+/// A weighted search ends without an answer after so many times the first two numbers.
+const WEIGHTED_BUDGET: usize = 10;
 
 /// Pairs in a group up to which all orders are searched: the table of all subsets has some thousand entries then, and doubles
 /// with each pair more.
 const MOST_PAIRS: usize = 10;
 
-/// Plans a task: the fastest sequence of motions over all postures at the targets, turns of the wrist and orders that
+/// Plans a task: the fastest sequence of motions over all IK solutions at the targets, turns of the wrist and orders that
 /// are free, up to what [`TaskAnswer`] says of it. `progress` hears of long work.
 ///
 /// Where there are too many orders, it is one that is good with nothing in the way and meets what proofs and collisions tell of
 /// the orders that fail; the file's own, if that is faster; or a better one still, by the times of the motions planned.
 #[must_use]
 pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
-    let outlook = Outlook::new(task);
+    let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
-    let lower_bound = outlook.remaining(start.q, start.progress);
+    let lower_bound = heuristic.remaining(start.q, start.progress);
     let planning = Planning { task, manner, legs: Legs::new(*manner), lower_bound, expanded: 0, progress };
     let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
     match task.items.iter().map(pairs).max().unwrap_or(0) {
-        0 => planning.in_order(&outlook),
-        1..=MOST_PAIRS => planning.in_any_order(&outlook),
+        0 => planning.in_order(&heuristic),
+        1..=MOST_PAIRS => planning.in_any_order(&heuristic),
         _ => planning.in_settled_order(),
     }
 }
@@ -66,12 +66,12 @@ struct Planning<'a, 'p> {
 
 impl Planning<'_, '_> {
     /// Where no order is free.
-    fn in_order(mut self, outlook: &Outlook) -> TaskAnswer {
-        let mut search = Search::new(self.task, outlook, &mut self.legs);
+    fn in_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, MOST_MOTIONS), self.progress);
         let exact = ending != Ending::Spent;
         if !exact {
-            ending = hurried(&mut search, self.task, PATIENCE * MOST_MOTIONS, self.progress);
+            ending = hurried(&mut search, self.task, WEIGHTED_BUDGET * MOST_MOTIONS, self.progress);
         }
         let found = Found::of(&mut search, ending, exact);
         self.expanded += search.expanded();
@@ -79,8 +79,8 @@ impl Planning<'_, '_> {
     }
 
     /// Where all orders can be looked at, unless that takes too long.
-    fn in_any_order(mut self, outlook: &Outlook) -> TaskAnswer {
-        let mut search = Search::new(self.task, outlook, &mut self.legs);
+    fn in_any_order(mut self, heuristic: &Heuristic) -> TaskAnswer {
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
         let mut ending = search.run(limits(self.task, FREE_MOTIONS), self.progress);
         if ending != Ending::Spent {
             let found = Found::of(&mut search, ending, true);
@@ -93,7 +93,7 @@ impl Planning<'_, '_> {
             return self.answer(found);
         }
         // There may still be an order that the search for one has missed.
-        let mut search = Search::new(self.task, outlook, &mut self.legs);
+        let mut search = Search::new(self.task, heuristic, &mut self.legs);
         ending = hurried(&mut search, self.task, MOST_MOTIONS, self.progress);
         let last = Found::of(&mut search, ending, ending == Ending::Dry);
         self.expanded += search.expanded();
@@ -163,8 +163,8 @@ impl Planning<'_, '_> {
     /// The fastest choice in these orders, if it takes less than `below` seconds.
     fn in_orders(&mut self, orders: &Orders, below: f64) -> Found {
         let settled = orders.settled();
-        let outlook = Outlook::new(&settled);
-        let mut search = Search::new(&settled, &outlook, &mut self.legs);
+        let heuristic = Heuristic::new(&settled);
+        let mut search = Search::new(&settled, &heuristic, &mut self.legs);
         let limits = Limits { below, ..limits(&settled, MOST_MOTIONS) };
         let mut ending = search.run(limits, self.progress);
         if ending == Ending::Spent && below.is_infinite() {
@@ -224,5 +224,5 @@ pub(super) fn limits(task: &Task, motions: usize) -> Limits {
 fn hurried(search: &mut Search, task: &Task, motions: usize, progress: &mut dyn FnMut(&str)) -> Ending {
     search.hurry();
     let once = limits(task, motions);
-    search.run(Limits { expanded: PATIENCE * once.expanded, ..once }, progress)
+    search.run(Limits { expanded: WEIGHTED_BUDGET * once.expanded, ..once }, progress)
 }

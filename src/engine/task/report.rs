@@ -12,7 +12,7 @@ use crate::motion::{JointMotion, SearchUsed, Timed, Trajectory, as_map, interpol
 use serde::Serialize;
 use std::sync::Arc;
 
-/// How good the choice of postures, turns and order is.
+/// How good the choice of IK solutions, turns and order is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Choice {
@@ -75,7 +75,7 @@ pub struct TaskReport {
     /// `duration / lower_bound - 1`; none where the bound is 0 and the duration is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     gap: Option<f64>,
-    /// How good the choice of postures, turns and order is.
+    /// How good the choice of IK solutions, turns and order is.
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<Choice>,
     /// Motions that were planned, those that were not needed in the end included.

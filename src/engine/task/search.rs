@@ -1,10 +1,10 @@
 //! The search for the fastest sequence of motions.
 
 use super::answer::Leg;
+use super::heuristic::Heuristic;
 use super::impossible::{Impossible, Refused, Tried, reasons};
 use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
-use super::outlook::Outlook;
 use super::state::{Candidate, State};
 use super::stroke::least_rest;
 use crate::geometry::Ordered;
@@ -13,8 +13,8 @@ use crate::model::Task;
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
 
-/// By how much more what is left counts once the search goes straight for the end.
-const HASTE: f64 = 4.0;
+/// Weight of the heuristic in the weighted A* that goes straight for the end.
+const WEIGHT: f64 = 4.0;
 
 /// Motions between two words on progress.
 const NEWS: usize = 50;
@@ -62,18 +62,18 @@ enum Stage<'a> {
 /// By least total time; of equals the one that is farther, then the earlier found.
 type Entry = Reverse<(Ordered, Reverse<usize>, usize)>;
 
-/// A search over all postures at the targets, turns of the wrist and orders that a task leaves free.
+/// A search over all IK solutions at the targets, turns of the wrist and orders that a task leaves free.
 pub(super) struct Search<'a, 'l> {
     task: &'a Task,
-    outlook: &'a Outlook<'a>,
+    heuristic: &'a Heuristic<'a>,
     legs: &'l mut Legs,
     /// Motions planned when it began.
     planned: usize,
     nodes: Vec<Node<'a>>,
     open: BinaryHeap<Entry>,
     closed: BTreeSet<Vec<i64>>,
-    /// Weight of what is left.
-    haste: f64,
+    /// Weight of the heuristic: above 1 it is weighted A*.
+    weight: f64,
     /// Steps that could not be done.
     refused: Vec<Refused<'a>>,
     /// Whether all there is is looked at.
@@ -82,16 +82,16 @@ pub(super) struct Search<'a, 'l> {
 }
 
 impl<'a, 'l> Search<'a, 'l> {
-    pub fn new(task: &'a Task, outlook: &'a Outlook<'a>, legs: &'l mut Legs) -> Self {
+    pub fn new(task: &'a Task, heuristic: &'a Heuristic<'a>, legs: &'l mut Legs) -> Self {
         let mut search = Self {
             task,
-            outlook,
+            heuristic,
             planned: legs.planned(),
             legs,
             nodes: Vec::new(),
             open: BinaryHeap::new(),
             closed: BTreeSet::new(),
-            haste: 1.0,
+            weight: 1.0,
             refused: Vec::new(),
             complete: true,
             expanded: 0,
@@ -155,13 +155,13 @@ impl<'a, 'l> Search<'a, 'l> {
             Stage::Pending(candidate) => (candidate.to, candidate.progress),
             Stage::Reached(state, _) => (state.q, state.progress),
         };
-        let left = self.outlook.remaining(q, progress);
-        Reverse((Ordered(node.seconds + self.haste * left), Reverse(node.depth), index))
+        let left = self.heuristic.remaining(q, progress);
+        Reverse((Ordered(node.seconds + self.weight * left), Reverse(node.depth), index))
     }
 
     /// Gives up on the fastest choice: from now on what is left counts more than what is done.
     pub fn hurry(&mut self) {
-        self.haste = HASTE;
+        self.weight = WEIGHT;
         let open = std::mem::take(&mut self.open);
         self.open = open.into_iter().map(|Reverse((_, _, index))| self.entry(&self.nodes[index], index)).collect();
     }
@@ -176,7 +176,7 @@ impl<'a, 'l> Search<'a, 'l> {
             let reason = format!("given up after {motions} motions and {states} states of the world");
             let refusal = Refusal::new(reason, false);
             let depth = self.nodes[node].depth;
-            self.refused.push(Refused { depth, node, step: candidates.step, posture: None, refusal });
+            self.refused.push(Refused { depth, node, step: candidates.step, ik_solution: None, refusal });
         }
     }
 
@@ -201,7 +201,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 depth: self.nodes[parent].depth,
                 node: parent,
                 step: candidate.step,
-                posture: Some(candidate.to),
+                ik_solution: Some(candidate.to),
                 refusal,
             }),
         }
@@ -213,8 +213,8 @@ impl<'a, 'l> Search<'a, 'l> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let refusal = Refusal::new("no posture within the joint limits reaches its target", candidates.all);
-                self.refused.push(Refused { depth, node: index, step: candidates.step, posture: None, refusal });
+                let refusal = Refusal::new("no IK solution within the joint limits reaches its target", candidates.all);
+                self.refused.push(Refused { depth, node: index, step: candidates.step, ik_solution: None, refusal });
             }
             for way in candidates.ways {
                 let turn = way.turn.map_or(0.0, |turn| Legs::least_turn(self.task, turn));
@@ -268,12 +268,12 @@ impl<'a, 'l> Search<'a, 'l> {
         let mut tried = Vec::new();
         for refused in same() {
             let Some(State { q, .. }) = self.state(refused.node) else { continue };
-            tried.push(Tried { from: *q, to: refused.posture, reason: &refused.refusal.reason });
+            tried.push(Tried { from: *q, to: refused.ik_solution, reason: &refused.refusal.reason });
         }
-        let mut postures = Vec::new();
+        let mut ik_solutions = Vec::new();
         for unreached in same().filter(|refused| refused.node == node).filter_map(Refused::unreached) {
-            if !postures.contains(&unreached) {
-                postures.push(unreached);
+            if !ik_solutions.contains(&unreached) {
+                ik_solutions.push(unreached);
             }
         }
         let impossible = Impossible {
@@ -281,7 +281,7 @@ impl<'a, 'l> Search<'a, 'l> {
             reasons: reasons(&self.task.arm, &tried),
             scene: self.legs.scene(self.task, &from, step),
             from: from.q,
-            postures,
+            ik_solutions,
         };
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         (impossible, node, proven)

@@ -1,7 +1,7 @@
 //! How far a task is, and what can be done next.
 
 use super::answer::Event;
-use super::postures::{goal_postures, postures};
+use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use crate::geometry::{Point, Pose};
 use crate::model::{Action, Grip, Holding, Item, Payload, Scene, Step, Task};
 use crate::space::Configuration;
@@ -113,11 +113,11 @@ impl State {
 
     /// The scene as it is. Link 2 is free to meet the object just let go of, and another one: that which it goes to, or which
     /// it let go of before.
-    pub fn scene(&self, task: &Task, spared: Option<usize>) -> Scene {
-        let spared: Vec<usize> =
-            self.released.into_iter().chain(spared).map(|object| task.obstacle_number(object)).collect();
+    pub fn scene(&self, task: &Task, allowed_contacts: Option<usize>) -> Scene {
+        let allowed_contacts: Vec<usize> =
+            self.released.into_iter().chain(allowed_contacts).map(|object| task.obstacle_number(object)).collect();
         let payload = self.held.as_ref().map(|held| held.payload(task));
-        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &spared)
+        Scene::handling_trusted(task.arm.clone(), task.obstacles(&self.poses), payload, &allowed_contacts)
     }
 
     /// The ways to do each of the steps that can be next.
@@ -148,13 +148,13 @@ impl State {
         let arm = &task.arm;
         let reach = match (&step.action, &self.held) {
             (Action::Move(goal), _) => {
-                let reach = goal_postures(arm, goal, self.q);
+                let reach = goal_ik_solutions(arm, goal, self.q);
                 reach.configurations.iter().for_each(|&to| add(to, None, None, None));
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
                 let Some(lies) = self.poses[*object] else { return Candidates { step, ways, all: false } };
-                let reach = postures(arm, arm.tip, lies * grasp, self.q);
+                let reach = ik_solutions(arm, arm.tip, lies * grasp, self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
                     _ => None,
@@ -180,7 +180,7 @@ impl State {
                 match held.grip {
                     Grip::Rigid(in_link) => {
                         let origin = Point::from(in_link.translation.vector);
-                        let reach = postures(arm, origin, *at, self.q);
+                        let reach = ik_solutions(arm, origin, *at, self.q);
                         for &to in &reach.configurations {
                             let turned = (arm.pose(1, to) * in_link).rotation.angle();
                             let turned = (turned / FINEST_TURN).round() * FINEST_TURN;
@@ -192,7 +192,7 @@ impl State {
                     Grip::Level { angle: carried, point } => {
                         let wanted = angle.unwrap_or(carried);
                         let pose = Isometry2::new(at.coords, wanted);
-                        let reach = postures(arm, arm.tip, pose * point, self.q);
+                        let reach = ik_solutions(arm, arm.tip, pose * point, self.q);
                         let turn = (!same_angle(carried, wanted)).then_some([carried, wanted]);
                         let event = Some(Event::Release { object, pose });
                         reach.configurations.iter().for_each(|&to| add(to, turn, event, None));

@@ -63,6 +63,6 @@ fn lowered(task: &Task, from: &State, candidate: &Candidate, stroke: &Stroke, de
         }
         payload
     });
-    let spared: Vec<usize> = with.released.iter().map(|&object| task.obstacle_number(object)).collect();
-    Scene::handling_trusted(stroke.swept(&task.arm, depth), task.obstacles(&with.poses), payload, &spared)
+    let allowed_contacts: Vec<usize> = with.released.iter().map(|&object| task.obstacle_number(object)).collect();
+    Scene::handling_trusted(stroke.swept(&task.arm, depth), task.obstacles(&with.poses), payload, &allowed_contacts)
 }

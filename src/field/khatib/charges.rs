@@ -22,7 +22,7 @@ pub(super) struct Charges {
 
 impl Charges {
     pub fn new(grid: &Grid, limits: Limits) -> Self {
-        let axes = grid.topology.axes;
+        let axes = grid.topology.ranges;
         let frame = axes.map(|axis| usize::from(!axis.is_circle() && limits == Limits::High));
         let framed = [0, 1].map(|k| grid.cells[k] + 2 * frame[k]);
         let padded = framed.map(|n| (2 * n - 1).next_power_of_two());

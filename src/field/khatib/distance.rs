@@ -13,8 +13,8 @@ use crate::cspace::Grid;
 pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let [rows, columns] = grid.cells;
     let step = grid.step();
-    let solid = grid.topology.axes.map(|axis| !axis.is_circle() && limits == Limits::High);
-    let wraps = grid.topology.axes.map(|axis| axis.is_circle());
+    let solid = grid.topology.ranges.map(|axis| !axis.is_circle() && limits == Limits::High);
+    let wraps = grid.topology.ranges.map(|axis| axis.is_circle());
     let along: Vec<Vec<Option<i64>>> =
         grid.blocked.chunks_exact(columns).map(|row| in_row(row, wraps[1], solid[1])).collect();
     let mut nearest = vec![[f64::INFINITY; 2]; rows * columns];
@@ -131,7 +131,7 @@ fn crossing(a: &Site, b: &Site) -> f64 {
 mod tests {
     use super::*;
     use crate::cspace::Proves;
-    use crate::space::{Axis, Topology};
+    use crate::space::{JointRange, Topology};
     use proptest::prelude::*;
 
     proptest! {
@@ -147,10 +147,10 @@ mod tests {
             high in any::<bool>(),
         ) {
             let axis = |circle: bool, upper: f64| match circle {
-                true => Axis::Circle,
-                false => Axis::Interval { lower: -1.0, upper },
+                true => JointRange::Circle,
+                false => JointRange::Interval { lower: -1.0, upper },
             };
-            let topology = Topology { axes: [axis(circles[0], 2.5), axis(circles[1], 0.3)] };
+            let topology = Topology { ranges: [axis(circles[0], 2.5), axis(circles[1], 0.3)] };
             let grid = Grid { topology, proves: Proves::Sampled, cells: [rows, columns], blocked };
             let limits = if high { Limits::High } else { Limits::Reflecting };
             let step = grid.step();

@@ -265,7 +265,7 @@ impl<'a> ForceField<'a> {
         let [rows, columns] = self.grid.cells;
         let place = |k: usize, at: usize, n: usize| {
             let at = at as i64 + by[k];
-            let at = if self.grid.topology.axes[k].is_circle() { at.rem_euclid(n as i64) } else { at };
+            let at = if self.grid.topology.ranges[k].is_circle() { at.rem_euclid(n as i64) } else { at };
             usize::try_from(at).ok().filter(|&at| at < n)
         };
         let cell = place(0, from / columns, rows)? * columns + place(1, from % columns, columns)?;

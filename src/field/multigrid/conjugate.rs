@@ -6,9 +6,9 @@
 //! After it the residual of the odd cells is zero, and so they are neither restricted nor interpolated.
 
 use super::band::{Band, Colour};
-use super::chequer::{Chequer, Shape};
 use super::cycle::Stack;
 use super::machine::{Machine, Pack};
+use super::red_black::{RedBlack, Shape};
 use super::transfer::Corners;
 
 /// Residuals less than this part of the greatest of the start are 0: in single precision they would only become subnormal
@@ -61,28 +61,28 @@ pub(super) struct Greatest {
 }
 
 impl Workspace {
-    pub(super) fn new(chequer: &Chequer, stack: Stack) -> Self {
+    pub(super) fn new(red_black: &RedBlack, stack: Stack) -> Self {
         Self {
-            shape: chequer.shape,
+            shape: red_black.shape,
             stack,
-            residual: chequer.band(),
-            advice: chequer.band(),
-            advice_image: chequer.band(),
-            direction: chequer.band(),
-            direction_image: chequer.band(),
-            sum: chequer.band(),
-            even: chequer.narrow_band(),
-            odd: chequer.narrow_band(),
-            exact_even: chequer.narrow_band(),
-            exact_odd: chequer.narrow_band(),
-            right_even: chequer.narrow_band(),
-            right_odd: chequer.narrow_band(),
+            residual: red_black.band(),
+            advice: red_black.band(),
+            advice_image: red_black.band(),
+            direction: red_black.band(),
+            direction_image: red_black.band(),
+            sum: red_black.band(),
+            even: red_black.narrow_band(),
+            odd: red_black.narrow_band(),
+            exact_even: red_black.narrow_band(),
+            exact_odd: red_black.narrow_band(),
+            right_even: red_black.narrow_band(),
+            right_odd: red_black.narrow_band(),
         }
     }
 
     /// Whether it is for grids of this shape.
-    pub(super) fn is_for(&self, chequer: &Chequer) -> bool {
-        self.shape == chequer.shape
+    pub(super) fn is_for(&self, red_black: &RedBlack) -> bool {
+        self.shape == red_black.shape
     }
 
     /// Forgets all steps.
@@ -96,18 +96,18 @@ impl Workspace {
     pub(super) fn descend<M: Machine>(
         &mut self,
         m: M,
-        chequer: &Chequer,
+        red_black: &RedBlack,
         corners: &Corners,
         step: Option<Step>,
     ) -> Greatest {
-        let count = chequer.count();
-        let inverse = m.all((1.0 / chequer.degree) as f32);
+        let count = red_black.count();
+        let inverse = m.all((1.0 / red_black.degree) as f32);
         let into = &mut self.stack.levels[0].right;
         let (mut change, mut most) = (m.all(0.0), m.all(0.0));
         m.run(
             #[inline(always)]
             || {
-                chequer.pipeline(
+                red_black.pipeline(
                     4,
                     #[inline(always)]
                     |stage, i| match stage {
@@ -136,18 +136,18 @@ impl Workspace {
                                     most_here = m.greater(most_here, m.abs(total));
                                 }
                                 (change, most) = (change_here, most_here);
-                                chequer.frame_even(&mut self.residual, i);
+                                red_black.frame_even(&mut self.residual, i);
                             }
                         }
                         1 => {
-                            odd_row(m, chequer, inverse, &self.residual, &mut self.odd, i);
+                            odd_row(m, red_black, inverse, &self.residual, &mut self.odd, i);
                         }
                         2 => {
                             let around = self.odd.around(i, Colour::Odd, count);
                             for (k, to) in self.even.row_mut(i, count).iter_mut().enumerate() {
                                 (inverse * around.sum(m, k)).store(to, 0);
                             }
-                            chequer.frame_even(&mut self.even, i);
+                            red_black.frame_even(&mut self.even, i);
                         }
                         _ => {
                             if i.is_multiple_of(2) {
@@ -163,16 +163,16 @@ impl Workspace {
     }
 
     /// Interpolates and smooths; the products of the advice with the residual and with its own image.
-    pub(super) fn ascend<M: Machine>(&mut self, m: M, chequer: &Chequer, corners: &Corners) -> [f64; 2] {
-        let count = chequer.count();
-        let inverse = m.all((1.0 / chequer.degree) as f32);
-        let (degree, exact_inverse) = (m.all_double(chequer.degree), m.all_double(1.0 / chequer.degree));
+    pub(super) fn ascend<M: Machine>(&mut self, m: M, red_black: &RedBlack, corners: &Corners) -> [f64; 2] {
+        let count = red_black.count();
+        let inverse = m.all((1.0 / red_black.degree) as f32);
+        let (degree, exact_inverse) = (m.all_double(red_black.degree), m.all_double(1.0 / red_black.degree));
         let from = &self.stack.levels[0].solution;
         let [mut product, mut energy] = [m.all_double(0.0); 2];
         m.run(
             #[inline(always)]
             || {
-                chequer.pipeline(
+                red_black.pipeline(
                     5,
                     #[inline(always)]
                     |stage, i| match stage {
@@ -185,14 +185,14 @@ impl Workspace {
                                 self.residual.row(i, count),
                                 self.even.row_mut(i, count),
                             );
-                            chequer.frame_even(&mut self.even, i);
+                            red_black.frame_even(&mut self.even, i);
                         }
                         1 => {
-                            odd_row(m, chequer, inverse, &self.even, &mut self.odd, i);
+                            odd_row(m, red_black, inverse, &self.even, &mut self.odd, i);
                         }
                         2 => {
                             let around = self.odd.around(i, Colour::Odd, count);
-                            let (residual, free) = (self.residual.row(i, count), chequer.even.row(i, count));
+                            let (residual, free) = (self.residual.row(i, count), red_black.even.row(i, count));
                             let to = self.advice.row_mut(i, count);
                             let mut sum = product;
                             for (k, ((residual, free), to)) in residual.iter().zip(free).zip(to).enumerate() {
@@ -202,19 +202,19 @@ impl Workspace {
                                 sum = sum + m.double(residual) * m.double(advice);
                             }
                             product = sum;
-                            chequer.frame_even(&mut self.advice, i);
+                            red_black.frame_even(&mut self.advice, i);
                         }
                         3 => {
                             let around = self.advice.around(i, Colour::Even, count);
                             let to = self.exact_odd.row_mut(i, count);
-                            for (k, (free, to)) in chequer.odd.row(i, count).iter().zip(to).enumerate() {
+                            for (k, (free, to)) in red_black.odd.row(i, count).iter().zip(to).enumerate() {
                                 (around.exact_sum(m, k) * (m.double(m.pack(free)) * exact_inverse)).store(to, 0);
                             }
-                            chequer.settle(&mut self.exact_odd, &self.advice, i);
+                            red_black.settle(&mut self.exact_odd, &self.advice, i);
                         }
                         _ => {
                             let around = self.exact_odd.around(i, Colour::Odd, count);
-                            let (advice, free) = (self.advice.row(i, count), chequer.even.row(i, count));
+                            let (advice, free) = (self.advice.row(i, count), red_black.even.row(i, count));
                             let to = self.advice_image.row_mut(i, count);
                             let mut sum = energy;
                             for (k, ((advice, free), to)) in advice.iter().zip(free).zip(to).enumerate() {
@@ -237,14 +237,14 @@ impl Workspace {
     pub(super) fn correct<M: Machine>(
         &mut self,
         m: M,
-        chequer: &Chequer,
+        red_black: &RedBlack,
         right: Right,
         values: &mut [f64],
         unit: f64,
         scale: Option<f64>,
     ) -> Greatest {
-        let (columns, count) = (chequer.shape.columns, chequer.count());
-        let (degree, inverse) = (m.all_double(chequer.degree), m.all_double(1.0 / chequer.degree));
+        let (columns, count) = (red_black.shape.columns, red_black.count());
+        let (degree, inverse) = (m.all_double(red_black.degree), m.all_double(1.0 / red_black.degree));
         let stages = if scale.is_some() { 4 } else { 3 };
         let scale = m.all_double(scale.unwrap_or(1.0));
         let [mut most, mut left] = [m.all_double(0.0); 2];
@@ -252,7 +252,7 @@ impl Workspace {
         m.run(
             #[inline(always)]
             || {
-                chequer.pipeline(
+                red_black.pipeline(
                     stages,
                     #[inline(always)]
                     |stage, i| match stage {
@@ -272,24 +272,24 @@ impl Workspace {
                             }
                             // The odd ones are not needed.
                             part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
-                            let (sum, free) = (self.sum.row(i, count), chequer.even.row(i, count));
+                            let (sum, free) = (self.sum.row(i, count), red_black.even.row(i, count));
                             for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {
                                 let value = m.pack_double(to) + unit * m.double(m.pack(sum));
                                 let value = value * m.double(m.pack(free));
                                 value.store(to, 0);
                             }
-                            chequer.frame_even(&mut self.exact_even, i);
+                            red_black.frame_even(&mut self.exact_even, i);
                         }
                         1 => {
                             let around = self.exact_even.around(i, Colour::Even, count);
-                            let (right, free) = (self.right_odd.row(i, count), chequer.odd.row(i, count));
+                            let (right, free) = (self.right_odd.row(i, count), red_black.odd.row(i, count));
                             let to = self.exact_odd.row_mut(i, count);
                             for (k, ((right, free), to)) in right.iter().zip(free).zip(to).enumerate() {
                                 let sum = m.pack_double(right) + around.sum(m, k);
                                 let value = sum * (m.double(m.pack(free)) * inverse);
                                 value.store(to, 0);
                             }
-                            chequer.settle(&mut self.exact_odd, &self.exact_even, i);
+                            red_black.settle(&mut self.exact_odd, &self.exact_even, i);
                         }
                         2 => {
                             let mut most_here = most;
@@ -307,7 +307,7 @@ impl Workspace {
                             let (even, right, free) = (
                                 self.exact_even.row(i, count),
                                 self.right_even.row(i, count),
-                                chequer.even.row(i, count),
+                                red_black.even.row(i, count),
                             );
                             let rows = even.iter().zip(right).zip(free).zip(self.residual.row_mut(i, count));
                             let mut left_here = left;
@@ -318,7 +318,7 @@ impl Workspace {
                                 left_here = m.greater_double(left_here, m.abs_double(residual));
                             }
                             left = left_here;
-                            chequer.frame_even(&mut self.residual, i);
+                            red_black.frame_even(&mut self.residual, i);
                         }
                     },
                 );
@@ -331,13 +331,20 @@ impl Workspace {
 
 /// The smoother's values of the odd cells of row `i`.
 #[inline(always)]
-fn odd_row<M: Machine>(m: M, chequer: &Chequer, inverse: M::Single, even: &Band<f32>, odd: &mut Band<f32>, i: usize) {
-    let count = chequer.count();
+fn odd_row<M: Machine>(
+    m: M,
+    red_black: &RedBlack,
+    inverse: M::Single,
+    even: &Band<f32>,
+    odd: &mut Band<f32>,
+    i: usize,
+) {
+    let count = red_black.count();
     let around = even.around(i, Colour::Even, count);
-    for (k, (free, to)) in chequer.odd.row(i, count).iter().zip(odd.row_mut(i, count)).enumerate() {
+    for (k, (free, to)) in red_black.odd.row(i, count).iter().zip(odd.row_mut(i, count)).enumerate() {
         (around.sum(m, k) * (inverse * m.pack(free))).store(to, 0);
     }
-    chequer.settle(odd, even, i);
+    red_black.settle(odd, even, i);
 }
 
 /// Row `i` by colours.

@@ -6,13 +6,13 @@
 //! which depends on the walls alone, serves all goals. Cells whose value is known are walls to it, and come in through the
 //! right-hand side: add the value to `b` of each free neighbour.
 //!
-//! Cells are coloured like a chessboard (`chequer`); those of one colour are eliminated, which leaves half of the unknowns.
+//! Cells are coloured like a chessboard (`red_black`); those of one colour are eliminated, which leaves half of the unknowns.
 //! Conjugate gradients for these run in rounds: vectors are in single precision, the residual at the start of each round,
 //! the values, and the products with the operator in double precision. The preconditioner, one V-cycle in single precision,
 //! need not be precise: it costs steps, not digits.
 
 mod band;
-mod chequer;
+mod red_black;
 mod cycle;
 mod envelope;
 mod frame;

@@ -1,10 +1,10 @@
 //! Conjugate gradients.
 
-use super::chequer::Chequer;
 use super::conjugate::{Right, Step, Workspace};
 use super::cycle::{Hierarchy, Stack};
 use super::frame::{Ends, Frame};
 use super::machine::{Machine, Portable};
+use super::red_black::RedBlack;
 use super::stencil::FivePoint;
 use crate::interrupt::checkpoint;
 
@@ -29,7 +29,7 @@ macro_rules! on_this_machine {
 /// The solver for one arrangement of walls.
 #[derive(Debug, Clone)]
 pub struct Multigrid {
-    chequer: Chequer,
+    red_black: RedBlack,
     /// None without cells.
     hierarchy: Option<Hierarchy>,
 }
@@ -72,13 +72,13 @@ impl Multigrid {
         assert!(shift >= 0.0 && shift.is_finite(), "a shift is not negative");
         let operator = operator(cells, ends, free, shift);
         let hierarchy = (!free.is_empty()).then(|| on_this_machine!(m => Hierarchy::new(m, &operator)));
-        Self { chequer: Chequer::new(cells, ends, free, operator.degree), hierarchy }
+        Self { red_black: RedBlack::new(cells, ends, free, operator.degree), hierarchy }
     }
 
     /// A workspace for solves.
     #[must_use]
     pub fn workspace(&self) -> Workspace {
-        Workspace::new(&self.chequer, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
+        Workspace::new(&self.red_black, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
     }
 
     /// Solves for the right-hand side `right`, from the start that is in `values`, which must be finite; walls are
@@ -95,12 +95,12 @@ impl Multigrid {
     }
 
     fn cells(&self) -> usize {
-        self.chequer.shape.rows * self.chequer.shape.columns
+        self.red_black.shape.rows * self.red_black.shape.columns
     }
 
     fn solve_for(&self, right: Right, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
         assert!(values.len() == self.cells(), "one number a cell");
-        assert!(workspace.is_for(&self.chequer), "a workspace of this grid");
+        assert!(workspace.is_for(&self.red_black), "a workspace of this grid");
         match &self.hierarchy {
             Some(hierarchy) => {
                 on_this_machine!(m => self.rounds(m, hierarchy, right, values, tolerance, workspace))
@@ -119,11 +119,11 @@ impl Multigrid {
         tolerance: f64,
         workspace: &mut Workspace,
     ) -> Convergence {
-        let chequer = &self.chequer;
+        let red_black = &self.red_black;
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
         let mut scale = self.start(right, values);
         workspace.rest();
-        let mut start = workspace.correct(m, chequer, right, values, 0.0, Some(scale));
+        let mut start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
         let mut residual = start.change / scale;
         loop {
             let by = power_of_two(start.change);
@@ -133,14 +133,14 @@ impl Multigrid {
             }
             let error =
                 self.round(m, hierarchy, start.value * scale, tolerance, workspace, &mut convergence.iterations);
-            let greatest = workspace.correct(m, chequer, right, values, 1.0 / scale, None).value;
+            let greatest = workspace.correct(m, red_black, right, values, 1.0 / scale, None).value;
             convergence.error = if greatest > 0.0 { error / scale / greatest } else { 0.0 };
             convergence.converged = convergence.error <= tolerance;
             if convergence.converged || convergence.iterations >= MOST_ITERATIONS {
                 return convergence;
             }
             workspace.rest();
-            start = workspace.correct(m, chequer, right, values, 0.0, Some(scale));
+            start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
             if start.change / scale > LEAST_PROGRESS * residual {
                 return convergence;
             }
@@ -163,7 +163,7 @@ impl Multigrid {
         let (mut error, mut step) = (f64::INFINITY, None);
         loop {
             checkpoint();
-            let moved = workspace.descend(m, &self.chequer, &hierarchy.corners, step);
+            let moved = workspace.descend(m, &self.red_black, &hierarchy.corners, step);
             if step.is_some() {
                 *iterations += 1;
                 let ratio = (moved.change / before).max(LEAST_RATIO);
@@ -176,7 +176,7 @@ impl Multigrid {
                 }
             }
             hierarchy.cycle(m, &mut workspace.stack);
-            let [next, image] = workspace.ascend(m, &self.chequer, &hierarchy.corners);
+            let [next, image] = workspace.ascend(m, &self.red_black, &hierarchy.corners);
             if next == 0.0 {
                 return if step.is_some() { error } else { 0.0 };
             }
@@ -199,9 +199,9 @@ impl Multigrid {
             Right::Unit(cell) => {
                 // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell
                 // is 1.
-                let free = |cell: &usize| self.chequer.is_free(*cell);
-                let around: f64 = self.chequer.neighbors(cell).filter(free).map(|other| values[other]).sum();
-                let source = self.chequer.degree * values[cell] - around;
+                let free = |cell: &usize| self.red_black.is_free(*cell);
+                let around: f64 = self.red_black.neighbors(cell).filter(free).map(|other| values[other]).sum();
+                let source = self.red_black.degree * values[cell] - around;
                 if free(&cell) && source > 0.0 {
                     values.iter_mut().for_each(|value| *value /= source);
                 }
@@ -283,20 +283,20 @@ mod tests {
         let free: Vec<bool> = (0..cells[0] * cells[1]).map(|at| at * 5 % 17 != 0 && at % 31 > 1).collect();
         for ends in [[Ends::High; 2], [Ends::Joined; 2], [Ends::Joined, Ends::Reflecting]] {
             let solver = Multigrid::new(cells, ends, &free, 0.0);
-            let chequer = &solver.chequer;
-            let count = chequer.count();
+            let red_black = &solver.red_black;
+            let count = red_black.count();
             let hierarchy = solver.hierarchy.as_ref().expect("cells");
             let vector = |seed: usize| {
-                let mut vector = chequer.band();
+                let mut vector = red_black.band();
                 for i in 0..cells[0] {
                     for (j, (to, free)) in
-                        vector.row_mut(i, count).iter_mut().zip(chequer.even.row(i, count)).enumerate()
+                        vector.row_mut(i, count).iter_mut().zip(red_black.even.row(i, count)).enumerate()
                     {
                         for k in 0..LANES {
                             to[k] = (((i * 37 + j * LANES + k + seed) as f32 * 0.618_034).fract() - 0.5) * free[k];
                         }
                     }
-                    chequer.frame_even(&mut vector, i);
+                    red_black.frame_even(&mut vector, i);
                 }
                 vector
             };
@@ -307,9 +307,9 @@ mod tests {
             let cycle = |residual: &Band<f32>| {
                 let mut workspace = solver.workspace();
                 workspace.residual = residual.clone();
-                workspace.descend(Portable, chequer, &hierarchy.corners, None);
+                workspace.descend(Portable, red_black, &hierarchy.corners, None);
                 hierarchy.cycle(Portable, &mut workspace.stack);
-                let [product, _] = workspace.ascend(Portable, chequer, &hierarchy.corners);
+                let [product, _] = workspace.ascend(Portable, red_black, &hierarchy.corners);
                 assert!((product - dot(residual, &workspace.advice)).abs() < 1e-12 * product);
                 workspace.advice
             };

@@ -116,7 +116,7 @@ impl Domain {
                 }
             }
         }
-        let boundaries = grid.topology.axes.map(|axis| match limits {
+        let boundaries = grid.topology.ranges.map(|axis| match limits {
             _ if axis.is_circle() => Boundary::Periodic,
             Limits::High => Boundary::High,
             Limits::Reflecting => Boundary::Reflecting,

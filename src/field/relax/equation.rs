@@ -142,7 +142,7 @@ impl Equation {
     }
 
     /// What keeps it from being an equation on this domain, if anything.
-    pub(super) fn defect(&self, domain: &Domain) -> Option<String> {
+    pub(super) fn refusal(&self, domain: &Domain) -> Option<String> {
         let cells = domain.kinds().len();
         let (count, finite) = match self {
             Self::Harmonic => (cells, true),

@@ -116,8 +116,8 @@ pub fn relax_from(
     stopping: &Stopping,
     start: Vec<f64>,
 ) -> Result<Relaxed, RelaxError> {
-    if let Some(defect) = equation.defect(domain) {
-        return Err(RelaxError::Refused(defect));
+    if let Some(refusal) = equation.refusal(domain) {
+        return Err(RelaxError::Refused(refusal));
     }
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("there must be one value a cell to start from".into()));

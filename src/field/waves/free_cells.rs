@@ -58,7 +58,7 @@ impl FreeCells {
         let lines = grid.blocked.chunks_exact(columns.max(1));
         Self {
             cells: grid.cells,
-            circles: grid.topology.axes.map(|axis| axis.is_circle()),
+            circles: grid.topology.ranges.map(|axis| axis.is_circle()),
             words: columns.div_ceil(64),
             bits: lines.flat_map(|line| line.chunks(64)).map(packed).collect(),
         }
@@ -189,12 +189,13 @@ impl FreeCells {
 mod tests {
     use super::*;
     use crate::cspace::Proves;
-    use crate::space::{Axis, Topology};
+    use crate::space::{JointRange, Topology};
     use proptest::prelude::*;
 
     fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
-        let axes = circles.map(|c| if c { Axis::Circle } else { Axis::Interval { lower: 0.0, upper: 1.0 } });
-        Grid { topology: Topology { axes }, proves: Proves::Sampled, cells, blocked }
+        let axes =
+            circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
+        Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
     }
 
     #[test]

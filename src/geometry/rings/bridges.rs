@@ -8,7 +8,7 @@
 use super::super::Point;
 use super::super::box_tree::BoxTree;
 use super::super::predicates::{Orientation, orientation, point_on_segment, segments_meet};
-use super::RingDefect;
+use super::RingError;
 use super::noding::{Loop, Noded};
 use crate::interrupt::checkpoint;
 
@@ -29,7 +29,7 @@ pub(super) struct Bridge {
 ///
 /// # Errors
 /// When a hole sees nothing on one side, because it is not inside.
-pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingDefect> {
+pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingError> {
     let Noded { points, edges, around, loops } = &noded;
     let sight = Sight::new(points, edges);
     let mut bridges: Vec<Bridge> = Vec::new();
@@ -54,7 +54,7 @@ pub(super) fn bridged(noded: Noded) -> Result<Bridged, RingDefect> {
                 // A loop of the outer ring has a corner in which the ring crosses itself: the faces tell which.
                 match hole.ring {
                     0 => continue,
-                    hole => return Err(RingDefect::Misplaced { hole }),
+                    hole => return Err(RingError::Misplaced { hole }),
                 }
             };
             bridges.push(Bridge { ends: [from, to], ring: hole.ring });

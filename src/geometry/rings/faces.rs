@@ -1,7 +1,7 @@
 //! The faces of a graph of rings and diagonals that belong to the region.
 
 use super::super::SimplePolygon;
-use super::RingDefect;
+use super::RingError;
 use super::bridges::Bridged;
 use super::noding::counter_clockwise;
 
@@ -21,7 +21,7 @@ struct End {
 ///
 /// # Errors
 /// When round some vertex it is not clear what is inside: there the rings cross, or one lies on the wrong side of another.
-pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingDefect> {
+pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingError> {
     let points = &graph.noded.points;
     let around = ends(graph);
     for (vertex, ends) in around.iter().enumerate() {
@@ -29,8 +29,8 @@ pub(super) fn faces(graph: &Bridged) -> Result<Vec<SimplePolygon>, RingDefect> {
             let next = &ends[(i + 1) % ends.len()];
             if end.left != next.right {
                 return Err(match end.bridge.or(next.bridge) {
-                    Some(hole) if hole > 0 => RingDefect::Misplaced { hole },
-                    _ => RingDefect::CrossesAt { at: points[vertex] },
+                    Some(hole) if hole > 0 => RingError::Misplaced { hole },
+                    _ => RingError::CrossesAt { at: points[vertex] },
                 });
             }
         }

@@ -4,7 +4,7 @@ mod bridges;
 mod faces;
 mod noding;
 
-use super::{Convex, Point, PolygonDefect, SimplePolygon};
+use super::{Convex, Point, PolygonError, SimplePolygon};
 use bridges::bridged;
 use faces::faces;
 use noding::Noded;
@@ -39,17 +39,17 @@ impl fmt::Display for RingSide {
 
 /// Why rings make no polygon. Numbers refer to the lists as they were given.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum RingDefect {
+pub enum RingError {
     /// The outer ring has a defect that has nothing to do with the holes.
     #[error("{0}")]
-    Outer(PolygonDefect),
+    Outer(PolygonError),
     /// A hole by itself is no polygon.
-    #[error("hole {hole}: {defect}")]
+    #[error("hole {hole}: {error}")]
     Hole {
         /// Counted from 1.
         hole: usize,
         /// What is wrong with it.
-        defect: PolygonDefect,
+        error: PolygonError,
     },
     /// Two sides cross.
     #[error("{first} and {second} cross")]
@@ -89,22 +89,22 @@ impl Polygon {
     ///
     /// # Errors
     /// The first defect found.
-    pub fn new(outer: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Self, RingDefect> {
+    pub fn new(outer: Vec<Point>, holes: Vec<Vec<Point>>) -> Result<Self, RingError> {
         if holes.is_empty() {
             match SimplePolygon::new(outer.clone()) {
                 Ok(simple) => return Ok(Self { parts: vec![simple] }),
                 // Corners that meet without any side crossing: what is inside is clear.
-                Err(PolygonDefect::RepeatedCorner { .. } | PolygonDefect::SidesTouch { .. }) => {}
-                Err(defect) => return Err(RingDefect::Outer(defect)),
+                Err(PolygonError::RepeatedCorner { .. } | PolygonError::SidesTouch { .. }) => {}
+                Err(error) => return Err(RingError::Outer(error)),
             }
         }
         let rings: Vec<Vec<Point>> = std::iter::once(outer).chain(holes).collect();
         for (ring, corners) in rings.iter().enumerate() {
-            let defect = |defect| match ring {
-                0 => RingDefect::Outer(defect),
-                hole => RingDefect::Hole { hole, defect },
+            let error = |error| match ring {
+                0 => RingError::Outer(error),
+                hole => RingError::Hole { hole, error },
             };
-            super::polygon::check_ring(corners).map_err(defect)?;
+            super::polygon::check_ring(corners).map_err(error)?;
         }
         let parts = faces(&bridged(Noded::of(&rings)?)?)?;
         Ok(Self { parts })

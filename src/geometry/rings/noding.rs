@@ -3,7 +3,7 @@
 use super::super::Point;
 use super::super::box_tree::BoxTree;
 use super::super::predicates::{Orientation, orientation, point_on_segment, segments_cross, segments_meet};
-use super::{RingDefect, RingSide};
+use super::{RingError, RingSide};
 use crate::interrupt::checkpoint;
 use std::cmp::Ordering;
 
@@ -36,7 +36,7 @@ struct Piece {
 impl Noded {
     /// # Errors
     /// When two sides cross or overlap.
-    pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingDefect> {
+    pub fn of(rings: &[Vec<Point>]) -> Result<Self, RingError> {
         let (points, numbers) = numbered(rings);
         let sides: Vec<Piece> = numbers
             .iter()
@@ -64,7 +64,7 @@ impl Noded {
         }
         pieces.sort_unstable_by_key(|piece| (piece.ends, piece.of));
         if let Some(w) = pieces.windows(2).find(|w| w[0].ends == w[1].ends) {
-            return Err(RingDefect::Overlap { first: w[0].of, second: w[1].of });
+            return Err(RingError::Overlap { first: w[0].of, second: w[1].of });
         }
         let (mut edges, mut loops) = (Vec::with_capacity(pieces.len()), Vec::new());
         for (ring, mut walk) in walks.into_iter().enumerate() {
@@ -113,7 +113,7 @@ fn numbered(rings: &[Vec<Point>]) -> (Vec<Point>, Vec<Vec<usize>>) {
 }
 
 /// Of each side the vertices that lie on it, ends left out, in any order.
-fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingDefect> {
+fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingError> {
     let segment = |k: usize| sides[k].ends.map(|v| points[v]);
     let bounds = |k: usize| {
         let [a, b] = segment(k);
@@ -133,7 +133,7 @@ fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingDefect
                 continue;
             }
             if segments_cross(a, b, c, d) {
-                return Err(RingDefect::Cross { first: sides[i].of, second: sides[j].of });
+                return Err(RingError::Cross { first: sides[i].of, second: sides[j].of });
             }
             for (on, by) in [(i, j), (j, i)] {
                 let [from, to] = segment(on);

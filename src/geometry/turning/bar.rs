@@ -197,24 +197,24 @@ mod tests {
             let zero = Vector::new(0.6, 0.8);
             let (part, piece) = (Features::new(&part), Features::new(&piece));
             let bar = part.bar.clone().expect("a bar");
-            let (mut arcs, mut patient) = (Vec::new(), Vec::new());
+            let (mut arcs, mut exhaustive) = (Vec::new(), Vec::new());
             let Some(hits) = bar.arc(pivot, zero, &piece, &mut arcs) else { return Ok(()) };
             let reach = (0.0, f64::INFINITY);
             let expected =
-                critical_arcs(&Placement { part: &part, pivot, zero, piece: &piece, radius: 0.0, reach }, &mut patient);
+                critical_arcs(&Placement { part: &part, pivot, zero, piece: &piece, radius: 0.0, reach }, &mut exhaustive);
             let distance = |angle: f64| {
                 let pose = Pose::new(pivot.coords, angle + zero.y.atan2(zero.x));
                 separation(&part.shape().at(&pose), piece.shape()).distance
             };
             if hits == Hits::Never {
-                // What the patient way calls contact within rounding may be none.
-                prop_assert!(expected == Hits::Never || patient.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
+                // What the exhaustive way calls contact within rounding may be none.
+                prop_assert!(expected == Hits::Never || exhaustive.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
             } else if expected == Hits::Never {
                 prop_assert!(arcs.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
             } else {
-                prop_assert_eq!((hits, arcs.len(), patient.len()), (Hits::Within, 1, 1));
+                prop_assert_eq!((hits, arcs.len(), exhaustive.len()), (Hits::Within, 1, 1));
                 for k in 0..2 {
-                    prop_assert!(wrap(arcs[0][k] - patient[0][k]).abs() < 1e-4, "{:?} {:?}", arcs, patient);
+                    prop_assert!(wrap(arcs[0][k] - exhaustive[0][k]).abs() < 1e-4, "{:?} {:?}", arcs, exhaustive);
                     prop_assert!(distance(arcs[0][k]).abs() < ROUNDING, "{:?} {}", arcs, distance(arcs[0][k]));
                 }
             }

@@ -1,4 +1,4 @@
-//! The patient way to the arcs of contact: every critical angle, and one distance between neighbours.
+//! The exhaustive way to the arcs of contact: every critical angle, and one distance between neighbours.
 
 use super::features::quotient;
 use super::touching::Placement;
@@ -110,7 +110,7 @@ mod tests {
 
     /// In general position no comparison is in doubt, and both ways give the same arcs.
     #[test]
-    fn the_local_test_and_the_patient_way_agree() {
+    fn the_local_test_and_the_exhaustive_way_agree() {
         let bar = [(0.0, -0.05), (0.8, -0.05), (0.8, 0.05), (0.0, 0.05)].map(|(x, y)| Point::new(x, y)).to_vec();
         let parts =
             [Convex::trusted(bar.clone(), 0.0), Convex::trusted(bar, 0.02), regular(2, 0.5, 0.1), regular(5, 0.4, 0.0)];
@@ -125,17 +125,17 @@ mod tests {
                 let zero = Vector::new(0.6, 0.8);
                 let reach = (0.0, f64::INFINITY);
                 let placement = Placement { part: &part, pivot, zero, piece: &piece, radius, reach };
-                let (mut local, mut patient) = (Vec::new(), Vec::new());
-                let hits = critical_arcs(&placement, &mut patient);
+                let (mut local, mut exhaustive) = (Vec::new(), Vec::new());
+                let hits = critical_arcs(&placement, &mut exhaustive);
                 let ends = placement.ends().unwrap_or_else(|_| panic!("doubt at {pivot} for {part:?} and {piece:?}"));
                 if ends.is_empty() {
                     assert_ne!(hits, Hits::Within);
                     continue;
                 }
                 assert!(ends.arcs(&mut local).is_ok());
-                assert_eq!(local.len(), patient.len(), "{local:?} {patient:?}");
-                for (a, b) in local.iter().zip(&patient) {
-                    assert!((a[0] - b[0]).abs() < 1e-7 && (a[1] - b[1]).abs() < 1e-7, "{local:?} {patient:?}");
+                assert_eq!(local.len(), exhaustive.len(), "{local:?} {exhaustive:?}");
+                for (a, b) in local.iter().zip(&exhaustive) {
+                    assert!((a[0] - b[0]).abs() < 1e-7 && (a[1] - b[1]).abs() < 1e-7, "{local:?} {exhaustive:?}");
                 }
                 compared += 1;
             }

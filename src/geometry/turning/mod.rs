@@ -8,7 +8,7 @@
 //! is follows from the sign of the root.
 //!
 //! Every such decision is a comparison of a length with zero. Where one is too close for rounding
-//! ([`touching`]), the pair takes the patient way instead ([`critical`]): all critical angles, sorted, one
+//! ([`touching`]), the pair takes the exhaustive way instead ([`critical`]): all critical angles, sorted, one
 //! distance between neighbours. A bar about the pivot, the usual link, has a shorter way ([`bar`]).
 
 mod bar;
@@ -71,7 +71,7 @@ pub fn turning_from(
     }
     let placement = Placement { part, pivot, zero, piece, radius, reach: (near - radius, far + radius) };
     match placement.ends() {
-        // No contact begins or ends: one posture stands for all.
+        // No contact begins or ends: one configuration stands for all.
         Ok(ends) if ends.is_empty() => {
             let pose = Pose::new(pivot.coords, 0.0);
             let distance = separation(&part.shape.at(&pose), &piece.shape).distance - grow;

@@ -20,7 +20,7 @@ const DOUBT_OF_DIRECTIONS: f64 = 1e-13;
 /// contact.
 const GRAZING_CIRCLES: f64 = 1e-6;
 
-/// Arcs of one pair of convex shapes beyond which the patient way takes over; more than two are rare.
+/// Arcs of one pair of convex shapes beyond which the exhaustive way takes over; more than two are rare.
 const MOST_ARCS: usize = 8;
 
 /// A comparison was too close for rounding.

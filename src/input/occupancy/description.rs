@@ -1,7 +1,7 @@
 //! The YAML beside a picture.
 
 use super::Occupancy;
-use crate::input::error::{Defect, without_place};
+use crate::input::error::{Diagnostic, without_place};
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
 use serde::Deserialize;
@@ -39,57 +39,61 @@ pub(super) struct Description {
 }
 
 impl Description {
-    pub fn read(source: &Source) -> Result<Self, Defect> {
+    pub fn read(source: &Source) -> Result<Self, Diagnostic> {
         let mut options = serde_saphyr::Options::default();
         options.with_snippet = false;
         let file: File = serde_saphyr::from_str_with_options(&source.text, options).map_err(|error| {
             let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
             let message = without_place(&error.without_snippet().to_string());
             source
-                .defect_at_position(line, column, message)
-                .cure("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
+                .diagnostic_at_position(line, column, message)
+                .help("a map of ROS's map server needs image, resolution, origin, negate, occupied_thresh, free_thresh")
         })?;
         let resolution = file.resolution.value;
         if !(resolution > 0.0 && resolution <= LARGEST) {
             let message = format!("resolution: {resolution} is no length of a pixel's side");
-            return Err(defect(source, &file.resolution, message).cure("give metres a pixel, such as 0.05"));
+            return Err(diagnostic(source, &file.resolution, message).help("give metres a pixel, such as 0.05"));
         }
         let origin = <[f64; 3]>::try_from(file.origin.value.as_slice()).map_err(|_| {
             let message = format!("origin: expected three numbers, found {}", file.origin.value.len());
-            defect(source, &file.origin, message).cure("origin: [x, y, yaw], metres and radians")
+            diagnostic(source, &file.origin, message).help("origin: [x, y, yaw], metres and radians")
         })?;
         if let Some(bad) = origin.iter().find(|v| v.is_nan() || v.abs() > LARGEST) {
             let message = format!("origin: {bad} is not finite, or too large (at most {LARGEST:e})");
-            return Err(defect(source, &file.origin, message).cure("origin: [x, y, yaw], metres and radians"));
+            return Err(diagnostic(source, &file.origin, message).help("origin: [x, y, yaw], metres and radians"));
         }
         let negate = match file.negate.value {
             Negate::Word(negate) => negate,
             Negate::Number(0) => false,
             Negate::Number(1) => true,
             Negate::Number(other) => {
-                return Err(defect(source, &file.negate, format!("negate: {other} is neither 0 nor 1"))
-                    .cure("0 if dark is occupied, 1 if light is"));
+                return Err(diagnostic(source, &file.negate, format!("negate: {other} is neither 0 nor 1"))
+                    .help("0 if dark is occupied, 1 if light is"));
             }
         };
         for (key, threshold) in [("occupied_thresh", &file.occupied_thresh), ("free_thresh", &file.free_thresh)] {
             if !(0.0..=1.0).contains(&threshold.value) {
                 let message = format!("{key}: {} is not between 0 and 1", threshold.value);
-                return Err(defect(source, threshold, message).cure("ROS's usual values are 0.65 and 0.196"));
+                return Err(diagnostic(source, threshold, message).help("ROS's usual values are 0.65 and 0.196"));
             }
         }
         let (occupied, free) = (file.occupied_thresh.value, file.free_thresh.value);
         if free > occupied {
             let message = format!("free_thresh: {free} is above occupied_thresh, {occupied}");
-            return Err(defect(source, &file.free_thresh, message).cure("ROS's usual values are 0.65 and 0.196"));
+            return Err(diagnostic(source, &file.free_thresh, message).help("ROS's usual values are 0.65 and 0.196"));
         }
         match &file.mode {
             Some(mode) if mode.value == "raw" => {
-                return Err(defect(source, mode, "mode: raw has costs for values, which do not say what is occupied")
-                    .cure("use trinary or scale, whose shades do"));
+                return Err(diagnostic(
+                    source,
+                    mode,
+                    "mode: raw has costs for values, which do not say what is occupied",
+                )
+                .help("use trinary or scale, whose shades do"));
             }
             Some(mode) if mode.value != "trinary" && mode.value != "scale" => {
-                return Err(defect(source, mode, format!("mode: \"{}\" is unknown", mode.value))
-                    .cure("use trinary or scale, or leave it out"));
+                return Err(diagnostic(source, mode, format!("mode: \"{}\" is unknown", mode.value))
+                    .help("use trinary or scale, or leave it out"));
             }
             _ => {}
         }
@@ -106,7 +110,7 @@ impl Description {
     }
 }
 
-/// A defect where the value is.
-fn defect<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Defect {
-    source.defect_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
+/// A diagnostic where the value is.
+fn diagnostic<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Diagnostic {
+    source.diagnostic_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
 }

@@ -17,7 +17,7 @@ mod rectangles;
 
 pub use rectangles::{PixelRectangle, rectangles};
 
-use super::error::{Defect, InputError};
+use super::error::{Diagnostic, InputError};
 use super::source::{Source, read_bounded};
 use super::world::LARGEST;
 use crate::geometry::{Convex, Point, Pose};
@@ -68,10 +68,10 @@ impl OccupancyMap {
         let (line, column) = (image.referenced.line() as usize, image.referenced.column() as usize);
         if !path.is_file() {
             let message = format!("there is no file {}", path.display());
-            let cure = "name the picture relative to this file";
-            return Err(source.defect_at_position(line, column, message).cure(cure).into());
+            let help = "name the picture relative to this file";
+            return Err(source.diagnostic_at_position(line, column, message).help(help).into());
         }
-        let broken = |Broken { message, cure }: Broken| Defect::new(path.display().to_string(), message).cure(cure);
+        let broken = |Broken { message, help }: Broken| Diagnostic::new(path.display().to_string(), message).help(help);
         let bytes = read_bounded(&path)
             .map_err(|e| broken(Broken::new(format!("cannot be read: {e}"), "check the file's permissions")))?;
         let picture = picture::read(&bytes, &|shade| description.judge(shade)).map_err(broken)?;
@@ -83,7 +83,7 @@ impl OccupancyMap {
                 "a picture of {} x {} pixels with a resolution of {} m reaches farther than {LARGEST:e} m",
                 size[0], size[1], description.resolution
             );
-            return Err(source.defect(message).cure("the resolution is in metres a pixel").into());
+            return Err(source.diagnostic(message).help("the resolution is in metres a pixel").into());
         }
         let pose = Isometry2::new(Vector2::new(x, y), yaw);
         Ok(Self { size, resolution: description.resolution, pose, cells: picture.cells })

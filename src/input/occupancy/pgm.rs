@@ -4,8 +4,8 @@
 
 use super::picture::{Broken, Judge, Picture, checked_size};
 
-/// What to do about most defects.
-const CURE: &str = "save the picture anew";
+/// What to do about most diagnostics.
+const HELP: &str = "save the picture anew";
 
 /// Reads a greymap.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
@@ -15,14 +15,14 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         [header.number(&"width")?, header.number(&"height")?, header.number(&"greatest value (maxval)")?];
     let count = checked_size(width, height)?;
     if !(1..=65535).contains(&most) {
-        return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), CURE));
+        return Err(Broken::new(format!("maxval is {most}, it must be from 1 to 65535"), HELP));
     }
     // Once for every shade, not for every pixel.
     let said: Vec<_> = (0..=most).map(|value| judge(Some(value as f64 / most as f64))).collect();
     let checked = |value: usize, index: usize| {
         said.get(value).copied().ok_or_else(|| {
             let place = format!("row {}, column {}", index / width + 1, index % width + 1);
-            Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), CURE)
+            Broken::new(format!("{place}: {value} exceeds the maxval, {most}"), HELP)
         })
     };
     let cells = if in_text {
@@ -43,7 +43,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, Broken> {
         let needed = count * if wide { 2 } else { 1 };
         if raster.len() < needed {
             let message = format!("ends early: {width} x {height} pixels take {needed} bytes, it has {}", raster.len());
-            return Err(Broken::new(message, CURE));
+            return Err(Broken::new(message, HELP));
         }
         ended(start + needed, bytes)?;
         let value = |index: usize| match wide {
@@ -98,7 +98,7 @@ impl Words<'_> {
         let length = rest.iter().position(|b| b.is_ascii_whitespace() || *b == b'#').unwrap_or(rest.len());
         let word = &rest[..length];
         if word.is_empty() {
-            return Err(Broken::new(format!("ends early: there is no {what}"), CURE));
+            return Err(Broken::new(format!("ends early: there is no {what}"), HELP));
         }
         let value = std::str::from_utf8(word).ok().filter(|w| w.bytes().all(|b| b.is_ascii_digit()));
         match value.and_then(|w| w.parse().ok()) {
@@ -109,7 +109,7 @@ impl Words<'_> {
             _ => {
                 // Enough to recognise it by, whatever it is.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
-                Err(Broken::new(format!("{what}: {shown:?} is no whole number (byte {})", self.at + 1), CURE))
+                Err(Broken::new(format!("{what}: {shown:?} is no whole number (byte {})", self.at + 1), HELP))
             }
         }
     }

@@ -14,12 +14,12 @@ pub(super) struct Picture {
 #[derive(Debug)]
 pub(super) struct Broken {
     pub message: String,
-    pub cure: String,
+    pub help: String,
 }
 
 impl Broken {
-    pub fn new(message: impl Into<String>, cure: impl Into<String>) -> Self {
-        Self { message: message.into(), cure: cure.into() }
+    pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a result of cplan's says besides its samples.
 
-use crate::input::error::{Defect, InputError, without_place};
+use crate::input::error::{Diagnostic, InputError, without_place};
 use crate::input::source::Source;
 use crate::model::{BlendsClaim, Claims, EventClaim, OptimumClaim, StepClaims, TaskClaims};
 use crate::space::Configuration;
@@ -109,7 +109,7 @@ fn said<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Resu
 pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, InputError> {
     let wrong = |error: serde_json::Error| {
         let message = without_place(&error.to_string());
-        source.defect_at_position(error.line(), error.column(), message).cure("verify a result as cplan writes it")
+        source.diagnostic_at_position(error.line(), error.column(), message).help("verify a result as cplan writes it")
     };
     let members: serde_json::Map<String, serde_json::Value> = serde_json::from_str(source.text()).map_err(wrong)?;
     if !members.contains_key("status") {
@@ -131,14 +131,14 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     let width = document.joints.as_ref().map_or(2, Vec::len);
     let paths = document.path.iter().chain(document.steps.iter().flatten().filter_map(|step| step.path.as_ref()));
     if let Some(row) = paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > LARGEST)) {
-        let defect = source.defect(format!("a waypoint of a path is {row:?}, but {width} joints are named"));
-        return Err(defect.cure("give every waypoint one value for each joint, radians or metres").into());
+        let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but {width} joints are named"));
+        return Err(diagnostic.help("give every waypoint one value for each joint, radians or metres").into());
     }
     let claims = document.claims(order, unjudged);
     let numbers = [claims.length, claims.duration, claims.clearance.flatten(), claims.task.lower_bound];
     if let Some(value) = numbers.into_iter().flatten().find(|value| value.abs() > LARGEST) {
-        let defect: Defect = source.defect(format!("{value:e} is too large to be meant"));
-        return Err(defect.cure("radians, metres and seconds are expected").into());
+        let diagnostic: Diagnostic = source.diagnostic(format!("{value:e} is too large to be meant"));
+        return Err(diagnostic.help("radians, metres and seconds are expected").into());
     }
     Ok(Some(claims))
 }

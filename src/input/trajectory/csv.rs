@@ -4,7 +4,7 @@
 use super::columns::{Meaning, meanings};
 use super::records::{Field, Records};
 use super::{Names, Samples, Series};
-use crate::input::error::{Defect, InputError, quoted};
+use crate::input::error::{Diagnostic, InputError, quoted};
 use crate::input::source::Source;
 
 /// Reads a table. See [`super::load_recording`] for the names of columns.
@@ -14,7 +14,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     // A comment may be the header.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {
-        source.defect("is empty").cure("write a header of names, then the samples: time,joint1,joint2")
+        source.diagnostic("is empty").help("write a header of names, then the samples: time,joint1,joint2")
     })?;
     let mut columns = Columns::new(source, names, &header)?;
     let mut samples = Samples { what: "sample", ..Samples::default() };
@@ -24,12 +24,12 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
         if record.len() != header.len() {
             let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
             return Err(source
-                .defect_at(whole(&record), message)
-                .cure("give every line one value for each name of the header")
+                .diagnostic_at(whole(&record), message)
+                .help("give every line one value for each name of the header")
                 .into());
         }
         let sample = columns.used.iter().map(|&(index, _)| number(source, &header[index], &record[index]));
-        let sample = sample.collect::<Result<Vec<f64>, Defect>>()?;
+        let sample = sample.collect::<Result<Vec<f64>, Diagnostic>>()?;
         // The same line again, its time included, is the same sample.
         if columns.has_time()
             && !sample.is_empty()
@@ -80,18 +80,18 @@ fn whole(record: &[Field]) -> std::ops::Range<usize> {
     record.first().map_or(0, |f| f.range.start)..record.last().map_or(0, |f| f.range.end)
 }
 
-fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Defect> {
+fn number(source: &Source, name: &Field, field: &Field) -> Result<f64, Diagnostic> {
     match field.text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(value) => Err(source
-            .defect_at(field.range.clone(), format!("{} is {value}", quoted([&name.text])))
-            .cure("drop the samples that were not measured")),
+            .diagnostic_at(field.range.clone(), format!("{} is {value}", quoted([&name.text])))
+            .help("drop the samples that were not measured")),
         Err(_) => Err(source
-            .defect_at(
+            .diagnostic_at(
                 field.range.clone(),
                 format!("{} is \"{}\", which is no number", quoted([&name.text]), field.text),
             )
-            .cure("write numbers with a decimal point and no unit: radians or metres, and seconds")),
+            .help("write numbers with a decimal point and no unit: radians or metres, and seconds")),
     }
 }
 
@@ -105,7 +105,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn new(source: &Source, names: &Names, header: &[Field]) -> Result<Self, Defect> {
+    fn new(source: &Source, names: &Names, header: &[Field]) -> Result<Self, Diagnostic> {
         let joints: Vec<&str> = names.all().collect();
         let (mut used, mut unknown): (Vec<(usize, Meaning)>, Vec<&str>) = (Vec::new(), Vec::new());
         for (index, field) in header.iter().enumerate() {
@@ -116,20 +116,20 @@ impl Columns {
                 [meaning] => {
                     if let Some((other, _)) = used.iter().find(|(_, known)| *known == meaning) {
                         let message = format!("columns \"{}\" and \"{name}\" mean the same", header[*other].text);
-                        return Err(source.defect_at(field.range.clone(), message).cure("keep one of them"));
+                        return Err(source.diagnostic_at(field.range.clone(), message).help("keep one of them"));
                     }
                     used.push((index, meaning));
                 }
                 _ => {
                     let message = format!("the column \"{name}\" can be read in more than one way");
-                    let cure = "name it after its joint, with .position, .velocity or .acceleration behind it";
-                    return Err(source.defect_at(field.range.clone(), message).cure(cure));
+                    let help = "name it after its joint, with .position, .velocity or .acceleration behind it";
+                    return Err(source.diagnostic_at(field.range.clone(), message).help(help));
                 }
             }
         }
         if used.is_empty() && header.iter().all(|f| f.text.parse::<f64>().is_ok()) {
-            let cure = format!("name the columns in the first line: time, {}", names.arm.join(", "));
-            return Err(source.defect_at(whole(header), "there is no header").cure(cure));
+            let help = format!("name the columns in the first line: time, {}", names.arm.join(", "));
+            return Err(source.diagnostic_at(whole(header), "there is no header").help(help));
         }
         let mut notes = Vec::new();
         if !unknown.is_empty() {

@@ -1,7 +1,7 @@
 //! Joint values as a structured document: cplan's JSON, or a ROS 2 message in YAML or JSON.
 
 use super::{Samples, Series};
-use crate::input::error::{Defect, InputError, without_place};
+use crate::input::error::{Diagnostic, InputError, without_place};
 use crate::input::source::Source;
 use crate::space::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 use serde::Deserialize;
@@ -69,15 +69,15 @@ impl Stamp {
 
 /// Reads a result of cplan, or what others write as JSON.
 pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
-    let cure = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
+    let help = "a result of cplan's (--output NAME.json), or a JointTrajectory, is expected; numbers must be finite";
     // A list would be taken for the members of an object in their order.
     let begins = source.text.len() - source.text.trim_start().len();
     if source.text[begins..].starts_with('[') {
         let message = "is a list: an object { ... } is expected";
-        return Err(source.defect_at(begins..begins + 1, message).cure(cure).into());
+        return Err(source.diagnostic_at(begins..begins + 1, message).help(help).into());
     }
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
-        source.defect_at_position(error.line(), error.column(), without_place(&error.to_string())).cure(cure)
+        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
     })?;
     Ok(samples(source, document)?)
 }
@@ -98,13 +98,13 @@ pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let document: Document = serde_saphyr::from_str_with_options(text, options).map_err(|error| {
         let place = error.location();
         let (line, column) = place.map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
-        let cure = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
-        source.defect_at_position(line, column, without_place(&error.without_snippet().to_string())).cure(cure)
+        let help = "one trajectory_msgs/msg/JointTrajectory is expected, with joint_names and points";
+        source.diagnostic_at_position(line, column, without_place(&error.without_snippet().to_string())).help(help)
     })?;
     Ok(samples(source, document)?)
 }
 
-fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
+fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     let Document { status, joints, path, interpolation, trajectory, joint_names, points, joint_trajectory } = document;
     if let Some(points) = points {
         return message(source, joint_names, points);
@@ -129,12 +129,12 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Defect> {
         return Ok(Samples { joints, what: "path", ..Samples::default() });
     }
     Err(match status {
-        Some(status) => {
-            source.defect(format!("holds no path: its status is \"{status}\"")).cure("verify a result that found one")
-        }
+        Some(status) => source
+            .diagnostic(format!("holds no path: its status is \"{status}\""))
+            .help("verify a result that found one"),
         None => source
-            .defect("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
-            .cure("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
+            .diagnostic("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
+            .help("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
     })
 }
 
@@ -159,7 +159,7 @@ impl Samples {
         rows: Option<Vec<Vec<f64>>>,
         what: &str,
         place: fn(&mut Series) -> &mut Option<Vec<f64>>,
-    ) -> Result<(), Defect> {
+    ) -> Result<(), Diagnostic> {
         let Some(rows) = rows else { return Ok(()) };
         let columns = transposed(source, &rows, self.joints.len(), what)?;
         self.joints.iter_mut().zip(columns).for_each(|(joint, column)| *place(joint) = Some(column));
@@ -167,20 +167,22 @@ impl Samples {
     }
 }
 
-fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Defect> {
+fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Diagnostic> {
     let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
         source
-            .defect(format!("\"{member}\" is missing: it is not said which value is which joint's"))
-            .cure(format!("add \"{member}\" with the joints' names in the order of the values"))
+            .diagnostic(format!("\"{member}\" is missing: it is not said which value is which joint's"))
+            .help(format!("add \"{member}\" with the joints' names in the order of the values"))
     })?;
     match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
-        Some((_, twice)) => Err(source.defect(format!("\"{member}\" names joint \"{twice}\" twice")).cure("keep one")),
+        Some((_, twice)) => {
+            Err(source.diagnostic(format!("\"{member}\" names joint \"{twice}\" twice")).help("keep one"))
+        }
         None => Ok(names),
     }
 }
 
 /// A ROS message.
-fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Defect> {
+fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> Result<Samples, Diagnostic> {
     let names = named(source, names, "joint_names")?;
     let count = points.len();
     let (mut time, mut positions) = (Vec::new(), Vec::new());
@@ -195,8 +197,8 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
         [(velocities.len(), "velocities"), (accelerations.len(), "accelerations"), (time.len(), "time_from_start")];
     if let Some((found, what)) = found.into_iter().find(|(found, _)| *found != 0 && *found != count) {
         return Err(source
-            .defect(format!("{found} of {count} points have {what}"))
-            .cure(format!("give all points their {what}, or none")));
+            .diagnostic(format!("{found} of {count} points have {what}"))
+            .help(format!("give all points their {what}, or none")));
     }
     let mut samples = Samples { what: "points", joined: Some(Interpolation::Quintic), ..Samples::default() };
     // The controller goes to the first point from wherever the arm is.
@@ -214,16 +216,16 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
 }
 
 /// Rows of positions as a series a joint.
-fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Defect> {
+fn series(source: &Source, names: Vec<String>, rows: &[Vec<f64>], what: &str) -> Result<Vec<Series>, Diagnostic> {
     let columns = transposed(source, rows, names.len(), what)?;
     Ok(names.into_iter().zip(columns).map(|(name, position)| Series { name, position, ..Series::default() }).collect())
 }
 
 /// Rows as columns.
-fn transposed(source: &Source, rows: &[Vec<f64>], width: usize, what: &str) -> Result<Vec<Vec<f64>>, Defect> {
+fn transposed(source: &Source, rows: &[Vec<f64>], width: usize, what: &str) -> Result<Vec<Vec<f64>>, Diagnostic> {
     if let Some(k) = rows.iter().position(|row| row.len() != width) {
         let message = format!("{what}[{k}] has {} values, but {width} joints are named", rows[k].len());
-        return Err(source.defect(message).cure("give every sample one value for each joint"));
+        return Err(source.diagnostic(message).help("give every sample one value for each joint"));
     }
     Ok((0..width).map(|joint| rows.iter().map(|row| row[joint]).collect()).collect())
 }

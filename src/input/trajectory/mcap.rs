@@ -2,7 +2,7 @@
 
 use super::cdr::Cdr;
 use super::{Samples, Series};
-use crate::input::error::{Defect, InputError, quoted};
+use crate::input::error::{Diagnostic, InputError, quoted};
 use crate::input::source::Source;
 use crate::space::Interpolation;
 use std::collections::BTreeSet;
@@ -30,8 +30,8 @@ struct Message {
 /// What is no MCAP file, compressed ones, messages that are none, and motions that do not fit together.
 pub(super) fn read(source: &Source, bytes: &[u8]) -> Result<Samples, InputError> {
     let broken = |error: ::mcap::McapError| {
-        let cure = "record it uncompressed, as cplan writes it (mcap convert with compression none)";
-        source.defect(format!("cannot be read as MCAP: {error}")).cure(cure)
+        let help = "record it uncompressed, as cplan writes it (mcap convert with compression none)";
+        source.diagnostic(format!("cannot be read as MCAP: {error}")).help(help)
     };
     let (mut trajectories, mut states, mut unknown) = (Vec::new(), Vec::new(), BTreeSet::new());
     for message in ::mcap::MessageStream::new(bytes).map_err(broken)? {
@@ -41,7 +41,7 @@ pub(super) fn read(source: &Source, bytes: &[u8]) -> Result<Samples, InputError>
         let wrong = || {
             let message =
                 format!("a message on {topic} at {} ns is no {} in CDR", message.log_time, kind.unwrap_or("type"));
-            source.defect(message).cure("the recording is damaged, or of another type")
+            source.diagnostic(message).help("the recording is damaged, or of another type")
         };
         let begin = i64::try_from(message.log_time).map_err(|_| wrong())?;
         match (topic.as_str(), kind) {
@@ -92,7 +92,7 @@ fn state(bytes: &[u8], recorded: i64) -> Option<Message> {
 }
 
 /// Motions that follow each other, each beginning when it was recorded.
-fn whole(source: &Source, trajectories: Vec<(i64, Message)>) -> Result<Samples, Defect> {
+fn whole(source: &Source, trajectories: Vec<(i64, Message)>) -> Result<Samples, Diagnostic> {
     let mut rests = Vec::new();
     let mut all: Vec<Message> = Vec::new();
     let (mut count, mut last): (usize, Option<i64>) = (0, None);
@@ -103,7 +103,7 @@ fn whole(source: &Source, trajectories: Vec<(i64, Message)>) -> Result<Samples, 
         if let (Some(end), Some(first)) = (last, message.rows.first_mut()) {
             if first.nanoseconds < end {
                 let what = format!("a motion on {} begins at {} ns, before the last one ends", TRAJECTORIES.0, begin);
-                return Err(source.defect(what).cure("record one motion after the other"));
+                return Err(source.diagnostic(what).help("record one motion after the other"));
             }
             // Samples need distinct times: a nanosecond is the least that messages tell apart.
             first.nanoseconds = first.nanoseconds.max(end + 1);
@@ -121,7 +121,7 @@ fn whole(source: &Source, trajectories: Vec<(i64, Message)>) -> Result<Samples, 
                     "joint \"{}\" stands elsewhere when a motion begins than where the last one ended",
                     joint.name
                 );
-                return Err(source.defect(what).cure("record all motions"));
+                return Err(source.diagnostic(what).help("record all motions"));
             }
         }
     }
@@ -134,15 +134,15 @@ fn whole(source: &Source, trajectories: Vec<(i64, Message)>) -> Result<Samples, 
 }
 
 /// All rows as one series a joint. The clock begins with the first.
-fn joined(source: &Source, messages: Vec<Message>, topic: &str) -> Result<Samples, Defect> {
+fn joined(source: &Source, messages: Vec<Message>, topic: &str) -> Result<Samples, Diagnostic> {
     let Some(joints) = messages.first().map(|message| message.joints.clone()) else {
-        let cure = format!("record {} or {}", TRAJECTORIES.0, STATES.0);
-        return Err(source.defect("holds no joint values").cure(cure));
+        let help = format!("record {} or {}", TRAJECTORIES.0, STATES.0);
+        return Err(source.diagnostic("holds no joint values").help(help));
     };
     if let Some(other) = messages.iter().find(|message| message.joints != joints) {
         let what =
             format!("messages on {topic} name different joints: {} and {}", quoted(&joints), quoted(&other.joints));
-        return Err(source.defect(what).cure("record one source of joint values"));
+        return Err(source.diagnostic(what).help("record one source of joint values"));
     }
     let rows: Vec<Row> = messages.into_iter().flat_map(|message| message.rows).collect();
     let given = [1, 2].map(|k: usize| rows.first().is_some_and(|row| !row.values[k].is_empty()));
@@ -150,8 +150,8 @@ fn joined(source: &Source, messages: Vec<Message>, topic: &str) -> Result<Sample
     if let Some(row) = rows.iter().find(|row| (0..3).any(|k| row.values[k].len() != expected(k))) {
         let what = format!("a sample on {topic} at {} ns has not one value for each joint and kind", row.nanoseconds);
         return Err(source
-            .defect(what)
-            .cure("give all samples positions, and all or none velocities and accelerations"));
+            .diagnostic(what)
+            .help("give all samples positions, and all or none velocities and accelerations"));
     }
     let begin = rows.first().map_or(0, |row| row.nanoseconds);
     let column = |k: usize, joint: usize| rows.iter().map(|row| row.values[k][joint]).collect::<Vec<f64>>();

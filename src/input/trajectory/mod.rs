@@ -15,10 +15,10 @@ mod records;
 mod steps;
 
 use super::LoadedScene;
-use super::error::{Defect, InputError, quoted};
+use super::error::{Diagnostic, InputError, quoted};
 use super::source::Source;
 use crate::model::{Claims, RecordedStep};
-use crate::space::{Configuration, Interpolation, Recording, RecordingDefect};
+use crate::space::{Configuration, Interpolation, Recording, RecordingError};
 use std::ops::Range;
 use std::path::Path;
 
@@ -79,12 +79,12 @@ struct Samples {
 ///
 /// # Errors
 /// Files that cannot be read, are no such format, have steps that are none, lack a joint, move a joint that the arm holds still, or whose samples
-/// are no motion; with the place in the file and the cure.
+/// are no motion; with the place in the file and what to do about it.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
-        return Err(Defect::new(path.display().to_string(), "cannot tell the format of this file")
-            .cure("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
+        return Err(Diagnostic::new(path.display().to_string(), "cannot tell the format of this file")
+            .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
     }
     let names = Names {
@@ -123,8 +123,8 @@ fn recorded(path: &Path, names: &Names) -> Result<LoadedRecording, InputError> {
 /// A recording of topics.
 #[cfg(not(feature = "mcap"))]
 fn recorded(path: &Path, _: &Names) -> Result<LoadedRecording, InputError> {
-    let defect = Defect::new(path.display().to_string(), "this program was built without MCAP");
-    Err(defect.cure("verify a .json, .csv or .yaml, or build with --features mcap").into())
+    let diagnostic = Diagnostic::new(path.display().to_string(), "this program was built without MCAP");
+    Err(diagnostic.help("verify a .json, .csv or .yaml, or build with --features mcap").into())
 }
 
 /// The joints that a file can speak of.
@@ -141,7 +141,7 @@ impl Names<'_> {
     }
 
     /// The arm's two joints of what was read.
-    fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Defect> {
+    fn recording(&self, source: &Source, mut samples: Samples) -> Result<LoadedRecording, Diagnostic> {
         let mut notes = std::mem::take(&mut samples.notes);
         let mut chosen = Vec::new();
         for name in self.arm {
@@ -150,8 +150,8 @@ impl Names<'_> {
                 None => {
                     let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
                     let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
-                    let cure = format!("the arm's joints are {}: name the positions so", quoted(self.arm));
-                    return Err(source.defect(message).cure(cure));
+                    let help = format!("the arm's joints are {}: name the positions so", quoted(self.arm));
+                    return Err(source.diagnostic(message).help(help));
                 }
             }
         }
@@ -159,7 +159,7 @@ impl Names<'_> {
             notes.push(self.stands_still(source, &samples, other)?);
         }
         let Ok([one, two]) = <[Series; 2]>::try_from(chosen) else {
-            return Err(source.defect("two joints are needed").cure("name the positions of both"));
+            return Err(source.diagnostic("two joints are needed").help("name the positions of both"));
         };
         let both = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| Configuration::new(*a, *b)).collect();
         let mut rows = |what: &str, a: &Option<Vec<f64>>, b: &Option<Vec<f64>>| match (a, b) {
@@ -188,7 +188,7 @@ impl Names<'_> {
     }
 
     /// Checks a joint that is none of the arm's two.
-    fn stands_still(&self, source: &Source, samples: &Samples, other: &Series) -> Result<String, Defect> {
+    fn stands_still(&self, source: &Source, samples: &Samples, other: &Series) -> Result<String, Diagnostic> {
         let name = &other.name;
         let Some((_, held)) = self.held.iter().find(|(held, _)| held == name) else {
             return Ok(format!("joint \"{name}\" is ignored: the arm does not depend on it"));
@@ -202,43 +202,43 @@ impl Names<'_> {
             Some(sample) => {
                 let value = other.position[sample];
                 let message = format!("joint \"{name}\" is at {value}, but the workspace holds it at {held}");
-                let cure = format!(
+                let help = format!(
                     "a joint that stands still elsewhere: [robot] fixed = {{ {name} = {value} }} in the \
                                     world file; one that moves cannot be checked with the arm's two"
                 );
-                Err(samples.defect(source, sample, &message).cure(cure))
+                Err(samples.diagnostic(source, sample, &message).help(help))
             }
         }
     }
 }
 
 impl Samples {
-    /// A defect of one sample.
-    fn defect(&self, source: &Source, sample: usize, message: &str) -> Defect {
+    /// A diagnostic of one sample.
+    fn diagnostic(&self, source: &Source, sample: usize, message: &str) -> Diagnostic {
         match self.places.get(sample) {
-            Some(place) => source.defect_at(place.clone(), message),
-            None => source.defect(format!("{}[{sample}]: {message}", self.what)),
+            Some(place) => source.diagnostic_at(place.clone(), message),
+            None => source.diagnostic(format!("{}[{sample}]: {message}", self.what)),
         }
     }
 }
 
-fn misplaced(source: &Source, samples: &Samples, defect: &RecordingDefect) -> Defect {
-    let message = defect.to_string();
-    let placed = match defect.sample() {
-        Some(sample) => samples.defect(source, sample, &message),
-        None => source.defect(message),
+fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) -> Diagnostic {
+    let message = diagnostic.to_string();
+    let placed = match diagnostic.sample() {
+        Some(sample) => samples.diagnostic(source, sample, &message),
+        None => source.diagnostic(message),
     };
-    match defect {
-        RecordingDefect::Empty => placed.cure("record at least one sample"),
-        RecordingDefect::Count { .. } => placed.cure("give every sample all of its values"),
-        RecordingDefect::VelocityWithoutTime => placed.cure("add the times, in seconds, or leave the velocities out"),
-        RecordingDefect::AccelerationWithoutVelocity => {
-            placed.cure("add the velocities, or leave the accelerations out: no controller joins samples without them")
+    match diagnostic {
+        RecordingError::Empty => placed.help("record at least one sample"),
+        RecordingError::Count { .. } => placed.help("give every sample all of its values"),
+        RecordingError::VelocityWithoutTime => placed.help("add the times, in seconds, or leave the velocities out"),
+        RecordingError::AccelerationWithoutVelocity => {
+            placed.help("add the velocities, or leave the accelerations out: no controller joins samples without them")
         }
-        RecordingDefect::Value { what, .. } => {
-            placed.cure(format!("a {what} is a finite number: radians or metres, and seconds"))
+        RecordingError::Value { what, .. } => {
+            placed.help(format!("a {what} is a finite number: radians or metres, and seconds"))
         }
-        RecordingDefect::Time { .. } => placed.cure("sort the samples by time and drop repeated ones"),
+        RecordingError::Time { .. } => placed.help("sort the samples by time and drop repeated ones"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The steps in a result of a task.
 
 use super::Samples;
-use crate::input::error::{Defect, InputError, without_place};
+use crate::input::error::{Diagnostic, InputError, without_place};
 use crate::input::source::Source;
 use crate::model::{RecordedStep, RecordedTurn};
 use serde::Deserialize;
@@ -39,22 +39,23 @@ struct TurnMember {
 /// samples without times and velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
     let document: Document = serde_json::from_str(&source.text).map_err(|error| {
-        let cure = "steps are those of a task's result as cplan writes it: step, cycle, first_sample and last_sample";
-        source.defect_at_position(error.line(), error.column(), without_place(&error.to_string())).cure(cure)
+        let help = "steps are those of a task's result as cplan writes it: step, cycle, first_sample and last_sample";
+        source.diagnostic_at_position(error.line(), error.column(), without_place(&error.to_string())).help(help)
     })?;
     let Some(steps) = document.steps else { return Ok(None) };
     let count = samples.joints.first().map_or(0, |joint| joint.position.len());
     if samples.time.is_none() || samples.joints.iter().any(|joint| joint.velocity.is_none()) {
         let message = "has steps, but no trajectory with time, position and velocity that they could belong to";
-        return Err(source.defect(message).cure("verify the result of a whole task as cplan writes it").into());
+        return Err(source.diagnostic(message).help("verify the result of a whole task as cplan writes it").into());
     }
     let read = |(index, member): (usize, &StepMember)| member.read(source, index, count);
     Ok(Some(steps.iter().enumerate().map(read).collect::<Result<_, _>>()?))
 }
 
 impl StepMember {
-    fn read(&self, source: &Source, index: usize, count: usize) -> Result<RecordedStep, Defect> {
-        let refuse = |message: String, cure: &str| Err(source.defect(format!("steps[{index}]: {message}")).cure(cure));
+    fn read(&self, source: &Source, index: usize, count: usize) -> Result<RecordedStep, Diagnostic> {
+        let refuse =
+            |message: String, help: &str| Err(source.diagnostic(format!("steps[{index}]: {message}")).help(help));
         let (Some(first), Some(last)) = (self.first_sample, self.last_sample) else {
             return refuse(
                 "first_sample or last_sample is missing: it is not said which samples are the step's".into(),
@@ -62,8 +63,8 @@ impl StepMember {
             );
         };
         if first > last || last >= count {
-            let cure = "the first and the last sample of the motion, counted from 0";
-            return refuse(format!("its samples are {first} to {last}, and the trajectory has {count}"), cure);
+            let help = "the first and the last sample of the motion, counted from 0";
+            return refuse(format!("its samples are {first} to {last}, and the trajectory has {count}"), help);
         }
         let turn = match &self.turn {
             None => None,
@@ -72,8 +73,8 @@ impl StepMember {
                 if let Some((what, value)) =
                     wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST)
                 {
-                    let cure = "a turn of the wrist has two angles in radians, and takes seconds";
-                    return refuse(format!("the turn's {what} is {value}"), cure);
+                    let help = "a turn of the wrist has two angles in radians, and takes seconds";
+                    return refuse(format!("the turn's {what} is {value}"), help);
                 }
                 Some(RecordedTurn { from: *from, to: *to, seconds: *seconds })
             }

@@ -1,7 +1,7 @@
 //! Checks of single URDF elements and attributes, with their places.
 
 use super::document::{escaped, tag};
-use crate::input::error::Defect;
+use crate::input::error::Diagnostic;
 use crate::input::source::Source;
 use crate::input::world::LARGEST;
 use roxmltree::Node;
@@ -51,7 +51,7 @@ const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", 
 /// Reads attributes of one link or joint and collects what is wrong with them.
 pub(super) struct Attributes<'a> {
     pub source: &'a Source,
-    pub defects: &'a mut Vec<Defect>,
+    pub diagnostics: &'a mut Vec<Diagnostic>,
     /// The link or joint, as it begins every message.
     pub what: &'a str,
 }
@@ -64,10 +64,10 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
 }
 
 impl Attributes<'_> {
-    fn defect(&mut self, node: Node, attribute: Option<&str>, message: String, cure: &str) {
+    fn diagnostic(&mut self, node: Node, attribute: Option<&str>, message: String, help: &str) {
         let place = attribute.and_then(|a| node.attribute_node(a)).map_or_else(|| tag(node), |a| a.range());
-        let defect = self.source.defect_at(place, format!("{}: {message}", self.what));
-        self.defects.push(defect.cure(cure));
+        let diagnostic = self.source.diagnostic_at(place, format!("{}: {message}", self.what));
+        self.diagnostics.push(diagnostic.help(help));
     }
 
     /// Refuses NaN in every numeric attribute below `node`, also in those that are not used, and infinities where they do
@@ -83,8 +83,8 @@ impl Attributes<'_> {
                     |word: &&str| word.parse::<f64>().is_ok_and(|x| x.is_nan() || x.is_infinite() && !may_be_infinite);
                 if let Some(word) = attribute.value().split_whitespace().find(bad) {
                     let message = format!("{word} in {}=\"{}\" is not finite", attribute.name(), attribute.value());
-                    let cure = "every number of a URDF is finite; a joint without limits is of type continuous";
-                    self.defect(element, Some(attribute.name()), message, cure);
+                    let help = "every number of a URDF is finite; a joint without limits is of type continuous";
+                    self.diagnostic(element, Some(attribute.name()), message, help);
                 }
             }
         }
@@ -95,10 +95,10 @@ impl Attributes<'_> {
         let mut found = children(node, name);
         let first = found.next();
         if let Some(second) = found.next() {
-            self.defect(second, None, format!("a second <{name}>"), "keep the one that is meant");
+            self.diagnostic(second, None, format!("a second <{name}>"), "keep the one that is meant");
         }
         if first.is_none() && required {
-            self.defect(node, None, format!("<{name}> is missing"), &format!("add a <{name}>"));
+            self.diagnostic(node, None, format!("<{name}> is missing"), &format!("add a <{name}>"));
         }
         first
     }
@@ -108,7 +108,7 @@ impl Attributes<'_> {
         let value = node.attribute(name).filter(|v| !v.trim().is_empty());
         if value.is_none() {
             let message = format!("<{}> needs the attribute {name}", node.tag_name().name());
-            self.defect(node, None, message, &format!("add {name}=\"...\""));
+            self.diagnostic(node, None, message, &format!("add {name}=\"...\""));
         }
         value
     }
@@ -122,19 +122,19 @@ impl Attributes<'_> {
                 let is_length = ["xyz", "size", "radius", "length"].contains(&name);
                 if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > LARGEST) {
                     let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {LARGEST:e})");
-                    self.defect(node, Some(name), message, "lengths are in metres");
+                    self.diagnostic(node, Some(name), message, "lengths are in metres");
                     return None;
                 }
                 values.iter().all(|x| x.is_finite()).then_some(values)
             }
             Ok(values) => {
                 let message = format!("{name}=\"{text}\" has {} numbers, not {count}", values.len());
-                self.defect(node, Some(name), message, "separate numbers by blanks, as in \"0.5 0 0\"");
+                self.diagnostic(node, Some(name), message, "separate numbers by blanks, as in \"0.5 0 0\"");
                 None
             }
             Err(_) => {
                 let noun = if count == 1 { "a number".to_owned() } else { format!("{count} numbers") };
-                self.defect(
+                self.diagnostic(
                     node,
                     Some(name),
                     format!("{name}=\"{text}\" is not {noun}"),
@@ -160,7 +160,12 @@ impl Attributes<'_> {
             }
         }
         if origin.has_attribute("rpy") && origin.has_attribute("quat_xyzw") {
-            self.defect(origin, Some("quat_xyzw"), "the origin has both rpy and quat_xyzw".into(), "keep one of them");
+            self.diagnostic(
+                origin,
+                Some("quat_xyzw"),
+                "the origin has both rpy and quat_xyzw".into(),
+                "keep one of them",
+            );
         }
         copy + "/>"
     }
@@ -169,15 +174,20 @@ impl Attributes<'_> {
     pub fn direction(&mut self, axis: Node) -> bool {
         let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
-                self.defect(axis, None, "the <axis> has no xyz".into(), "write <axis xyz=\"0 0 1\"/> or the like");
+                self.diagnostic(axis, None, "the <axis> has no xyz".into(), "write <axis xyz=\"0 0 1\"/> or the like");
             }
             return false;
         };
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
         // A shorter axis has no direction that its digits support.
         if length < 1e-9 {
-            let cure = "give the axis a direction, such as xyz=\"0 0 1\", or make the joint fixed";
-            self.defect(axis, Some("xyz"), format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or("")), cure);
+            let help = "give the axis a direction, such as xyz=\"0 0 1\", or make the joint fixed";
+            self.diagnostic(
+                axis,
+                Some("xyz"),
+                format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or("")),
+                help,
+            );
             return false;
         }
         true
@@ -189,8 +199,8 @@ impl Attributes<'_> {
         if JOINT_TYPES.contains(&kind) {
             return Some(kind);
         }
-        let cure = format!("one of {}", JOINT_TYPES.join(", "));
-        self.defect(joint, Some("type"), format!("type \"{kind}\" is unknown"), &cure);
+        let help = format!("one of {}", JOINT_TYPES.join(", "));
+        self.diagnostic(joint, Some("type"), format!("type \"{kind}\" is unknown"), &help);
         None
     }
 
@@ -209,17 +219,17 @@ impl Attributes<'_> {
             let missing = ["lower", "upper"].into_iter().zip(values).find(|(_, value)| value.is_none());
             let message = format!("the limits are reversed: lower {lower} is above upper {upper}");
             match missing {
-                None => self.defect(limit, Some("lower"), message, "swap lower and upper"),
+                None => self.diagnostic(limit, Some("lower"), message, "swap lower and upper"),
                 Some((name, _)) => {
                     let message = format!("{message} (no {name} is given)");
-                    self.defect(limit, None, message, &format!("give {name} as well"));
+                    self.diagnostic(limit, None, message, &format!("give {name} as well"));
                 }
             }
             values[..2].copy_from_slice(&[Some(upper), Some(lower)]);
         }
         for (name, value) in [("velocity", values[2]), ("acceleration", values[3])] {
             if value.is_some_and(|v| v < 0.0) {
-                self.defect(limit, Some(name), format!("the {name} limit is negative"), "limits are magnitudes");
+                self.diagnostic(limit, Some(name), format!("the {name} limit is negative"), "limits are magnitudes");
             }
         }
         values
@@ -231,7 +241,7 @@ impl Attributes<'_> {
         let upper = self.number(safety, "soft_upper_limit")?;
         if lower > upper {
             let message = format!("the soft limits are reversed: {lower} is above {upper}");
-            self.defect(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
+            self.diagnostic(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
         }
         (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
@@ -239,7 +249,7 @@ impl Attributes<'_> {
     /// The shape in a `<geometry>`, with sizes that are positive, or all zero (which exporters write for no shape).
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let Some(shape) = geometry.children().find(Node::is_element) else {
-            self.defect(
+            self.diagnostic(
                 geometry,
                 None,
                 "the <geometry> is empty".into(),
@@ -256,7 +266,7 @@ impl Attributes<'_> {
                 if let Some(scale) = self.numbers(shape, "scale", 3)
                     && scale.contains(&0.0)
                 {
-                    self.defect(
+                    self.diagnostic(
                         shape,
                         Some("scale"),
                         "a scale of 0 flattens the mesh".into(),
@@ -266,8 +276,8 @@ impl Attributes<'_> {
                 return Some(shape);
             }
             other => {
-                let cure = "box, cylinder, sphere, capsule or mesh";
-                self.defect(shape, None, format!("the shape <{other}> is unknown"), cure);
+                let help = "box, cylinder, sphere, capsule or mesh";
+                self.diagnostic(shape, None, format!("the shape <{other}> is unknown"), help);
                 return None;
             }
         };
@@ -279,7 +289,7 @@ impl Attributes<'_> {
         let all_zero = values.iter().all(|v| *v == 0.0);
         if !all_zero && values.iter().any(|v| *v <= 0.0) {
             let message = format!("the sizes of the {} must be positive", shape.tag_name().name());
-            self.defect(shape, Some(sizes[0].0), message, "lengths are in metres");
+            self.diagnostic(shape, Some(sizes[0].0), message, "lengths are in metres");
         }
         Some(shape)
     }

@@ -7,7 +7,7 @@ use super::plane::project;
 use super::solid::{Solid, capsule};
 use super::tree::{Tree, isometry};
 use crate::geometry::{Point, Vector};
-use crate::input::error::{Defect, InputError};
+use crate::input::error::{Diagnostic, InputError};
 use crate::input::world::World;
 use crate::model::{Heights, Link, OutlineSource, Part, Plane};
 use nalgebra::{Isometry3, Translation2, Vector3};
@@ -42,7 +42,7 @@ struct Found {
     /// Bodies with a shape without any size.
     empty: Vec<String>,
     /// Meshes that cannot be used.
-    unread: Vec<Defect>,
+    unread: Vec<Diagnostic>,
 }
 
 /// Two links, and what the user should know of them.
@@ -69,21 +69,21 @@ impl Bodies<'_> {
                 "neither link \"{}\" nor link \"{}\" has collision or visual geometry: nothing of the arm can be hit",
                 links[0].name, links[1].name
             );
-            let cure = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
+            let help = "add <collision> geometry to the URDF, or let bars between the joints stand in for the links, in the \
                         world file: [robot] bar = 0.05 (their radius in metres)";
-            return Err(self.document.source.defect(message).cure(cure).into());
+            return Err(self.document.source.diagnostic(message).help(help).into());
         }
         Ok(Outlines { links, notes, warnings })
     }
 
-    fn bar(&self) -> Result<Option<f64>, Defect> {
+    fn bar(&self) -> Result<Option<f64>, Diagnostic> {
         let Some(bar) = &self.world.robot.bar else { return Ok(None) };
         let radius = *bar.get_ref();
         if radius.is_finite() && radius > 0.0 {
             return Ok(Some(radius));
         }
         let message = format!("[robot] bar: the radius must be positive, is {radius}");
-        Err(self.world.source.defect_at(bar.span(), message).cure("bar = 0.05, metres"))
+        Err(self.world.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
     }
 
     fn link(
@@ -113,8 +113,8 @@ impl Bodies<'_> {
         if !unread.is_empty() || parts.is_empty() {
             match bar {
                 Some(radius) => {
-                    for defect in &unread {
-                        warnings.push(format!("{}; the bar stands in for it", defect.message));
+                    for diagnostic in &unread {
+                        warnings.push(format!("{}; the bar stands in for it", diagnostic.message));
                     }
                     parts.push(self.bar_part(index, radius, &name));
                     source = OutlineSource::Bar;
@@ -184,10 +184,10 @@ impl Bodies<'_> {
                     Ok(solid) => solid,
                     Err(message) => {
                         let message = format!("link \"{}\": {message}", link.name);
-                        let cure = "correct the path, put the package folder beside the URDF or name its place in \
+                        let help = "correct the path, put the package folder beside the URDF or name its place in \
                                     ROS_PACKAGE_PATH, and convert other formats to STL; or let bars between the joints \
                                     stand in for the links, in the world file: [robot] bar = 0.05 (their radius in metres)";
-                        found.unread.push(self.document.defect_at(at, message).cure(cure));
+                        found.unread.push(self.document.diagnostic_at(at, message).help(help));
                         continue;
                     }
                 };

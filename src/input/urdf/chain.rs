@@ -4,7 +4,7 @@ use super::document::Document;
 use super::held::Held;
 use super::pairing;
 use super::tree::Tree;
-use crate::input::error::{Defect, InputError, quoted};
+use crate::input::error::{Diagnostic, InputError, quoted};
 use crate::input::world::World;
 use toml::Spanned;
 use urdf_rs::JointType;
@@ -106,46 +106,46 @@ impl Chooser<'_> {
         self.all().iter().position(|j| j.name == name)
     }
 
-    pub(super) fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Defect {
-        self.world.source.defect_at(place.span(), message)
+    pub(super) fn in_world<T>(&self, place: &Spanned<T>, message: String) -> Diagnostic {
+        self.world.source.diagnostic_at(place.span(), message)
     }
 
     /// A movable joint that the world file names.
-    pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Defect> {
+    pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Diagnostic> {
         let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
-        let cure = || format!("the movable joints are {}", movable());
+        let help = || format!("the movable joints are {}", movable());
         let Some(index) = self.joint(name.get_ref()) else {
             let message = format!("[robot] {table}: the robot has no joint \"{}\"", name.get_ref());
-            return Err(self.in_world(name, message).cure(cure()));
+            return Err(self.in_world(name, message).help(help()));
         };
         let joint = &self.all()[index];
         if !is_movable(joint) {
             let message = format!("[robot] {table}: joint \"{}\" is of type {}", joint.name, type_name(joint));
-            return Err(self.in_world(name, message).cure(cure()));
+            return Err(self.in_world(name, message).help(help()));
         }
         Ok(index)
     }
 
     fn names_exist(&self) -> Result<(), InputError> {
         let robot = &self.world.robot;
-        let keys = |table, names: Vec<&Spanned<String>>| -> Vec<Defect> {
+        let keys = |table, names: Vec<&Spanned<String>>| -> Vec<Diagnostic> {
             names.into_iter().filter_map(|n| self.named(n, table).err()).collect()
         };
-        let mut defects = keys("fixed", robot.fixed.keys().collect());
-        defects.extend(keys("limits", robot.limits.keys().collect()));
-        defects.extend(keys("velocity", robot.velocity.keys().collect()));
-        defects.extend(keys("acceleration", robot.acceleration.keys().collect()));
-        defects.extend(keys("jerk", robot.jerk.keys().collect()));
-        InputError::check(defects)
+        let mut diagnostics = keys("fixed", robot.fixed.keys().collect());
+        diagnostics.extend(keys("limits", robot.limits.keys().collect()));
+        diagnostics.extend(keys("velocity", robot.velocity.keys().collect()));
+        diagnostics.extend(keys("acceleration", robot.acceleration.keys().collect()));
+        diagnostics.extend(keys("jerk", robot.jerk.keys().collect()));
+        InputError::check(diagnostics)
     }
 
-    fn joints(&self) -> Result<[usize; 2], Defect> {
+    fn joints(&self) -> Result<[usize; 2], Diagnostic> {
         let pair = match &self.world.robot.joints {
             Some(names) => match names.get_ref().as_slice() {
                 [a, b] => [self.named(a, "joints")?, self.named(b, "joints")?],
                 other => {
                     let message = format!("[robot] joints: exactly two joints move, {} are named", other.len());
-                    return Err(self.in_world(names, message).cure("joints = [\"first\", \"second\"], base to tip"));
+                    return Err(self.in_world(names, message).help("joints = [\"first\", \"second\"], base to tip"));
                 }
             },
             None => self.the_only_two()?,
@@ -162,7 +162,7 @@ impl Chooser<'_> {
                 let message = format!(
                     "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
                 );
-                Err(self.in_world(names, message).cure(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
+                Err(self.in_world(names, message).help(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
             }
             names => {
                 let message = if a == b {
@@ -170,11 +170,11 @@ impl Chooser<'_> {
                 } else {
                     format!("joints \"{first}\" and \"{second}\" are on different branches: neither carries the other")
                 };
-                let defect = match names {
+                let diagnostic = match names {
                     Some(names) => self.in_world(names, format!("[robot] joints: {message}")),
-                    None => self.document.source.defect(message),
+                    None => self.document.source.diagnostic(message),
                 };
-                Err(defect.cure("choose two joints of one chain, base to tip"))
+                Err(diagnostic.help("choose two joints of one chain, base to tip"))
             }
         }
     }
@@ -184,7 +184,7 @@ impl Chooser<'_> {
         (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
 
-    fn the_only_two(&self) -> Result<[usize; 2], Defect> {
+    fn the_only_two(&self) -> Result<[usize; 2], Diagnostic> {
         let candidates = self.candidates();
         if let [a, b] = candidates[..] {
             return Ok([a, b]);
@@ -214,16 +214,16 @@ impl Chooser<'_> {
             return Err(self
                 .document
                 .source
-                .defect(message)
-                .cure("use a robot with two joints that move in one plane"));
+                .diagnostic(message)
+                .help("use a robot with two joints that move in one plane"));
         }
         if candidates.len() > pairing::MOST_TRIED {
             let message = format!(
                 "the robot has {} joints that can move, and which two are to be planned for is not said{coupled}",
                 candidates.len()
             );
-            let cure = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
-            return Err(self.document.source.defect(message).cure(cure));
+            let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
+            return Err(self.document.source.diagnostic(message).help(help));
         }
         let planar = pairing::planar(self.document, self.tree, self.world);
         if let Some(pair) = pairing::evident(self.document, self.tree, &planar) {
@@ -236,27 +236,27 @@ impl Chooser<'_> {
                 "cplan plans for two joints that move in one plane; none of the robot's {count} joints that can move form \
                  such a pair: {list}{coupled}"
             );
-            let cure =
+            let help =
                 "use a robot with two joints that move in one plane; `cplan inspect` says of each pair why it does not";
-            return Err(self.document.source.defect(message).cure(cure));
+            return Err(self.document.source.diagnostic(message).help(help));
         }
         let message = format!(
             "the robot has {count} joints that can move, and which two are to be planned for is not said: {list}{coupled}"
         );
-        let cure = format!(
+        let help = format!(
             "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
             pairing::choices(self.document, &planar)
         );
-        Err(self.document.source.defect(message).cure(cure))
+        Err(self.document.source.diagnostic(message).help(help))
     }
 
     /// Refuses chains whose two joints do not move alone.
-    fn independent(&self, chosen: [usize; 2]) -> Result<(), Defect> {
+    fn independent(&self, chosen: [usize; 2]) -> Result<(), Diagnostic> {
         let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
         for j in chosen {
             if let Some(mimic) = &self.all()[j].mimic {
                 let message = format!("mimics joint \"{}\", so it cannot move on its own: {reason}", mimic.joint);
-                return Err(self.mimic_defect(j, &message));
+                return Err(self.mimic_diagnostic(j, &message));
             }
         }
         for (j, joint) in self.all().iter().enumerate() {
@@ -266,7 +266,10 @@ impl Chooser<'_> {
             {
                 let message =
                     format!("is of type {}: where its link is does not follow from one value", type_name(joint));
-                return Err(self.document.joint_defect(j, &message).cure("make it fixed, or choose joints above it"));
+                return Err(self
+                    .document
+                    .joint_diagnostic(j, &message)
+                    .help("make it fixed, or choose joints above it"));
             }
             if joint.mimic.is_none() || !carried {
                 continue;
@@ -275,21 +278,21 @@ impl Chooser<'_> {
             if chosen.contains(&leader) {
                 let leader = &self.all()[leader].name;
                 let message = format!("mimics joint \"{leader}\", so more than two joints of the arm move: {reason}");
-                return Err(self.mimic_defect(j, &message));
+                return Err(self.mimic_diagnostic(j, &message));
             }
         }
         Ok(())
     }
 
-    pub(super) fn mimic_defect(&self, joint: usize, message: &str) -> Defect {
+    pub(super) fn mimic_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
         let place = &self.document.joints[joint];
         let message = format!("joint \"{}\" {message}", self.all()[joint].name);
         self.document
-            .defect_at(place.mimic.as_ref().unwrap_or(&place.at), message)
-            .cure("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
+            .diagnostic_at(place.mimic.as_ref().unwrap_or(&place.at), message)
+            .help("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
     }
 
-    fn tip(&self, joints: [usize; 2]) -> Result<usize, Defect> {
+    fn tip(&self, joints: [usize; 2]) -> Result<usize, Diagnostic> {
         let below: Vec<usize> = (0..self.tree.links.len()).filter(|l| self.tree.carries(joints[1], *l)).collect();
         if let Some(name) = &self.world.robot.tip {
             return match self.tree.link(name.get_ref()) {
@@ -304,7 +307,7 @@ impl Chooser<'_> {
                         ),
                     };
                     let links = quoted(below.iter().map(|l| &self.tree.links[*l]));
-                    Err(self.in_world(name, message).cure(format!("the links that it carries are {links}")))
+                    Err(self.in_world(name, message).help(format!("the links that it carries are {links}")))
                 }
             };
         }

@@ -1,4 +1,4 @@
-//! The URDF as a document: read by `roxmltree` for places and defects, and by `urdf-rs` for its contents.
+//! The URDF as a document: read by `roxmltree` for places and diagnostics, and by `urdf-rs` for its contents.
 //!
 //! `urdf-rs` gives no line numbers, takes `NaN` and wrong vectors as they come, and rejects files over elements that do
 //! not matter here (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every element that
@@ -6,7 +6,7 @@
 
 use super::attributes::{Attributes, children};
 use super::foreign;
-use crate::input::error::{Defect, InputError};
+use crate::input::error::{Diagnostic, InputError};
 use crate::input::source::Source;
 use roxmltree::Node;
 use std::collections::{BTreeMap, HashMap};
@@ -14,7 +14,7 @@ use std::fmt::Write;
 use std::ops::Range;
 
 /// A URDF that has been read: all numbers are finite, every element has its attributes, names are unique. Elements that
-/// are not so are left out, with a defect.
+/// are not so are left out, with a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
@@ -26,7 +26,7 @@ pub(super) struct Document {
     /// Elements beside links and joints, with their number, by name.
     pub others: BTreeMap<String, usize>,
     /// What is wrong with single elements. A robot with any is good for a report only.
-    pub defects: Vec<Defect>,
+    pub diagnostics: Vec<Diagnostic>,
     /// Whether none of them is in a joint or a name, so that the kinematics are as the file has them.
     pub tree_is_sound: bool,
 }
@@ -58,8 +58,8 @@ impl Document {
     /// Reads a URDF.
     ///
     /// # Errors
-    /// When it is no XML, is xacro or SDF, or so defective that nothing is left to work with. Defects that
-    /// can be seen without the tree of links are all collected in [`Document::defects`].
+    /// When it is no XML, is xacro or SDF, or so defective that nothing is left to work with. Diagnostics that
+    /// can be seen without the tree of links are all collected in [`Document::diagnostics`].
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::recognise_by_name(&source)?;
         foreign::without_entities(&source)?;
@@ -71,31 +71,31 @@ impl Document {
 
         let mut reader = Reader {
             source: &source,
-            defects: Vec::new(),
+            diagnostics: Vec::new(),
             copy: String::new(),
             others: BTreeMap::default(),
             tree_is_sound: true,
         };
         let (links, joints) = reader.robot(root);
-        let Reader { defects, copy, others, tree_is_sound, .. } = reader;
+        let Reader { diagnostics, copy, others, tree_is_sound, .. } = reader;
         match urdf_rs::read_from_string(&copy) {
-            Ok(robot) => Ok(Self { robot, links, joints, others, defects, tree_is_sound, source }),
+            Ok(robot) => Ok(Self { robot, links, joints, others, diagnostics, tree_is_sound, source }),
             Err(error) => {
-                InputError::check(defects)?;
-                let defect = source.defect(format!("is not a URDF that can be read: {error}"));
-                Err(defect.cure("check_urdf, of the package liburdfdom-tools, says what else it finds").into())
+                InputError::check(diagnostics)?;
+                let diagnostic = source.diagnostic(format!("is not a URDF that can be read: {error}"));
+                Err(diagnostic.help("check_urdf, of the package liburdfdom-tools, says what else it finds").into())
             }
         }
     }
 
-    /// A defect at a place of the file.
-    pub fn defect_at(&self, at: &Range<usize>, message: impl Into<String>) -> Defect {
-        self.source.defect_at(at.clone(), message)
+    /// A diagnostic at a place of the file.
+    pub fn diagnostic_at(&self, at: &Range<usize>, message: impl Into<String>) -> Diagnostic {
+        self.source.diagnostic_at(at.clone(), message)
     }
 
-    /// A defect of a joint, named in front of the message.
-    pub fn joint_defect(&self, joint: usize, message: &str) -> Defect {
-        self.defect_at(&self.joints[joint].at, format!("joint \"{}\" {message}", self.robot.joints[joint].name))
+    /// A diagnostic of a joint, named in front of the message.
+    pub fn joint_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
+        self.diagnostic_at(&self.joints[joint].at, format!("joint \"{}\" {message}", self.robot.joints[joint].name))
     }
 
     /// Line of a joint, for messages.
@@ -106,7 +106,7 @@ impl Document {
 
 struct Reader<'a> {
     source: &'a Source,
-    defects: Vec<Defect>,
+    diagnostics: Vec<Diagnostic>,
     copy: String,
     others: BTreeMap<String, usize>,
     tree_is_sound: bool,
@@ -129,14 +129,14 @@ impl Reader<'_> {
                 continue;
             }
             let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
-                self.defect(node, format!("a <{kind}> has no name"), "give it a name of its own");
+                self.diagnostic(node, format!("a <{kind}> has no name"), "give it a name of its own");
                 self.tree_is_sound = false;
                 continue;
             };
             if let Some(&first) = names.get(&(kind, name)) {
                 let first = self.source.position(first).line;
                 let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
-                self.defect(node, message, "rename one of them");
+                self.diagnostic(node, message, "rename one of them");
                 self.tree_is_sound = false;
                 continue;
             }
@@ -144,17 +144,17 @@ impl Reader<'_> {
             if kind == "link" {
                 links.push(self.link(node, name));
             } else {
-                let before = self.defects.len();
+                let before = self.diagnostics.len();
                 joints.extend(self.joint(node, name, unlimited));
-                self.tree_is_sound &= self.defects.len() == before;
+                self.tree_is_sound &= self.diagnostics.len() == before;
             }
         }
         self.copy.push_str("</robot>");
-        if links.is_empty() && self.defects.is_empty() {
-            self.defects.push(
+        if links.is_empty() && self.diagnostics.is_empty() {
+            self.diagnostics.push(
                 self.source
-                    .defect("the robot has no link")
-                    .cure("add a <link name=\"...\"> for each body, and the joints between them"),
+                    .diagnostic("the robot has no link")
+                    .help("add a <link name=\"...\"> for each body, and the joints between them"),
             );
         }
         (links, joints)
@@ -261,11 +261,11 @@ impl Reader<'_> {
     }
 
     fn attributes<'s>(&'s mut self, what: &'s str) -> Attributes<'s> {
-        Attributes { source: self.source, defects: &mut self.defects, what }
+        Attributes { source: self.source, diagnostics: &mut self.diagnostics, what }
     }
 
-    fn defect(&mut self, node: Node, message: String, cure: &str) {
-        self.defects.push(self.source.defect_at(tag(node), message).cure(cure));
+    fn diagnostic(&mut self, node: Node, message: String, help: &str) {
+        self.diagnostics.push(self.source.diagnostic_at(tag(node), message).help(help));
     }
 }
 

@@ -1,48 +1,50 @@
 //! Files that are no plain URDF: xacro, SDF, other XML, and broken XML.
 
 use super::document::tag;
-use crate::input::error::Defect;
+use crate::input::error::Diagnostic;
 use crate::input::source::{Position, Source};
 use roxmltree::{Document, Error, Node};
 
 /// Namespace of xacro.
 const XACRO: &str = "ros.org/wiki/xacro";
 
-fn xacro(defect: Defect, source: &Source) -> Defect {
+fn xacro(diagnostic: Diagnostic, source: &Source) -> Diagnostic {
     let file = source.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
     let plain = file.trim_end_matches(".xacro").trim_end_matches(".urdf").to_owned();
-    defect.cure(format!(
+    diagnostic.help(format!(
         "expand it first: `xacro {file} > {plain}_expanded.urdf` (`pip install xacro`, or `ros2 run xacro xacro`)"
     ))
 }
 
 /// Refuses `.xacro` by its name: its text is a program that writes a URDF.
-pub(super) fn recognise_by_name(source: &Source) -> Result<(), Defect> {
+pub(super) fn recognise_by_name(source: &Source) -> Result<(), Diagnostic> {
     if source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro")) {
-        return Err(xacro(source.defect("this is a xacro file, not a plain URDF"), source));
+        return Err(xacro(source.diagnostic("this is a xacro file, not a plain URDF"), source));
     }
     Ok(())
 }
 
 /// Refuses document types that define entities, which can grow without end. One that does not is harmless, and ignored.
-pub(super) fn without_entities(source: &Source) -> Result<(), Defect> {
+pub(super) fn without_entities(source: &Source) -> Result<(), Diagnostic> {
     const ENTITY: &str = "<!ENTITY";
     match source.text.find(ENTITY).filter(|at| source.text[..*at].contains("<!DOCTYPE")) {
         None => Ok(()),
         Some(at) => {
-            let defect = source
-                .defect_at(at..at + ENTITY.len(), "the document type defines entities, which a URDF has no use for");
-            Err(defect.cure("write their values where they are used, and remove the <!DOCTYPE ...>"))
+            let diagnostic = source.diagnostic_at(
+                at..at + ENTITY.len(),
+                "the document type defines entities, which a URDF has no use for",
+            );
+            Err(diagnostic.help("write their values where they are used, and remove the <!DOCTYPE ...>"))
         }
     }
 }
 
 /// What broken XML is reported as.
-pub(super) fn malformed(source: &Source, error: &Error) -> Defect {
+pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let at = error.pos();
     if matches!(error, Error::UnknownNamespace(prefix, _) if prefix == "xacro") {
-        let defect = source.defect(format!("line {}: this is a xacro file, not a plain URDF", at.row));
-        return xacro(defect, source);
+        let diagnostic = source.diagnostic(format!("line {}: this is a xacro file, not a plain URDF", at.row));
+        return xacro(diagnostic, source);
     }
     let (line, column) = (at.row as usize, at.col as usize);
     let line_start: usize = source.text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
@@ -53,25 +55,25 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Defect {
     if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
         message.truncate(cut);
     }
-    let defect = source.defect_at(offset..offset + 1, format!("this is not well-formed XML: {message}"));
-    Defect { position: Some(Position { line, column }), ..defect }
-        .cure("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
+    let diagnostic = source.diagnostic_at(offset..offset + 1, format!("this is not well-formed XML: {message}"));
+    Diagnostic { position: Some(Position { line, column }), ..diagnostic }
+        .help("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
 }
 
 /// Refuses documents that are something else than a URDF. A URDF that merely declares the xacro namespace is fine.
-pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Defect> {
-    let at = |node: Node, message: &str| source.defect_at(tag(node), message);
+pub(super) fn recognise(source: &Source, root: Node) -> Result<(), Diagnostic> {
+    let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
     match root.tag_name().name() {
         "robot" => {}
         "sdf" | "world" | "model" => {
-            return Err(at(root, "this is an SDF file (Gazebo), not a URDF").cure(
+            return Err(at(root, "this is an SDF file (Gazebo), not a URDF").help(
                 "use the robot's URDF, which SDF models are mostly written from, or convert it, e.g. with `sdf2urdf`",
             ));
         }
-        "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").cure("use the robot's URDF")),
+        "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").help("use the robot's URDF")),
         other => {
             let message = format!("this is not a URDF: the root element is <{other}>, not <robot>");
-            return Err(at(root, &message).cure("give the URDF first and the world file second"));
+            return Err(at(root, &message).help("give the URDF first and the world file second"));
         }
     }
     match xacro_trace(root.document()) {

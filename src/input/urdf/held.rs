@@ -2,9 +2,9 @@
 
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range, find};
-use crate::input::error::{Defect, InputError};
+use crate::input::error::{Diagnostic, InputError};
 use crate::input::quantity::Quantity;
-use crate::space::Axis;
+use crate::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 
 /// Values of all joints, and which of them are held where it matters.
@@ -15,15 +15,15 @@ pub(super) struct Held {
 }
 
 impl Chooser<'_> {
-    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Defect> {
+    fn followed(&self, joint: usize, mimic: &Mimic) -> Result<usize, Diagnostic> {
         self.joint(&mimic.joint).ok_or_else(|| {
             let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
-            self.mimic_defect(joint, &message)
+            self.mimic_diagnostic(joint, &message)
         })
     }
 
     /// The joint at the end of a chain of mimics.
-    pub(super) fn leader(&self, joint: usize) -> Result<usize, Defect> {
+    pub(super) fn leader(&self, joint: usize) -> Result<usize, Diagnostic> {
         let mut at = joint;
         for _ in 0..=self.all().len() {
             match &self.all()[at].mimic {
@@ -31,12 +31,12 @@ impl Chooser<'_> {
                 Some(mimic) => at = self.followed(at, mimic)?,
             }
         }
-        Err(self.mimic_defect(joint, "follows itself: the mimics form a cycle"))
+        Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
     }
 
     /// The joint that a joint follows, and the factor and the offset that make its value of that joint's: itself, 1 and 0
     /// unless it mimics another.
-    pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Defect> {
+    pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
         let leader = self.leader(joint)?;
         let mut value = Affine { factor: 1.0, offset: 0.0 };
         let mut at = joint;
@@ -54,7 +54,7 @@ impl Chooser<'_> {
                 let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
                 return Err(self
                     .in_world(name, message)
-                    .cure("leave it out of `fixed`, or choose other `joints`")
+                    .help("leave it out of `fixed`, or choose other `joints`")
                     .into());
             }
         }
@@ -77,7 +77,7 @@ impl Chooser<'_> {
             let (leader, factor, offset) = self.rule(j)?;
             if let Some(name) = self.world.robot.fixed.keys().find(|n| *n.get_ref() == joint.name) {
                 let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
-                return Err(self.in_world(name, message).cure("give the value of the joint that it mimics").into());
+                return Err(self.in_world(name, message).help("give the value of the joint that it mimics").into());
             }
             values[j] = factor * values[leader] + offset;
             if self.tree.carries(chosen[0], self.tree.child[j]) {
@@ -95,33 +95,32 @@ impl Chooser<'_> {
     }
 
     /// Value of a movable joint that does not move: the world's, else 0 clamped into its limits.
-    fn held_at(&self, index: usize) -> Result<f64, Defect> {
+    fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, world: self.world }.range(index)?;
         let Some(value) = find(&self.world.robot.fixed, &joint.name) else {
             return Ok(match range {
-                Range::Known(Axis::Interval { lower, upper }) | Range::Taken(Axis::Interval { lower, upper }, _) => {
-                    0f64.clamp(lower, upper)
-                }
-                Range::Known(Axis::Circle) | Range::Taken(Axis::Circle, _) | Range::Unset(_) => 0.0,
+                Range::Known(JointRange::Interval { lower, upper })
+                | Range::Taken(JointRange::Interval { lower, upper }, _) => 0f64.clamp(lower, upper),
+                Range::Known(JointRange::Circle) | Range::Taken(JointRange::Circle, _) | Range::Unset(_) => 0.0,
             });
         };
         let Quantity { value: number, in_degrees } = *value.get_ref();
         if in_degrees && joint.joint_type == JointType::Prismatic {
             let message = format!("[robot] fixed: joint \"{}\" slides: its value cannot be in degrees", joint.name);
-            return Err(self.in_world(value, message).cure("write its value in metres, without \"deg\""));
+            return Err(self.in_world(value, message).help("write its value in metres, without \"deg\""));
         }
         if !number.is_finite() {
             return Err(self.in_world(value, format!("[robot] fixed: the value of \"{}\" is not finite", joint.name)));
         }
         match range {
-            Range::Known(Axis::Interval { lower, upper }) if number < lower || number > upper => {
+            Range::Known(JointRange::Interval { lower, upper }) if number < lower || number > upper => {
                 let unit = unit(joint);
                 let message = format!(
                     "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
                     joint.name
                 );
-                Err(self.in_world(value, message).cure("choose a value within, or override [robot] limits"))
+                Err(self.in_world(value, message).help("choose a value within, or override [robot] limits"))
             }
             _ => Ok(number),
         }

@@ -1,11 +1,11 @@
 //! Ranges, top speeds, accelerations and jerks of the joints.
 
 use super::document::Document;
-use crate::input::error::Defect;
+use crate::input::error::Diagnostic;
 use crate::input::quantity::Written;
 use crate::input::world::{LARGEST, World};
 use crate::model::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
-use crate::space::Axis;
+use crate::space::JointRange;
 use toml::Spanned;
 use urdf_rs::JointType;
 
@@ -22,9 +22,9 @@ const UNLIMITED: f64 = LARGEST;
 /// What is known of a joint's range.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Range {
-    Known(Axis),
+    Known(JointRange),
     /// Not as the file has it, with a note.
-    Taken(Axis, String),
+    Taken(JointRange, String),
     /// No limits, with the reason.
     Unset(String),
 }
@@ -54,13 +54,13 @@ pub(super) struct Limits<'a> {
 
 impl Limits<'_> {
     /// The range of a movable joint: the world's, else the URDF's narrowed by its soft limits.
-    pub fn range(&self, index: usize) -> Result<Range, Defect> {
+    pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.world.robot.limits, &joint.name) {
             return self.overridden(joint, limits).map(Range::Known);
         }
         if joint.joint_type == JointType::Continuous {
-            return Ok(Range::Known(Axis::Circle));
+            return Ok(Range::Known(JointRange::Circle));
         }
         if self.document.joints[index].limit.is_none() {
             return Ok(Range::Unset("has no <limit>".into()));
@@ -74,65 +74,65 @@ impl Limits<'_> {
         if !slides && lower <= -UNLIMITED && upper >= UNLIMITED {
             let note =
                 format!("joint \"{}\": limits from {lower} to {upper} are none; taken as continuous", joint.name);
-            return Ok(Range::Taken(Axis::Circle, note));
+            return Ok(Range::Taken(JointRange::Circle, note));
         }
         if slides && upper - lower > LONGEST_SLIDE {
             let (lower, upper) = (lower.max(-LARGEST), upper.min(LARGEST));
             if lower < upper {
                 let note = format!("joint \"{}\": its range is taken as {lower:e} to {upper:e} m", joint.name);
-                return Ok(Range::Taken(Axis::Interval { lower, upper }, note));
+                return Ok(Range::Taken(JointRange::Interval { lower, upper }, note));
             }
         }
         if upper - lower > if slides { LONGEST_SLIDE } else { LONGEST_TURN } {
             return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long to plan in")));
         }
-        Ok(Range::Known(Axis::Interval { lower, upper }))
+        Ok(Range::Known(JointRange::Interval { lower, upper }))
     }
 
     /// The range of a joint that is to be planned for.
-    pub fn planned_range(&self, index: usize) -> Result<Axis, Defect> {
+    pub fn planned_range(&self, index: usize) -> Result<JointRange, Diagnostic> {
         match self.range(index)? {
             Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
             Range::Unset(reason) => {
                 let joint = &self.document.robot.joints[index];
                 let example = if joint.joint_type == JointType::Prismatic { "[0.0, 0.5]" } else { "[-3.1, 3.1]" };
                 let at = self.document.joints[index].limit.as_ref().unwrap_or(&self.document.joints[index].at);
-                let mut cure = format!("in the world file: [robot] limits = {{ {} = {example} }}", key(&joint.name));
+                let mut help = format!("in the world file: [robot] limits = {{ {} = {example} }}", key(&joint.name));
                 if joint.joint_type == JointType::Revolute {
-                    cure += ", or make it type=\"continuous\" in the URDF";
+                    help += ", or make it type=\"continuous\" in the URDF";
                 }
-                Err(self.document.defect_at(at, format!("joint \"{}\" {reason}", joint.name)).cure(cure))
+                Err(self.document.diagnostic_at(at, format!("joint \"{}\" {reason}", joint.name)).help(help))
             }
         }
     }
 
-    fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<Axis, Defect> {
-        let defect = |message: String| {
+    fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<JointRange, Diagnostic> {
+        let diagnostic = |message: String| {
             let message = format!("[robot] limits of \"{}\": {message}", joint.name);
-            self.world.source.defect_at(limits.span(), message).cure("limits = { NAME = [lower, upper] }, rad or m")
+            self.world.source.diagnostic_at(limits.span(), message).help("limits = { NAME = [lower, upper] }, rad or m")
         };
         let longest = if joint.joint_type == JointType::Prismatic { LONGEST_SLIDE } else { LONGEST_TURN };
         let numbers: Vec<f64> = limits.get_ref().iter().map(|n| n.get_ref().value).collect();
         if joint.joint_type == JointType::Prismatic && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
-            return Err(defect("the joint slides: its limits cannot be in degrees".into()));
+            return Err(diagnostic("the joint slides: its limits cannot be in degrees".into()));
         }
         let [lower, upper] = numbers[..] else {
-            return Err(defect(format!("expected [lower, upper], found {} numbers", numbers.len())));
+            return Err(diagnostic(format!("expected [lower, upper], found {} numbers", numbers.len())));
         };
         if !(lower.is_finite() && upper.is_finite()) {
-            return Err(defect("they must be finite".into()));
+            return Err(diagnostic("they must be finite".into()));
         }
         if lower >= upper {
-            return Err(defect(format!("lower ({lower}) must be below upper ({upper})")));
+            return Err(diagnostic(format!("lower ({lower}) must be below upper ({upper})")));
         }
         if upper - lower > longest {
-            return Err(defect(format!("the range is longer than {longest}"))
-                .cure("a joint that turns without end is of type continuous in the URDF"));
+            return Err(diagnostic(format!("the range is longer than {longest}"))
+                .help("a joint that turns without end is of type continuous in the URDF"));
         }
-        Ok(Axis::Interval { lower, upper })
+        Ok(JointRange::Interval { lower, upper })
     }
 
-    fn softened(&self, index: usize, [lower, upper]: [f64; 2]) -> Result<[f64; 2], Defect> {
+    fn softened(&self, index: usize, [lower, upper]: [f64; 2]) -> Result<[f64; 2], Diagnostic> {
         let joint = &self.document.robot.joints[index];
         let (Some(at), Some(soft)) = (&self.document.joints[index].soft_limits, &joint.safety_controller) else {
             return Ok([lower, upper]);
@@ -144,14 +144,14 @@ impl Limits<'_> {
                 "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] leave nothing of its limits [{lower}, {upper}]",
                 joint.name
             );
-            let cure = format!("in the world file: [robot] limits = {{ {} = [{lower}, {upper}] }}", key(&joint.name));
-            return Err(self.document.defect_at(at, message).cure(cure));
+            let help = format!("in the world file: [robot] limits = {{ {} = [{lower}, {upper}] }}", key(&joint.name));
+            return Err(self.document.diagnostic_at(at, message).help(help));
         }
         Ok(narrowed)
     }
 
     /// Top speed, acceleration and jerk of a joint that is to be planned for.
-    pub fn rates(&self, index: usize) -> Result<Rates, Defect> {
+    pub fn rates(&self, index: usize) -> Result<Rates, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         let place = &self.document.joints[index];
         let name = &joint.name;
@@ -186,7 +186,7 @@ impl Limits<'_> {
         table: &crate::input::world::PerJoint<Spanned<f64>>,
         name: &str,
         what: &str,
-    ) -> Result<Option<f64>, Defect> {
+    ) -> Result<Option<f64>, Diagnostic> {
         match find(table, name) {
             None => Ok(None),
             Some(value) if value.get_ref().is_finite() && *value.get_ref() > 0.0 => Ok(Some(*value.get_ref())),
@@ -195,8 +195,8 @@ impl Limits<'_> {
                 Err(self
                     .world
                     .source
-                    .defect_at(value.span(), message)
-                    .cure("limits are magnitudes, in radians or metres and seconds"))
+                    .diagnostic_at(value.span(), message)
+                    .help("limits are magnitudes, in radians or metres and seconds"))
             }
         }
     }

@@ -4,7 +4,7 @@
 //! the others where `[robot] fixed` holds them), then projected on the common plane of motion.
 //!
 //! ```text
-//! Document (sound elements, defects) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines -> Arm
+//! Document (sound elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines -> Arm
 //! ```
 //!
 //! [`load`] stops at the first stage that fails; [`survey`] goes on as far as it makes sense and reports everything.
@@ -21,7 +21,7 @@ mod mesh;
 mod pairing;
 mod plane;
 mod reduction;
-mod remedy;
+mod help;
 mod solid;
 mod survey;
 mod tool;
@@ -44,7 +44,7 @@ use tree::Tree;
 /// Broken or foreign files, robots that are no planar two-joint arm, unset limits, meshes that cannot be read.
 pub(super) fn load(source: Source, world: &World) -> Result<(Arm, RobotReport), InputError> {
     let document = Document::read(source)?;
-    InputError::check(document.defects.clone())?;
+    InputError::check(document.diagnostics.clone())?;
     let tree = Tree::build(&document)?;
     let chain = chain::choose(&document, &tree, world)?;
     let reduction = Reduction::new(&document, &tree, world, &chain);

@@ -1,7 +1,7 @@
 //! The plane that an arm moves in.
 
 use crate::geometry::{Point, Vector};
-use crate::model::{Motion, Plane};
+use crate::model::{JointType, Plane};
 use nalgebra::Vector3;
 
 /// Directions within this angle, radians, count as parallel (or perpendicular): exported files have axes like
@@ -84,12 +84,12 @@ pub(super) fn project(plane: &Plane, x: &Vector3<f64>) -> Point {
 }
 
 /// A joint's motion in plane coordinates.
-pub(super) fn motion_in(plane: &Plane, axis: SpatialAxis) -> Motion {
+pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     if axis.revolute {
         let turn = axis.direction.dot(&plane.u.cross(&plane.v));
-        return Motion::Revolute { sign: if turn > 0.0 { 1.0 } else { -1.0 } };
+        return JointType::Revolute { sign: if turn > 0.0 { 1.0 } else { -1.0 } };
     }
-    Motion::Prismatic { direction: clean(project(plane, &axis.direction).coords.normalize()) }
+    JointType::Prismatic { direction: clean(project(plane, &axis.direction).coords.normalize()) }
 }
 
 /// A unit direction without the rounding of the rotations that led to it: within 1e-12 of an axis it is that axis.
@@ -164,7 +164,7 @@ mod tests {
             [([0.0, 0.0, 1.0], 1.0), ([0.0, 0.0, -1.2], -1.0), ([0.0, 1.0, 0.0], -1.0), ([1.0, 0.0, 0.0], 1.0)]
         {
             let plane = common_plane([turn("a", axis), turn("b", axis)]).unwrap();
-            assert_eq!(motion_in(&plane, turn("a", axis)), Motion::Revolute { sign }, "{axis:?}");
+            assert_eq!(joint_type_in(&plane, turn("a", axis)), JointType::Revolute { sign }, "{axis:?}");
         }
     }
 

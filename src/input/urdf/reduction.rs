@@ -12,7 +12,7 @@ use crate::input::RobotReport;
 use crate::input::error::InputError;
 use crate::input::world::World;
 use crate::model::{Arm, Joint, Plane};
-use crate::space::Axis;
+use crate::space::JointRange;
 use nalgebra::Isometry3;
 
 /// A chain and where its links are.
@@ -27,7 +27,7 @@ pub(super) struct Reduction<'a> {
 
 /// Range and rates of one of the two joints.
 pub(super) struct Bounds {
-    pub range: Axis,
+    pub range: JointRange,
     pub rates: Rates,
 }
 
@@ -57,7 +57,7 @@ impl<'a> Reduction<'a> {
                 format!("in the world file: {}", pairing::choices(self.document, &planar))
             };
             let rule = "cplan plans for two joints that turn about parallel axes or slide in one plane";
-            self.document.defect_at(at, message).cure(format!("{rule}: {choose}")).into()
+            self.document.diagnostic_at(at, message).help(format!("{rule}: {choose}")).into()
         })
     }
 
@@ -69,17 +69,17 @@ impl<'a> Reduction<'a> {
     /// What the two joints can do; all that is missing is reported together.
     pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
         let limits = Limits { document: self.document, world: self.world };
-        let mut defects = Vec::new();
+        let mut diagnostics = Vec::new();
         let bounds = self.chain.joints.map(|j| match (limits.planned_range(j), limits.rates(j)) {
             (Ok(range), Ok(rates)) => Some(Bounds { range, rates }),
             (range, rates) => {
-                defects.extend(range.err().into_iter().chain(rates.err()));
+                diagnostics.extend(range.err().into_iter().chain(rates.err()));
                 None
             }
         });
         match bounds {
             [Some(first), Some(second)] => Ok([first, second]),
-            _ => Err(InputError::of(defects)),
+            _ => Err(InputError::of(diagnostics)),
         }
     }
 
@@ -124,8 +124,8 @@ impl<'a> Reduction<'a> {
         let [a, b] = bounds;
         let joint = |axis: SpatialAxis, bounds: Bounds| Joint {
             name: axis.name.to_owned(),
-            motion: plane::motion_in(&plane, axis),
-            axis: bounds.range,
+            joint_type: plane::joint_type_in(&plane, axis),
+            range: bounds.range,
             velocity: bounds.rates.velocity,
             acceleration: bounds.rates.acceleration,
             jerk: bounds.rates.jerk,

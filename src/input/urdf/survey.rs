@@ -3,11 +3,11 @@
 use super::bodies::Outlines;
 use super::chain::{self, Chain, is_movable};
 use super::document::Document;
+use super::help;
 use super::ignored;
 use super::limits::{Assumed, Limits, Range, Rates, find};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
-use super::remedy;
 use super::tree::{self, Tree};
 use crate::input::error::InputError;
 use crate::input::inspection::{
@@ -17,7 +17,7 @@ use crate::input::inspection::{
 use crate::input::source::Source;
 use crate::input::world::World;
 use crate::model::{Arm, Link, OutlineSource, Plane, Scene};
-use crate::space::{Axis, Configuration};
+use crate::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use std::path::Path;
 use urdf_rs::JointType;
@@ -32,7 +32,7 @@ pub(in crate::input) fn survey(path: &Path, world: &World) -> Inspection {
             return report;
         }
     };
-    report.errors.extend(InputError::check(document.defects.clone()).err());
+    report.errors.extend(InputError::check(document.diagnostics.clone()).err());
     report.robot = Some(document.robot.name.clone()).filter(|name| !name.is_empty());
     report.ignored = ignored::elements(&document);
     report.links = document.robot.links.iter().map(link).collect();
@@ -40,7 +40,7 @@ pub(in crate::input) fn survey(path: &Path, world: &World) -> Inspection {
     report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
         Ok(tree) => in_tree(&mut report, &document, &tree, world),
-        // What an element left out for its defects does to the tree is no defect of its own.
+        // What an element left out for its diagnostics does to the tree is no diagnostic of its own.
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
     }
@@ -88,12 +88,12 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, world: &Wo
         reduced(report, &Reduction::new(document, tree, world, chain));
     }
     if !report.is_plannable()
-        && document.defects.is_empty()
+        && document.diagnostics.is_empty()
         && let Some(pair) = likely.filter(|p| chain::admits(document, tree, world, *p))
         && let Some(chain) = trial(pair)
     {
         let reduction = Reduction::new(document, tree, world, &chain);
-        report.remedy = reduction.plane().ok().and_then(|plane| remedy::entries(&reduction, &plane));
+        report.help = reduction.plane().ok().and_then(|plane| help::entries(&reduction, &plane));
     }
 }
 
@@ -109,8 +109,8 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(ignored::beside_the_arm(reduction));
     let plane = reduction.plane();
     let bounds = reduction.bounds();
-    // With a shape left out for its defects an outline would be wrong.
-    let sound = document.defects.is_empty();
+    // With a shape left out for its diagnostics an outline would be wrong.
+    let sound = document.diagnostics.is_empty();
     let outlines = plane.as_ref().ok().filter(|_| sound).map(|plane| reduction.outlines(plane));
     report.errors.extend(plane.as_ref().err().cloned());
     report.errors.extend(bounds.as_ref().err().cloned());
@@ -185,8 +185,8 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
     let joint = &limits.document.robot.joints[index];
     let of = |source, range| LimitEntry { source, range };
     match limits.range(index) {
-        Ok(Range::Known(Axis::Circle) | Range::Taken(Axis::Circle, _)) => of(LimitSource::Continuous, None),
-        Ok(Range::Known(Axis::Interval { lower, upper })) => {
+        Ok(Range::Known(JointRange::Circle) | Range::Taken(JointRange::Circle, _)) => of(LimitSource::Continuous, None),
+        Ok(Range::Known(JointRange::Interval { lower, upper })) => {
             let source = if find(&limits.world.robot.limits, &joint.name).is_some() {
                 LimitSource::World
             } else if [lower, upper] == [joint.limit.lower, joint.limit.upper] {
@@ -196,7 +196,7 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
             };
             of(source, Some([lower, upper]))
         }
-        Ok(Range::Taken(Axis::Interval { lower, upper }, _)) => of(LimitSource::Urdf, Some([lower, upper])),
+        Ok(Range::Taken(JointRange::Interval { lower, upper }, _)) => of(LimitSource::Urdf, Some([lower, upper])),
         Ok(Range::Unset(_)) | Err(_) => of(LimitSource::Unset, None),
     }
 }
@@ -214,7 +214,7 @@ fn pair(document: &Document, tree: &Tree, world: &World, joints: [usize; 2]) -> 
     let letter = |j: usize| if document.robot.joints[j].joint_type == JointType::Prismatic { 'P' } else { 'R' };
     let world = neutral(document, world, joints);
     let tried = chain::with_joints(document, tree, &world, joints)
-        .map_err(|error| error.defects().first().map(|d| d.message.clone()).unwrap_or_default())
+        .map_err(|error| error.diagnostics().first().map(|d| d.message.clone()).unwrap_or_default())
         .and_then(|chain| Reduction::new(document, tree, &world, &chain).common_plane());
     let (planar, reason) = match &tried {
         Ok(plane) => (true, plane::describe(plane, &tree.links[tree.root])),
@@ -308,7 +308,7 @@ fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
     let limits = Limits { document: reduction.document, world: reduction.world };
     joints.map(|j| {
         let slides = reduction.document.robot.joints[j].joint_type == JointType::Prismatic;
-        let rest = if slides { Axis::Interval { lower: 0.0, upper: 0.0 } } else { Axis::Circle };
+        let rest = if slides { JointRange::Interval { lower: 0.0, upper: 0.0 } } else { JointRange::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),
             rates: Rates {

@@ -4,7 +4,7 @@ use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
 use super::reduction::Reduction;
 use super::tree;
-use crate::input::error::Defect;
+use crate::input::error::Diagnostic;
 use crate::input::stroke::StrokeTable;
 use crate::input::world::{Number, Reader};
 use crate::model::assumed_acceleration;
@@ -20,7 +20,7 @@ impl Reduction<'_> {
     ///
     /// # Errors
     /// A stroke or a wrist by a joint that cannot do it; mimics of joints that do not exist, or of themselves.
-    pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Defect> {
+    pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, world: self.world };
         let robot = &self.world.robot;
         let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
@@ -39,10 +39,10 @@ impl Reduction<'_> {
             let (leader, factor, offset) = chooser.rule(index)?;
             Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset })
         });
-        Ok(RobotJoints { joints: joints.collect::<Result<_, Defect>>()?, stroke, wrist })
+        Ok(RobotJoints { joints: joints.collect::<Result<_, Diagnostic>>()?, stroke, wrist })
     }
 
-    fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Defect> {
+    fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Diagnostic> {
         let joint = self.tool_joint(chooser, &table.joint, "stroke", plane)?;
         let source = &self.world.source;
         let reader = Reader::new(source);
@@ -53,8 +53,8 @@ impl Reduction<'_> {
                 value => {
                     let message = format!("[robot] stroke: {what} must be {how}, is {value}");
                     Err(source
-                        .defect_at(number.span(), message)
-                        .cure("stroke = { joint = \"NAME\", travel = 0.1 }, in metres"))
+                        .diagnostic_at(number.span(), message)
+                        .help("stroke = { joint = \"NAME\", travel = 0.1 }, in metres"))
                 }
             },
         };
@@ -81,36 +81,36 @@ impl Reduction<'_> {
         name: &Spanned<String>,
         table: &str,
         plane: &Plane,
-    ) -> Result<ToolJoint, Defect> {
+    ) -> Result<ToolJoint, Diagnostic> {
         let index = chooser.named(name, table)?;
         let joint = &chooser.all()[index];
-        let defect = |why: &str, cure: &str| {
+        let diagnostic = |why: &str, help: &str| {
             let message = format!("[robot] {table}: joint \"{}\" {why}", joint.name);
-            Err(chooser.in_world(name, message).cure(cure))
+            Err(chooser.in_world(name, message).help(help))
         };
         if self.chain.joints.contains(&index) {
-            return defect("is one of the two that move", "name another joint, of the tool");
+            return diagnostic("is one of the two that move", "name another joint, of the tool");
         }
         if let Some(mimic) = &joint.mimic {
-            return defect(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
+            return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
         }
         match (table, joint.joint_type == JointType::Prismatic) {
-            ("stroke", false) => return defect("turns", "a stroke needs a joint that slides"),
-            ("wrist", true) => return defect("slides", "a wrist needs a joint that turns"),
+            ("stroke", false) => return diagnostic("turns", "a stroke needs a joint that slides"),
+            ("wrist", true) => return diagnostic("slides", "a wrist needs a joint that turns"),
             _ => {}
         }
         let [_, second] = self.chain.joints;
         if !self.tree.carries(second, self.tree.child[index]) {
             let second = &chooser.all()[second].name;
-            return defect(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
+            return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);
         if along.abs() < 1.0 - PARALLEL {
             let why = "is not parallel to the normal of the plane that the arm moves in";
-            return defect(why, "name a joint of the tool whose axis is");
+            return diagnostic(why, "name a joint of the tool whose axis is");
         }
         let axis = Limits { document: self.document, world: self.world }.planned_range(index)?;
-        Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), axis })
+        Ok(ToolJoint { name: joint.name.clone(), rest: self.chain.values[index], sign: along.signum(), range: axis })
     }
 }

@@ -1,7 +1,7 @@
 //! The tree of links and joints, and where they are in space.
 
 use super::document::Document;
-use crate::input::error::{Defect, InputError, quoted};
+use crate::input::error::{Diagnostic, InputError, quoted};
 use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -136,28 +136,28 @@ fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>
     for (number, link) in links.iter().enumerate() {
         numbers.entry(link.as_str()).or_insert(number);
     }
-    let mut defects = Vec::new();
+    let mut diagnostics = Vec::new();
     let mut find = |name: &str, j: usize, role: &str, at| {
         numbers.get(name).copied().unwrap_or_else(|| {
             let message = format!("joint \"{}\": its {role} link \"{name}\" does not exist", joints[j].name);
-            let cure = format!(
+            let help = format!(
                 "declare <link name=\"{name}\"/> or correct the name; the links are {}",
                 quoted(&links[..declared])
             );
-            defects.push(document.defect_at(at, message).cure(cure));
+            diagnostics.push(document.diagnostic_at(at, message).help(help));
             0
         })
     };
     let parent =
         (0..joints.len()).map(|j| find(&joints[j].parent.link, j, "parent", &document.joints[j].parent)).collect();
     let child = (0..joints.len()).map(|j| find(&joints[j].child.link, j, "child", &document.joints[j].child)).collect();
-    InputError::check(defects)?;
+    InputError::check(diagnostics)?;
     Ok((parent, child))
 }
 
 fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Result<Vec<Option<usize>>, InputError> {
     let mut above: Vec<Option<usize>> = vec![None; links.len()];
-    let mut defects = Vec::new();
+    let mut diagnostics = Vec::new();
     for (j, link) in child.iter().enumerate() {
         match above[*link] {
             None => above[*link] = Some(j),
@@ -168,13 +168,13 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
                     links[*link],
                     document.joint_line(first)
                 );
-                let cure =
+                let help =
                     "a closed chain (parallelogram, delta) is no serial arm; else give one joint its own child link";
-                defects.push(document.defect_at(&document.joints[j].child, message).cure(cure));
+                diagnostics.push(document.diagnostic_at(&document.joints[j].child, message).help(help));
             }
         }
     }
-    InputError::check(defects)?;
+    InputError::check(diagnostics)?;
     Ok(above)
 }
 
@@ -193,7 +193,7 @@ fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -
     order
 }
 
-fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Defect {
+fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Diagnostic {
     // Walking up from a link that no root reaches must run into the cycle.
     let mut seen = Vec::new();
     let mut passed = vec![false; parent.len()];
@@ -206,19 +206,19 @@ fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[u
     let ring: Vec<&str> = seen[from..].iter().map(|j| document.robot.joints[*j].name.as_str()).collect();
     let message = format!("the joints {} form a cycle: each one's parent link hangs from the next", quoted(&ring));
     document
-        .defect_at(&document.joints[seen[from]].at, message)
-        .cure("give one of them another parent link, so that links form a tree")
+        .diagnostic_at(&document.joints[seen[from]].at, message)
+        .help("give one of them another parent link, so that links form a tree")
 }
 
-fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Defect {
+fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Diagnostic {
     let message = format!(
         "the links {} have no joint above them: a robot has one root",
         quoted(roots.iter().map(|r| &links[*r]))
     );
     let at = roots.iter().filter_map(|r| document.links.get(*r)).nth(1).or(document.links.first());
-    let defect = match at {
-        Some(place) => document.defect_at(&place.at, message),
-        None => document.source.defect(message),
+    let diagnostic = match at {
+        Some(place) => document.diagnostic_at(&place.at, message),
+        None => document.source.diagnostic(message),
     };
-    defect.cure("connect them with a fixed joint, or remove the ones that are not used")
+    diagnostic.help("connect them with a fixed joint, or remove the ones that are not used")
 }

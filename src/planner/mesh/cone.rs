@@ -78,7 +78,7 @@ pub enum Beyond {
 
 /// What a root at a corner of a triangle, or within one, sees of it.
 #[derive(Debug, Clone, Copy)]
-pub struct Outlook {
+pub struct Successor {
     /// Through an edge that it does not lie on.
     pub cone: Cone,
     /// Half-edges that begin at the right and the left end of that edge, if they are seen.
@@ -184,7 +184,7 @@ impl Mesh {
     }
 
     /// What is seen from a corner in the triangles around it, from right to left, each end of an edge once.
-    pub fn outlooks(&self, corner: &Corner, gaze: Gaze) -> impl Iterator<Item = Outlook> + '_ {
+    pub fn successors(&self, corner: &Corner, gaze: Gaze) -> impl Iterator<Item = Successor> + '_ {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
@@ -198,22 +198,22 @@ impl Mesh {
             loop {
                 let h = spoke?;
                 spoke = self.twin(previous(h));
-                let Some(mut outlook) = self.outlook(root, next(h), gaze) else { continue };
+                let Some(mut successor) = self.successor(root, next(h), gaze) else { continue };
                 if last_seen == Some(h) {
-                    outlook.seen[0] = None;
+                    successor.seen[0] = None;
                 }
-                last_seen = outlook.seen[1].and(spoke);
-                return Some(outlook);
+                last_seen = successor.seen[1].and(spoke);
+                return Some(successor);
             }
         })
     }
 
     /// What is seen through an edge opposite to the root, if any of it lies within the gaze.
-    fn outlook(&self, root: Point, edge: u32, gaze: Gaze) -> Option<Outlook> {
+    fn successor(&self, root: Point, edge: u32, gaze: Gaze) -> Option<Successor> {
         let ends = [edge, next(edge)];
         let [x, y] = ends.map(|h| Bound { from: root, to: self.origin(h) });
         let Gaze::Between(right, left) = gaze else {
-            return Some(Outlook { cone: Cone { edge, right: x, left: y }, seen: ends.map(Some) });
+            return Some(Successor { cone: Cone { edge, right: x, left: y }, seen: ends.map(Some) });
         };
         let [right_to_x, right_to_y] = [x, y].map(|ray| right.side(ray.to));
         let [left_to_x, left_to_y] = [x, y].map(|ray| left.side(ray.to));
@@ -225,17 +225,17 @@ impl Mesh {
         let ends_within = left_to_y != Orientation::CounterClockwise;
         let cone =
             Cone { edge, right: if begins_within { x } else { right }, left: if ends_within { y } else { left } };
-        Some(Outlook { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })
+        Some(Successor { cone, seen: [begins_within.then_some(ends[0]), ends_within.then_some(ends[1])] })
     }
 
     /// What is seen from any point of a triangle, borders included, through its edges.
-    pub fn outlooks_within(&self, triangle: u32, p: Point) -> impl Iterator<Item = Outlook> + '_ {
+    pub fn successors_within(&self, triangle: u32, p: Point) -> impl Iterator<Item = Successor> + '_ {
         (3 * triangle..3 * triangle + 3).filter_map(move |edge| {
             let ends = [edge, next(edge)];
             let [x, y] = ends.map(|h| self.origin(h));
             (orientation(x, y, p) == Orientation::CounterClockwise).then(|| {
                 let [right, left] = [x, y].map(|to| Bound { from: p, to });
-                Outlook { cone: Cone { edge, right, left }, seen: ends.map(Some) }
+                Successor { cone: Cone { edge, right, left }, seen: ends.map(Some) }
             })
         })
     }

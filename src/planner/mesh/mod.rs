@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use crate::cspace::{Polygon, Proves, Regions};
     use crate::geometry::{Orientation, in_circle, orientation};
-    use crate::space::{Axis, Topology};
+    use crate::space::{JointRange, Topology};
     use proptest::prelude::*;
 
     /// A window of 7 x 7 squares around a board of 5 x 5, under an integer matrix of determinant 1; each blocked square is
@@ -126,8 +126,8 @@ mod tests {
         });
         let free = vec![Polygon { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
         let window = [(-50.0, 50.0); 2];
-        let axes = window.map(|(lower, upper)| Axis::Interval { lower, upper });
-        Regions { topology: Topology { axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+        let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
+        Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
     }
 
     fn matrices() -> impl Strategy<Value = [f64; 4]> {

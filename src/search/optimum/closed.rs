@@ -27,7 +27,7 @@ pub(super) struct Wall {
 /// are smaller than the link, which keeps meeting others beside those that are left out.
 pub(super) const MOST_PAIRS: usize = 4096;
 
-/// Rows times pairs at most, some seconds' worth.
+/// Slices times pairs at most, some seconds' worth.
 const MOST_LOOKS: usize = 4_000_000;
 
 /// A pair of link 2.
@@ -61,7 +61,7 @@ pub(super) struct Closed<'a> {
 
 impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let motion = scene.arm().joints[1].motion;
+        let motion = scene.arm().joints[1].joint_type;
         let parts = scene.arm().links[1].parts.iter().map(|part| {
             let carried = Carried::new(motion, &part.shape);
             PreparedPart { sides: half_planes(carried.shape().core()), carried }
@@ -91,8 +91,8 @@ impl<'a> Closed<'a> {
         first.filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
-    /// How many rows are worth looking at.
-    pub fn most_rows(&self) -> usize {
+    /// How many slices are worth looking at.
+    pub fn most_slices(&self) -> usize {
         MOST_LOOKS / self.pairs.len().max(1)
     }
 
@@ -102,7 +102,7 @@ impl<'a> Closed<'a> {
         let joint = &arm.joints[0];
         let (mut bands, mut arcs) = (Vec::new(), Vec::new());
         for &pair in self.scene.pairs().iter().filter(|pair| pair.link == 0) {
-            let (part, piece) = (Carried::new(joint.motion, self.scene.part(pair)), self.scene.piece(pair));
+            let (part, piece) = (Carried::new(joint.joint_type, self.scene.part(pair)), self.scene.piece(pair));
             let Some(eroded) = Eroded::new(&part, piece, OUTWARD, self.clearance) else { continue };
             arcs.clear();
             let hits = eroded.hits(&part, &Features::new(piece), arm.base, Vector::x(), &mut arcs);
@@ -156,8 +156,8 @@ impl<'a> Closed<'a> {
             }
         };
         match hits {
-            Hits::Always if joint.axis.is_circle() => add([-PI, PI]),
-            Hits::Within if joint.axis.is_circle() => self.scratch.iter().copied().for_each(add),
+            Hits::Always if joint.range.is_circle() => add([-PI, PI]),
+            Hits::Within if joint.range.is_circle() => self.scratch.iter().copied().for_each(add),
             _ => on_axis(joint, hits, &self.scratch, add),
         }
     }
@@ -223,7 +223,7 @@ fn chosen(scene: &Scene, clearance: f64) -> Vec<Pair> {
         let swept = swept(scene.part(*pair), &arm.joints[1], arm.offset);
         let piece = scene.piece(*pair);
         // A joint that slides takes link 2 anywhere along its way.
-        !arm.joints[0].motion.is_revolute()
+        !arm.joints[0].joint_type.is_revolute()
             || least_distance(piece, arm.base) <= swept.reach_from(Point::origin()) + clearance
     };
     let mut pairs: Vec<Pair> =

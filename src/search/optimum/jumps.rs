@@ -1,4 +1,4 @@
-//! Where a wall begins, grows, parts or meets another all at once, as at the tip of a C-obstacle: rows there are worth more than in
+//! Where a wall begins, grows, parts or meets another all at once, as at the tip of a C-obstacle: slices there are worth more than in
 //! between, where walls change smoothly.
 
 use super::closed::Wall;
@@ -44,7 +44,7 @@ impl Strips<'_> {
 
     /// The walls that a pair makes at `q1`, those that meet a given one.
     fn walls_about(&mut self, number: usize, q1: f64, wall: [f64; 2]) -> Vec<[f64; 2]> {
-        let round = self.topology().axes[1].is_circle();
+        let round = self.topology().ranges[1].is_circle();
         let middle = f64::midpoint(wall[0], wall[1]);
         let near = |at: &Wall| {
             let turns = if round { ((middle - f64::midpoint(at.lower, at.upper)) / TAU).round() * TAU } else { 0.0 };
@@ -65,12 +65,12 @@ impl Strips<'_> {
         cuts
     }
 
-    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the row before or after it. Nothing if it leads
+    /// Where to cut a strip towards the end of a wall about a value of joint 2 at the slice before or after it. Nothing if it leads
     /// through the strip.
     pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
         let [from, to] = self.ends(index);
         let (with, without) = if after { (to, from) } else { (from, to) };
-        let round = self.topology().axes[1].is_circle();
+        let round = self.topology().ranges[1].is_circle();
         let ends_here = |end: f64| {
             let off = if round { (end - q2) - ((end - q2) / TAU).round() * TAU } else { end - q2 };
             off.abs() <= ABOUT

@@ -1,7 +1,7 @@
 //! How short a motion may be at best: a proven lower bound.
 
 mod closed;
-mod doors;
+mod portals;
 mod jumps;
 mod refine;
 mod search;
@@ -44,7 +44,7 @@ const MOST_REFUSED: usize = 500_000;
 const NEAREST: usize = 256;
 
 /// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
-const PATIENCE: usize = 3;
+const MOST_IDLE_ROUNDS: usize = 3;
 
 /// Share of the gap asked for that a single strip may leave open without being halved.
 const WORTH: f64 = 1e-3;
@@ -70,26 +70,26 @@ pub struct Motions<'a> {
 /// A lower bound on the length of every one of the `motions`; at most `limit`, finite, which some motion's length should be. It
 /// is made better until it is within the share `gap` of the limit, or cannot be.
 ///
-/// Joint 1's domain is cut into strips by *rows*, at which contact angles say exactly which values of joint 2 are closed:
-/// *walls*. Where a pair makes walls at both rows of a strip, a straight *barrier* between them is proven to be closed all
+/// Joint 1's domain is cut into strips by *slices*, at which contact angles say exactly which values of joint 2 are closed:
+/// *walls*. Where a pair makes walls at both slices of a strip, a straight *barrier* between them is proven to be closed all
 /// along. What is free lies beyond neither, so no motion is shorter than the shortest way around walls and barriers. Ways
-/// may bulge into what is closed between two rows, by an amount of second order in the strip's width as far as the boundary
-/// bends. Strips are cut where the way does, so it costs some dozens of rows, most of them where the way touches. Those at
-/// the values `rows` of joint 1 are there from the beginning.
+/// may bulge into what is closed between two slices, by an amount of second order in the strip's width as far as the boundary
+/// bends. Strips are cut where the way does, so it costs some dozens of slices, most of them where the way touches. Those at
+/// the values `slices` of joint 1 are there from the beginning.
 ///
 /// The search for the way is complete up to the rounding of coordinates, for which a share of 1e-9 is taken off: every
 /// passage is some nanometres wider than it is in truth, because walls are made of shapes eroded by that. Two shapes
 /// without area make no walls, which makes the bound lower.
 #[must_use]
-pub fn least_length(motions: &Motions, limit: f64, gap: f64, rows: &[f64]) -> f64 {
-    let mut ways = Ways::new(*motions, limit, rows);
+pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> f64 {
+    let mut ways = Ways::new(*motions, limit, slices);
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
     for _ in 0..ROUNDS {
         let (length, corners) = ways.shortest();
         idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
         best = f64::max(best, length);
-        if best >= enough || idle >= PATIENCE || !ways.refine(&corners, Allowed::Detour(gap * limit * WORTH)) {
+        if best >= enough || idle >= MOST_IDLE_ROUNDS || !ways.refine(&corners, Allowed::Detour(gap * limit * WORTH)) {
             break;
         }
     }
@@ -121,7 +121,7 @@ pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMot
         let nearest = match certify(scene, ways.path(start, &corners), clearance) {
             Ok(path) => {
                 let free = ways.passed(start, &corners);
-                return Some(ShortMotion { path, free, rows: ways.strips.rows() });
+                return Some(ShortMotion { path, free, slices: ways.strips.slices() });
             }
             Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => nearest.at,
             Err(Rejection::OutOfLimits { .. }) => return None,
@@ -142,10 +142,10 @@ pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMot
 pub struct ShortMotion {
     /// The path of the motion, certified.
     pub path: CertifiedPath,
-    /// The free stretch of each row that it passes, in order: at the least and at the greatest value of joint 2.
+    /// The free stretch of each slice that it passes, in order: at the least and at the greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
-    /// The values of joint 1 at all rows: near each other where it leads past something.
-    pub rows: Vec<f64>,
+    /// The values of joint 1 at all slices: near each other where it leads past something.
+    pub slices: Vec<f64>,
 }
 
 /// The search for the shortest way past what is closed, finer and finer.
@@ -158,16 +158,16 @@ struct Ways<'a> {
     /// Copies of the goals.
     goals: Vec<Segment>,
     limit: f64,
-    /// Goals and doors on far turns cost time, so ways are looked for nearby first: below this length.
+    /// Goals and portals on far turns cost time, so ways are looked for nearby first: below this length.
     near: f64,
     /// Greatest coordinate of start and goals.
     largest: f64,
 }
 
 impl<'a> Ways<'a> {
-    fn new(motions: Motions<'a>, limit: f64, rows: &[f64]) -> Self {
+    fn new(motions: Motions<'a>, limit: f64, slices: &[f64]) -> Self {
         let Motions { scene, start, goals, clearance, metric } = motions;
-        let mut strips = Strips::new(scene, clearance, rows);
+        let mut strips = Strips::new(scene, clearance, slices);
         // Nearest to zero doubles are densest, and all turns are alike.
         let start = Point::from(strips.topology().wrap(start));
         let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
@@ -232,7 +232,7 @@ impl<'a> Ways<'a> {
 
     /// Halves the strips that hold a value of joint 1.
     fn halve_at(&mut self, q1: f64) -> bool {
-        let value = self.strips.topology().axes[0].wrap(q1);
+        let value = self.strips.topology().ranges[0].wrap(q1);
         let mut which: Vec<usize> =
             self.strips.around(value).into_iter().map(|strip| self.strips.index(strip)).collect();
         which.sort_unstable();
@@ -251,20 +251,20 @@ impl<'a> Ways<'a> {
         Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner.coords + lift)).collect())
     }
 
-    /// The doors through which a way passes, on the start's own turns.
+    /// The portals through which a way passes, on the start's own turns.
     fn passed(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
         let lift = start - self.start.coords;
         let mut passed = Vec::new();
         for ends in corners.windows(2) {
             let (from, to) = (ends[0], ends[1]);
             let (first, last) = (self.strips.locate(from.x.min(to.x)), self.strips.locate(from.x.max(to.x)));
-            let rows: Vec<i64> = (first + 1..=last).collect();
-            let rows: Vec<i64> = if from.x <= to.x { rows } else { rows.into_iter().rev().collect() };
-            for row in rows {
-                let q1 = self.strips.q1(row);
+            let slices: Vec<i64> = (first + 1..=last).collect();
+            let slices: Vec<i64> = if from.x <= to.x { slices } else { slices.into_iter().rev().collect() };
+            for slice in slices {
+                let q1 = self.strips.q1(slice);
                 let q2 = from.y + (to.y - from.y) * ((q1 - from.x) / (to.x - from.x));
                 passed.extend(
-                    self.strips.free_about(row, q2).map(|free| free.map(|q2| Configuration::new(q1, q2) + lift)),
+                    self.strips.free_about(slice, q2).map(|free| free.map(|q2| Configuration::new(q1, q2) + lift)),
                 );
             }
         }
@@ -281,7 +281,7 @@ fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], 
         let [from, to] = goals.ends().map(|goal| goal[k]);
         let (least, greatest) = (from.min(to), from.max(to));
         let window = (start[k] - far - (greatest - least), start[k] + far);
-        let copies = topology.axes[k].copies_within(least, window);
+        let copies = topology.ranges[k].copies_within(least, window);
         copies.map(|copy| ((copy - least) / TAU).round()).collect::<Vec<_>>()
     };
     let mut copies = Vec::new();

@@ -41,11 +41,11 @@ struct Crossing {
     turns: f64,
     /// Where the way enters it and leaves it, or the other way round; by joint 1.
     ends: [Point; 2],
-    /// The way halfway between the strip's rows; none if it does not get there.
+    /// The way halfway between the strip's slices; none if it does not get there.
     middle: Option<Point>,
 }
 
-/// The strips that a way crosses. Ways along a row lie in no strip; those beside it are put on `beside`, each cut towards the
+/// The strips that a way crosses. Ways along a slice lie in no strip; those beside it are put on `beside`, each cut towards the
 /// tip that the way may lead around.
 fn crossings(
     strips: &mut Strips,
@@ -63,9 +63,9 @@ fn crossings(
         let (first, last) = (strips.locate(from.x), strips.locate(to.x));
         let at = |q1: f64| Point::new(q1, from.y + (to.y - from.y) * ((q1 - from.x) / (to.x - from.x)));
         for strip in first..=last {
-            let rows = [strips.q1(strip), strips.q1(strip + 1)];
-            let (left, right) = (rows[0].max(from.x), rows[1].min(to.x));
-            let middle = f64::midpoint(rows[0], rows[1]);
+            let slices = [strips.q1(strip), strips.q1(strip + 1)];
+            let (left, right) = (slices[0].max(from.x), slices[1].min(to.x));
+            let middle = f64::midpoint(slices[0], slices[1]);
             if left < right {
                 crossings.push(Crossing {
                     index: strips.index(strip),
@@ -79,7 +79,7 @@ fn crossings(
     crossings
 }
 
-/// Where to cut the strips beside a way along a row: towards the tip that it leads around, if there is one. Nothing where that
+/// Where to cut the strips beside a way along a slice: towards the tip that it leads around, if there is one. Nothing where that
 /// tip is near enough.
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
@@ -110,7 +110,7 @@ pub(super) fn passed(
     measure: Measure,
     allowed: Allowed,
 ) -> Vec<(usize, Vec<f64>)> {
-    // What lies beside a way along a row is not known well enough.
+    // What lies beside a way along a slice is not known well enough.
     let mut passed = BTreeMap::new();
     let finest = match allowed {
         Allowed::Detour(worth) => worth * DETOUR,
@@ -119,7 +119,7 @@ pub(super) fn passed(
     let crossings = crossings(strips, corners, finest, &mut passed);
     for crossing in &crossings {
         let Crossing { index, turns, ends: [left, right], middle } = *crossing;
-        // Halfway through the strip first: this is where the next row will be.
+        // Halfway through the strip first: this is where the next slice will be.
         let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
         let detour = |by: f64| {
             let via = nalgebra::center(&left, &right) + Vector::new(0.0, by);

@@ -1,6 +1,6 @@
-//! The shortest way past what is closed in strips and at the rows between them.
+//! The shortest way past what is closed in strips and at the slices between them.
 
-use super::doors::Door;
+use super::portals::Portal;
 use super::strips::{Cell, Strips};
 use crate::geometry::{Ordered, Point};
 use crate::interrupt::checkpoint;
@@ -10,14 +10,14 @@ use std::collections::{BinaryHeap, HashMap};
 use std::f64::consts::TAU;
 
 /// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
-/// takes as a rule, and half a second. Along an arc they grow with the square of the rows.
+/// takes as a rule, and half a second. Along an arc they grow with the square of the slices.
 const MOST_ENTRIES: usize = 1_000_000;
 
 /// Costs that differ by no more than this share may differ by rounding alone.
 const TIED: f64 = 1e-12;
 
 /// By how much sight goes past what cuts it off, as a share of the coordinates: more than rounding amounts to. Without it
-/// the end of a door that is in line with two others, as on a straight side, could lie between what either sees.
+/// the end of a portal that is in line with two others, as on a straight side, could lie between what either sees.
 const HAIR: f64 = 4.0 * f64::EPSILON;
 
 /// What the search came to.
@@ -37,7 +37,7 @@ struct Root {
 
 #[derive(Clone, Copy)]
 enum Entry {
-    /// What a root sees through an interval of a row, on the way to the strip beyond.
+    /// What a root sees through an interval of a slice, on the way to the strip beyond.
     Cone(Cone),
     /// A goal that a root sees.
     Goal(u32, Point),
@@ -48,29 +48,29 @@ enum Entry {
 #[derive(Clone, Copy)]
 struct Cone {
     root: u32,
-    row: i64,
+    slice: i64,
     /// Whether joint 1 grows on the way.
     ahead: bool,
-    seen: Door,
+    seen: Portal,
 }
 
 impl Cone {
     /// The strip that it enters.
     fn strip(&self) -> i64 {
-        if self.ahead { self.row } else { self.row - 1 }
+        if self.ahead { self.slice } else { self.slice - 1 }
     }
 
-    /// The row beyond that strip.
+    /// The slice beyond that strip.
     fn far(&self) -> i64 {
-        if self.ahead { self.row + 1 } else { self.row - 1 }
+        if self.ahead { self.slice + 1 } else { self.slice - 1 }
     }
 }
 
 /// A* whose open list holds cones of sight (as Polyanya: Cui, Harabor, Grastien 2017), over the strips' cells and all their
-/// copies. Cells are convex, so sight is cut off at rows alone, and ways turn at the ends of doors: beyond a row towards the
-/// side of the wall whose end they pass, or along it to the next door, which leads back.
+/// copies. Cells are convex, so sight is cut off at slices alone, and ways turn at the ends of portals: beyond a slice towards the
+/// side of the wall whose end they pass, or along it to the next portal, which leads back.
 ///
-/// That way every shortest way is found, whichever turns it takes. Of those that reach the end of a door only the shortest is
+/// That way every shortest way is found, whichever turns it takes. Of those that reach the end of a portal only the shortest is
 /// followed: where another one goes on taut, but that one does not, cutting its corner would be shorter still.
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
@@ -81,7 +81,7 @@ pub(super) struct Search<'s, 'a> {
     /// Values of joint 2 that ways shorter than the limit keep to.
     range: [f64; 2],
     roots: Vec<Root>,
-    /// Least cost so far of the end of a door: by row, by its value of joint 2, and by whether joint 1 grows from there.
+    /// Least cost so far of the end of a portal: by slice, by its value of joint 2, and by whether joint 1 grows from there.
     least: HashMap<(i64, u64, bool), f64>,
     open: BinaryHeap<Reverse<(Ordered, usize)>>,
     entries: Vec<Entry>,
@@ -152,15 +152,15 @@ impl<'s, 'a> Search<'s, 'a> {
         self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
     }
 
-    /// A cone through the part of `door` between `from` and `to`, if there is one.
-    fn push_cone(&mut self, root: u32, row: i64, ahead: bool, door: &Door, [from, to]: [f64; 2], parent: f64) {
+    /// A cone through the part of `portal` between `from` and `to`, if there is one.
+    fn push_cone(&mut self, root: u32, slice: i64, ahead: bool, portal: &Portal, [from, to]: [f64; 2], parent: f64) {
         let (from, to) = (from.max(self.range[0]), to.min(self.range[1]));
-        let (lower, upper) = (door.lower.max(from), door.upper.min(to));
+        let (lower, upper) = (portal.lower.max(from), portal.upper.min(to));
         if lower > upper {
             return;
         }
-        let tips = [door.tips[0] && door.lower >= from, door.tips[1] && door.upper <= to];
-        let x = self.strips.q1(row);
+        let tips = [portal.tips[0] && portal.lower >= from, portal.tips[1] && portal.upper <= to];
+        let x = self.strips.q1(slice);
         let Root { at, cost, .. } = self.roots[root as usize];
         let (right, left) = if ahead { (lower, upper) } else { (upper, lower) };
         let side = if ahead { 1.0 } else { -1.0 };
@@ -168,42 +168,42 @@ impl<'s, 'a> Search<'s, 'a> {
         let ends = [Point::new(x, right), Point::new(x, left)];
         let through = |goal: &Segment| self.measure.through(at, ends, line, goal);
         let bound = cost + self.goals.iter().map(through).fold(f64::INFINITY, f64::min);
-        let seen = Door { lower, upper, tips };
-        self.push(bound.max(parent), Entry::Cone(Cone { root, row, ahead, seen }));
+        let seen = Portal { lower, upper, tips };
+        self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
     }
 
-    /// A root at the end of a door, reached straight from another, whose ways go on `ahead` or back; none if it has been
+    /// A root at the end of a portal, reached straight from another, whose ways go on `ahead` or back; none if it has been
     /// reached by a shorter way, or by one as short that goes on to the same side.
-    fn turn(&mut self, from: u32, row: i64, at: Point, ahead: bool) -> Option<u32> {
+    fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
         let Root { at: before, cost, .. } = self.roots[from as usize];
         let cost = cost + self.measure.norm(at - before);
-        let least = |ahead: bool| self.least.get(&(row, at.y.to_bits(), ahead)).copied().unwrap_or(f64::INFINITY);
+        let least = |ahead: bool| self.least.get(&(slice, at.y.to_bits(), ahead)).copied().unwrap_or(f64::INFINITY);
         if cost >= least(ahead) * (1.0 - TIED) || cost > least(!ahead) * (1.0 + TIED) {
             return None;
         }
-        self.least.insert((row, at.y.to_bits(), ahead), cost);
+        self.least.insert((slice, at.y.to_bits(), ahead), cost);
         self.roots.push(Root { at, cost, before: Some(from) });
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// The doors of a row, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go.
-    fn doors(&mut self, row: i64, [lower, upper]: [f64; 2]) -> Vec<Door> {
+    /// The portals of a slice, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go.
+    fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
-        if !self.strips.is_inner(row) {
+        if !self.strips.is_inner(slice) {
             return Vec::new();
         }
-        let round = self.strips.topology().axes[1].is_circle();
-        let mut doors = Vec::new();
-        for gap in self.strips.doors(row) {
+        let round = self.strips.topology().ranges[1].is_circle();
+        let mut portals = Vec::new();
+        for gap in self.strips.portals(slice) {
             let (first, last) = if round && gap.lower.is_finite() {
                 (((lower - gap.upper) / TAU).ceil(), ((upper - gap.lower) / TAU).floor())
             } else {
                 (0.0, 0.0)
             };
             let copies = (first as i64..=last as i64).map(|turns| gap.turned(turns as f64));
-            doors.extend(copies.filter(|door| door.lower <= upper && lower <= door.upper));
+            portals.extend(copies.filter(|portal| portal.lower <= upper && lower <= portal.upper));
         }
-        doors
+        portals
     }
 
     /// The goals in a cell of a strip: of a segment the part.
@@ -232,52 +232,52 @@ impl<'s, 'a> Search<'s, 'a> {
         for goal in self.goals(strip, cell) {
             self.push_goal(root, &goal, parent);
         }
-        for (row, ahead, share) in [(strip, false, 0.0), (strip + 1, true, 1.0)] {
+        for (slice, ahead, share) in [(strip, false, 0.0), (strip + 1, true, 1.0)] {
             let range = cell.at(share);
-            let doors = self.doors(row, range);
-            if self.strips.q1(row) == at.x {
-                self.along(root, row, !ahead, &doors, parent);
+            let portals = self.portals(slice, range);
+            if self.strips.q1(slice) == at.x {
+                self.along(root, slice, !ahead, &portals, parent);
                 continue;
             }
-            for door in doors {
-                self.push_cone(root, row, ahead, &door, range, parent);
+            for portal in portals {
+                self.push_cone(root, slice, ahead, &portal, range, parent);
             }
         }
     }
 
-    /// Ways along a row, from a root on it, to other doors, which lead back to the strip on its other side; `ahead` if the
-    /// ways lie in the strip after the row.
-    fn along(&mut self, root: u32, row: i64, ahead: bool, doors: &[Door], parent: f64) {
+    /// Ways along a slice, from a root on it, to other portals, which lead back to the strip on its other side; `ahead` if the
+    /// ways lie in the strip after the slice.
+    fn along(&mut self, root: u32, slice: i64, ahead: bool, portals: &[Portal], parent: f64) {
         let at = self.roots[root as usize].at;
-        for door in doors {
-            let end = if door.lower > at.y {
-                door.lower
-            } else if door.upper < at.y {
-                door.upper
+        for portal in portals {
+            let end = if portal.lower > at.y {
+                portal.lower
+            } else if portal.upper < at.y {
+                portal.upper
             } else {
                 continue;
             };
-            if let Some(root) = self.turn(root, row, Point::new(at.x, end), !ahead) {
+            if let Some(root) = self.turn(root, slice, Point::new(at.x, end), !ahead) {
                 let Root { at, cost, .. } = self.roots[root as usize];
                 let ways = self.goals.iter().map(|goal| goal.distance(self.measure, at.coords));
                 let nearest = ways.fold(f64::INFINITY, f64::min);
-                self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { row - 1 } else { row }));
+                self.push((cost + nearest).max(parent), Entry::Root(root, if ahead { slice - 1 } else { slice }));
             }
         }
     }
 
     /// What is seen through a cone, and what is reached by turning at its ends.
     fn expand(&mut self, cone: &Cone, bound: f64) {
-        let Cone { root, row, ahead, seen } = *cone;
-        let x = self.strips.q1(row);
+        let Cone { root, slice, ahead, seen } = *cone;
+        let x = self.strips.q1(slice);
         let from = self.roots[root as usize].at;
         let (near, beyond) = if ahead { (0.0, 1.0) } else { (1.0, 0.0) };
         let Some(cell) = self.strips.cell(cone.strip(), near, f64::midpoint(seen.lower, seen.upper)) else { return };
-        let below = if seen.tips[0] { self.turn(root, row, Point::new(x, seen.lower), ahead) } else { None };
-        let above = if seen.tips[1] { self.turn(root, row, Point::new(x, seen.upper), ahead) } else { None };
+        let below = if seen.tips[0] { self.turn(root, slice, Point::new(x, seen.lower), ahead) } else { None };
+        let above = if seen.tips[1] { self.turn(root, slice, Point::new(x, seen.upper), ahead) } else { None };
         let hair = [seen.lower, seen.upper].map(|y| HAIR * (1.0 + from.y.abs() + y.abs()));
         for goals in self.goals(cone.strip(), cell) {
-            // How far they are above the line from the root past a value at the row.
+            // How far they are above the line from the root past a value at the slice.
             let above_line = |goals: &Segment, at: f64| {
                 let slope = (at - from.y) / (x - from.x);
                 goals.ends().map(|goal| goal[1] - from.y - slope * (goal[0] - from.x))
@@ -303,22 +303,23 @@ impl<'s, 'a> Search<'s, 'a> {
             let [low, high] = [seen.lower, seen.upper].map(|y| from.y + (y - from.y) * stretch);
             let [under, over] = hair.map(|hair| hair * stretch);
             let [bottom, top] = cell.at(beyond);
-            for door in self.doors(far, [bottom, top]) {
-                self.push_cone(root, far, ahead, &door, [bottom.max(low - under), top.min(high + over)], bound);
-                if let Some(below) = below.filter(|_| door.lower < low + under) {
-                    self.push_cone(below, far, ahead, &door, [bottom, top.min(low + under)], bound);
+            for portal in self.portals(far, [bottom, top]) {
+                self.push_cone(root, far, ahead, &portal, [bottom.max(low - under), top.min(high + over)], bound);
+                if let Some(below) = below.filter(|_| portal.lower < low + under) {
+                    self.push_cone(below, far, ahead, &portal, [bottom, top.min(low + under)], bound);
                 }
-                if let Some(above) = above.filter(|_| door.upper > high - over) {
-                    self.push_cone(above, far, ahead, &door, [bottom.max(high - over), top], bound);
+                if let Some(above) = above.filter(|_| portal.upper > high - over) {
+                    self.push_cone(above, far, ahead, &portal, [bottom.max(high - over), top], bound);
                 }
             }
         }
         if below.or(above).is_some() {
-            let doors = self.doors(row, cell.at(near));
-            let (lower, higher): (Vec<Door>, Vec<Door>) = doors.into_iter().partition(|door| door.upper < seen.upper);
-            for (root, doors) in [(below, lower), (above, higher)] {
+            let portals = self.portals(slice, cell.at(near));
+            let (lower, higher): (Vec<Portal>, Vec<Portal>) =
+                portals.into_iter().partition(|portal| portal.upper < seen.upper);
+            for (root, portals) in [(below, lower), (above, higher)] {
                 if let Some(root) = root {
-                    self.along(root, row, ahead, &doors, bound);
+                    self.along(root, slice, ahead, &portals, bound);
                 }
             }
         }

@@ -1,10 +1,10 @@
-//! Joint 1's domain in strips: what is closed to joint 2 at the row between two strips, and across a strip.
+//! Joint 1's domain in strips: what is closed to joint 2 at the slice between two strips, and across a strip.
 
 use super::closed::{Closed, Wall};
-use super::doors::{Door, left_by, within_domain};
+use super::portals::{Portal, left_by, within_domain};
 use crate::geometry::merge_in_place;
 use crate::model::{Pair, Scene};
-use crate::space::{Axis, Configuration, Segment, Topology};
+use crate::space::{Configuration, JointRange, Segment, Topology};
 use std::f64::consts::{PI, TAU};
 
 /// The first strips are this share of the domain wide, or narrower beside values that link 1 closes. At least three, so
@@ -20,14 +20,14 @@ const MOST_BARRIERS: usize = 512;
 /// Strips narrower than this, in the unit of joint 1, are not halved: about what rounding leaves uncertain.
 pub(super) const NARROWEST: f64 = 1e-9;
 
-/// A way passes a door if it is no farther beside it: it turns at the ends of doors.
+/// A way passes a portal if it is no farther beside it: it turns at the ends of portals.
 pub(super) const ABOUT: f64 = 1e-9;
 
-/// Rows are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
+/// Slices are farther apart than this, so that they are on other turns, too. Less than what is closed has been made smaller
 /// by, for reaches up to a kilometre.
 const APART: f64 = 1e-12;
 
-/// A straight line across a strip that is closed: its values of joint 2 at the row before and the row after.
+/// A straight line across a strip that is closed: its values of joint 2 at the slice before and the slice after.
 type Barrier = [f64; 2];
 
 /// A part of a strip between two barriers: a trapezium. Infinite ends where there are none.
@@ -38,7 +38,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// The least and the greatest value of joint 2 at a share of the way from the row before to the row after.
+    /// The least and the greatest value of joint 2 at a share of the way from the slice before to the slice after.
     pub fn at(&self, share: f64) -> [f64; 2] {
         // Infinite ends stay what they are.
         [self.lower, self.upper].map(|[before, after]| match share {
@@ -60,23 +60,23 @@ struct Strip {
     to: f64,
     /// Closed by link 1.
     closed: bool,
-    /// Ascending at both rows; once asked for.
+    /// Ascending at both slices; once asked for.
     barriers: Option<Vec<Barrier>>,
     /// What is closed at its middle; once asked for.
     middle: Option<Vec<Wall>>,
-    /// What is closed at the row at `from`, and what that leaves; once asked for.
+    /// What is closed at the slice at `from`, and what that leaves; once asked for.
     walls: Option<Vec<Wall>>,
-    doors: Option<Vec<Door>>,
+    portals: Option<Vec<Portal>>,
 }
 
 impl Strip {
     fn new(from: f64, to: f64, closed: bool) -> Self {
-        Self { from, to, closed, barriers: None, middle: None, walls: None, doors: None }
+        Self { from, to, closed, barriers: None, middle: None, walls: None, portals: None }
     }
 }
 
 /// The strips, made as they are asked for. On a turning joint 1 without limits they are numbered on and on, over all
-/// turns; strip `k` lies between rows `k` and `k + 1`.
+/// turns; strip `k` lies between slices `k` and `k + 1`.
 pub(super) struct Strips<'a> {
     topology: Topology,
     pub(super) closed: Closed<'a>,
@@ -86,14 +86,14 @@ pub(super) struct Strips<'a> {
 }
 
 impl<'a> Strips<'a> {
-    /// With rows at these values of joint 1 beside the usual ones.
-    pub fn new(scene: &'a Scene, clearance: f64, rows: &[f64]) -> Self {
+    /// With slices at these values of joint 1 beside the usual ones.
+    pub fn new(scene: &'a Scene, clearance: f64, slices: &[f64]) -> Self {
         let topology = scene.arm().topology();
-        let (lower, upper) = topology.axes[0].domain();
+        let (lower, upper) = topology.ranges[0].domain();
         let mut closed = Closed::new(scene, clearance);
         let bands = apart(closed.bands(), [lower, upper]);
         let mut cuts: Vec<f64> = (0..=FIRST).map(|i| lower + (upper - lower) * i as f64 / FIRST as f64).collect();
-        cuts.extend(rows.iter().copied().filter(|row| lower + NARROWEST < *row && *row < upper - NARROWEST));
+        cuts.extend(slices.iter().copied().filter(|slice| lower + NARROWEST < *slice && *slice < upper - NARROWEST));
         cuts.sort_unstable_by(f64::total_cmp);
         cuts.dedup_by(|next, kept| *next - *kept < NARROWEST / 4.0);
         cuts.retain(|cut| bands.iter().flatten().all(|end| (cut - end).abs() > APART));
@@ -132,14 +132,14 @@ impl<'a> Strips<'a> {
         self.strips.len()
     }
 
-    /// The values of joint 1 at the rows before the strips.
-    pub fn rows(&self) -> Vec<f64> {
+    /// The values of joint 1 at the slices before the strips.
+    pub fn slices(&self) -> Vec<f64> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
     /// Whether more strips would cost more than they are worth.
     pub fn are_too_many(&self) -> bool {
-        self.strips.len() > MOST_STRIPS.min(self.closed.most_rows())
+        self.strips.len() > MOST_STRIPS.min(self.closed.most_slices())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
@@ -162,27 +162,27 @@ impl<'a> Strips<'a> {
         [self.strips[index].from, self.strips[index].to]
     }
 
-    /// The value of joint 1 at a row.
-    pub fn q1(&self, row: i64) -> f64 {
+    /// The value of joint 1 at a slice.
+    pub fn q1(&self, slice: i64) -> f64 {
         let n = self.strips.len();
-        if row == n as i64 && !self.topology.axes[0].is_circle() {
+        if slice == n as i64 && !self.topology.ranges[0].is_circle() {
             return self.strips[n - 1].to;
         }
-        let (index, turns) = self.place(row);
+        let (index, turns) = self.place(slice);
         self.strips[index].from + turns
     }
 
-    /// Whether there are strips on both sides of a row.
-    pub fn is_inner(&self, row: i64) -> bool {
-        self.topology.axes[0].is_circle() || 0 < row && row < self.strips.len() as i64
+    /// Whether there are strips on both sides of a slice.
+    pub fn is_inner(&self, slice: i64) -> bool {
+        self.topology.ranges[0].is_circle() || 0 < slice && slice < self.strips.len() as i64
     }
 
     /// The strip that holds a value of joint 1, up to the rounding of whole turns; of two the one before.
     pub fn locate(&self, q1: f64) -> i64 {
         let last = self.strips.len() - 1;
-        let (value, turns) = match self.topology.axes[0] {
-            Axis::Interval { .. } => (q1, 0),
-            Axis::Circle => {
+        let (value, turns) = match self.topology.ranges[0] {
+            JointRange::Interval { .. } => (q1, 0),
+            JointRange::Circle => {
                 let turns = ((q1 - self.strips[0].from) / TAU).floor();
                 (q1 - turns * TAU, turns as i64)
             }
@@ -191,16 +191,16 @@ impl<'a> Strips<'a> {
         index as i64 + turns * self.strips.len() as i64
     }
 
-    /// The strips that hold a value of joint 1: two where it is that of a row between them. Judged by the rows as they are
+    /// The strips that hold a value of joint 1: two where it is that of a slice between them. Judged by the slices as they are
     /// on that turn, where rounding may put them elsewhere than [`Strips::locate`] does.
     pub fn around(&self, q1: f64) -> Vec<i64> {
         let near = self.locate(q1);
-        let exists = |strip: i64| self.topology.axes[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
+        let exists = |strip: i64| self.topology.ranges[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
         let holds = |strip: &i64| exists(*strip) && self.q1(*strip) <= q1 && q1 <= self.q1(*strip + 1);
         (near - 1..=near + 1).filter(holds).collect()
     }
 
-    /// The cell of a strip that holds `q2` at a share of the way from the row before to the row after; none if the
+    /// The cell of a strip that holds `q2` at a share of the way from the slice before to the slice after; none if the
     /// strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
@@ -212,7 +212,7 @@ impl<'a> Strips<'a> {
             return (!strip.closed).then_some(whole);
         };
         let at = |barrier: &Barrier| barrier[0] + (barrier[1] - barrier[0]) * share;
-        let round = self.topology.axes[1].is_circle();
+        let round = self.topology.ranges[1].is_circle();
         let turns = if round { ((q2 - at(first)) / TAU).floor() } else { 0.0 };
         let value = q2 - turns * TAU;
         let after = barriers.partition_point(|barrier| at(barrier) <= value);
@@ -229,13 +229,13 @@ impl<'a> Strips<'a> {
         Some(cell.turned(turns))
     }
 
-    /// What is not closed at an inner row. Every door lies within one cell of each of the strips beside it.
-    pub fn doors(&mut self, row: i64) -> &[Door] {
-        let (before, after) = (self.index(row - 1), self.index(row));
-        if self.strips[after].doors.is_none() {
+    /// What is not closed at an inner slice. Every portal lies within one cell of each of the strips beside it.
+    pub fn portals(&mut self, slice: i64) -> &[Portal] {
+        let (before, after) = (self.index(slice - 1), self.index(slice));
+        if self.strips[after].portals.is_none() {
             self.raise(before);
             self.raise(after);
-            let axis = self.topology.axes[1];
+            let axis = self.topology.ranges[1];
             let mut closed = Vec::new();
             for wall in self.walls(after) {
                 closed.extend(within_domain(axis, wall.lower, wall.upper));
@@ -246,34 +246,35 @@ impl<'a> Strips<'a> {
             }
             merge_in_place(&mut closed);
             let is_closed = self.strips[before].closed || self.strips[after].closed;
-            self.strips[after].doors = Some(if is_closed { Vec::new() } else { left_by(&closed, axis) });
+            self.strips[after].portals = Some(if is_closed { Vec::new() } else { left_by(&closed, axis) });
         }
-        self.strips[after].doors.as_deref().unwrap_or(&[])
+        self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
-    /// What is not closed about a value of joint 2 at a row, within the domain or half a turn to either side.
-    pub fn free_about(&mut self, row: i64, q2: f64) -> Option<[f64; 2]> {
-        let axis = self.topology.axes[1];
-        if !self.is_inner(row) {
+    /// What is not closed about a value of joint 2 at a slice, within the domain or half a turn to either side.
+    pub fn free_about(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
+        let axis = self.topology.ranges[1];
+        if !self.is_inner(slice) {
             return None;
         }
         let turns = if axis.is_circle() { ((q2 - axis.domain().0) / TAU).floor() * TAU } else { 0.0 };
         let (bottom, top) = if axis.is_circle() { (q2 - PI, q2 + PI) } else { axis.domain() };
-        let doors = self.doors(row).iter().flat_map(|door| [-1.0, 0.0, 1.0].map(|by| door.turned(by + turns / TAU)));
-        let about = |door: &Door| door.lower - ABOUT <= q2 && q2 <= door.upper + ABOUT;
-        doors.into_iter().find(about).map(|door| [door.lower.max(bottom), door.upper.min(top)])
+        let portals =
+            self.portals(slice).iter().flat_map(|portal| [-1.0, 0.0, 1.0].map(|by| portal.turned(by + turns / TAU)));
+        let about = |portal: &Portal| portal.lower - ABOUT <= q2 && q2 <= portal.upper + ABOUT;
+        portals.into_iter().find(about).map(|portal| [portal.lower.max(bottom), portal.upper.min(top)])
     }
 
     /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the
     /// strips.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
-        let axis = self.topology.axes[1];
+        let axis = self.topology.ranges[1];
         let ((bottom, top), (low, high)) = ((from[1].min(to[1]), from[1].max(to[1])), axis.domain());
         if piece.is_point() || from[0] != to[0] || bottom < low || high < top {
             return vec![*piece];
         }
-        let walls = self.closed.walls(self.topology.axes[0].wrap(from[0]));
+        let walls = self.closed.walls(self.topology.ranges[0].wrap(from[0]));
         let mut closed: Vec<[f64; 2]> =
             walls.iter().flat_map(|wall| within_domain(axis, wall.lower, wall.upper)).collect();
         merge_in_place(&mut closed);
@@ -288,13 +289,13 @@ impl<'a> Strips<'a> {
         open.into_iter().map(|[from, to]| Segment::new(from, to)).collect()
     }
 
-    /// What is closed at the row before a strip.
+    /// What is closed at the slice before a strip.
     fn walls(&mut self, index: usize) -> &[Wall] {
         let from = self.strips[index].from;
         self.strips[index].walls.get_or_insert_with(|| self.closed.walls(from))
     }
 
-    /// Finds the barriers of a strip: between the walls that a pair makes at both its rows.
+    /// Finds the barriers of a strip: between the walls that a pair makes at both its slices.
     fn raise(&mut self, index: usize) {
         if self.strips[index].barriers.is_some() {
             return;
@@ -304,7 +305,7 @@ impl<'a> Strips<'a> {
             let before = self.walls(index).to_vec();
             let after = if index + 1 < self.strips.len() {
                 self.walls(index + 1).to_vec()
-            } else if self.topology.axes[0].is_circle() {
+            } else if self.topology.ranges[0].is_circle() {
                 self.walls(0).to_vec()
             } else {
                 self.last.clone()
@@ -316,7 +317,7 @@ impl<'a> Strips<'a> {
             barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
             // Those that cross others are left out: cells are to be convex.
             barriers.dedup_by(|next, kept| next[0] <= kept[0] || next[1] <= kept[1]);
-            if self.topology.axes[1].is_circle() {
+            if self.topology.ranges[1].is_circle() {
                 while let [first, .., last] = barriers.as_slice()
                     && (0..2).any(|side| last[side] >= first[side] + TAU)
                 {
@@ -329,19 +330,19 @@ impl<'a> Strips<'a> {
 
     /// A line between two walls of a pair along which it is proven to be too near: between their middles, or else where both hold
     /// the same value.
-    fn barrier(&self, rows: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
-        let circle = self.topology.axes[1].is_circle();
+    fn barrier(&self, slices: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
+        let circle = self.topology.ranges[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
         let turns = if circle { ((middle(left) - middle(right)) / TAU).round() * TAU } else { 0.0 };
         let (lower, upper) = (left.lower.max(right.lower + turns), left.upper.min(right.upper + turns));
         let level = (lower < upper).then(|| [f64::midpoint(lower, upper); 2]);
         let slanted = [middle(left), middle(right) + turns];
         let proven = |ends: &Barrier| {
-            let [from, to] = [0, 1].map(|side| Configuration::new(rows[side], ends[side]));
+            let [from, to] = [0, 1].map(|side| Configuration::new(slices[side], ends[side]));
             self.closed.all_along(left.pair, from, to)
         };
         let barrier = [Some(slanted), level].into_iter().flatten().find(proven)?;
-        let back = self.topology.axes[1].wrap(barrier[0]) - barrier[0];
+        let back = self.topology.ranges[1].wrap(barrier[0]) - barrier[0];
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }
 
@@ -350,7 +351,7 @@ impl<'a> Strips<'a> {
     pub fn way_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
         let strip = &mut self.strips[index];
         let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
-        let axis = self.topology.axes[1];
+        let axis = self.topology.ranges[1];
         let mut closed: Vec<[f64; 2]> =
             walls.iter().flat_map(|wall| within_domain(axis, wall.lower, wall.upper)).collect();
         merge_in_place(&mut closed);
@@ -376,7 +377,7 @@ impl<'a> Strips<'a> {
         for (index, mut strip) in before.into_iter().enumerate() {
             let chosen = which.next_if(|(chosen, _)| *chosen == index).filter(|_| strip.to - strip.from > NARROWEST);
             if std::mem::replace(&mut is_beside, chosen.is_some()) {
-                strip.doors = None;
+                strip.portals = None;
             }
             let Some((_, cuts)) = chosen else {
                 self.strips.push(strip);
@@ -402,13 +403,13 @@ impl<'a> Strips<'a> {
         }
         // Across the seam.
         if is_beside && let Some(first) = self.strips.first_mut() {
-            first.doors = None;
+            first.portals = None;
         }
         self.strips.len() > count
     }
 }
 
-/// The walls that a pair makes at both of two rows, in the order of pairs, which that of the rows' walls is.
+/// The walls that a pair makes at both of two slices, in the order of pairs, which that of the slices' walls is.
 fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall, &'w Wall)> {
     let mut both = Vec::new();
     let mut rest = after;

@@ -51,7 +51,7 @@ impl Slabs<'_> {
                 self.beside(number).flat_map(|b| self.spans_of(b)).filter(|&s| reached[s as usize]).collect();
             let holds_places =
                 |[lower, upper]: [f64; 2]| places.iter().any(|piece| piece.meets([slab.from, lower], [slab.to, upper]));
-            let axis = self.topology.axes[1];
+            let axis = self.topology.ranges[1];
             let (bottom, top) = axis.domain();
             if own.is_empty() && beside.is_empty() && !holds_places([bottom, top]) {
                 continue;

@@ -6,17 +6,17 @@ use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
 use cplan::model::Workspace;
 use cplan::planner::{FieldChoice, FieldPlanner, PathKind, Planner, Proposal, Query};
-use cplan::space::{Axis, Configuration, Topology};
+use cplan::space::{Configuration, JointRange, Topology};
 use proptest::prelude::*;
 
 const SUM: Repulsion = Repulsion::Sum(1.0);
 
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
-        true => Axis::Circle,
-        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 * [1.0, 2.5][k] },
+        true => JointRange::Circle,
+        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 * [1.0, 2.5][k] },
     };
-    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
 proptest! {
@@ -88,8 +88,8 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
         }
     }
     let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
-    let axis = |upper: f64| Axis::Interval { lower: 0.0, upper };
-    let topology = Topology { axes: [axis(40.0), axis(44.0)] };
+    let axis = |upper: f64| JointRange::Interval { lower: 0.0, upper };
+    let topology = Topology { ranges: [axis(40.0), axis(44.0)] };
     let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
     let scene = placed(crate::common::rr([axis(3.0), axis(3.0)]), workspace);

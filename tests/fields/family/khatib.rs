@@ -2,7 +2,7 @@
 
 use cplan::cspace::{Grid, Proves};
 use cplan::field::{Attraction, ForceField, Khatib, Limits, Repulsion};
-use cplan::space::{Axis, Configuration, Topology};
+use cplan::space::{Configuration, JointRange, Topology};
 
 const ATTRACTIONS: [Attraction; 2] = [Attraction::Constant(1.5), Attraction::Linear(0.7)];
 const REPULSIONS: [Repulsion; 2] = [Repulsion::Ranged { gain: 2.0, range: 3.0 }, Repulsion::InverseSquare(2.0)];
@@ -11,9 +11,9 @@ const REPULSIONS: [Repulsion; 2] = [Repulsion::Ranged { gain: 2.0, range: 3.0 },
 fn drawn(text: &str) -> Grid {
     let rows: Vec<&str> = text.split_whitespace().collect();
     let cells = [rows.len(), rows[0].len()];
-    let axes = cells.map(|n| Axis::Interval { lower: 0.0, upper: n as f64 });
+    let axes = cells.map(|n| JointRange::Interval { lower: 0.0, upper: n as f64 });
     let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
-    Grid { topology: Topology { axes }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
 }
 
 /// A trap that is open on the left; the goal lies to the right of it.
@@ -138,7 +138,7 @@ fn without_a_trap_the_goal_is_reached_downhill_all_the_way() {
 
 #[test]
 fn on_a_torus_the_goal_attracts_the_short_way_round() {
-    let topology = Topology { axes: [Axis::Circle; 2] };
+    let topology = Topology { ranges: [JointRange::Circle; 2] };
     let grid = Grid { topology, proves: Proves::Sampled, cells: [16, 16], blocked: vec![false; 256] };
     let laws =
         Khatib { attraction: Attraction::Linear(1.0), repulsion: Repulsion::InverseSquare(1.0), saturated: false };

@@ -8,14 +8,14 @@ use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{
     EquationChoice, FieldChoice, FieldPlanner, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront,
 };
-use cplan::space::{Axis, Configuration, Path, Topology};
+use cplan::space::{Configuration, JointRange, Path, Topology};
 use proptest::prelude::*;
 
 const GAUSS_SEIDEL: Relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
 
 fn scene(preferences: Vec<Preference>) -> Scene {
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences };
-    placed(rr([Axis::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
+    placed(rr([JointRange::Interval { lower: -3.0, upper: 3.0 }; 2]), workspace)
 }
 
 /// Cells of width 1; `#` is blocked.
@@ -27,10 +27,10 @@ fn drawn(text: &str) -> Grid {
 
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axis = |k: usize| match circles[k] {
-        true => Axis::Circle,
-        false => Axis::Interval { lower: 0.0, upper: cells[k] as f64 },
+        true => JointRange::Circle,
+        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
     };
-    Grid { topology: Topology { axes: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
 }
 
 fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {

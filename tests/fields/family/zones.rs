@@ -4,7 +4,7 @@ use crate::common::{placed, q, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Arm, Preference, Region, Workspace};
-use cplan::space::Axis;
+use cplan::space::JointRange;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ fn preference(name: &str, region: Region) -> Preference {
 }
 
 fn torus() -> Arm {
-    rr([Axis::Circle; 2])
+    rr([JointRange::Circle; 2])
 }
 
 proptest! {

@@ -5,7 +5,7 @@ use crate::common::{placed, q, rr, wall};
 use cplan::cspace::{Regions, regions, traced_pairs};
 use cplan::geometry::{Point, SimplePolygon, Vector, cross};
 use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
-use cplan::space::{Axis, Configuration};
+use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -63,7 +63,7 @@ fn obstacle(kind: usize, choice: u64, count: usize) -> Obstacle {
 }
 
 fn arm() -> Arm {
-    rr([Axis::Interval { lower: -2.8, upper: 2.8 }; 2])
+    rr([JointRange::Interval { lower: -2.8, upper: 2.8 }; 2])
 }
 
 fn scene(obstacle: Obstacle) -> Scene {
@@ -127,7 +127,7 @@ proptest! {
         let shown = regions(&scene, margin, q(0.0, 0.0), 1);
         let (mut free, mut blocked) = (0, 0);
         for k in 0..160 {
-            // Half of the postures reach for the obstacle.
+            // Half of the configurations reach for the obstacle.
             let range = if k % 2 == 0 { 2.8 } else { 0.9 };
             let at = q((dice(choice, 7919 + 2 * k) * 2.0 - 1.0) * range, (dice(choice, 7920 + 2 * k) * 2.0 - 1.0) * range);
             let distance = clearance(&scene, at);

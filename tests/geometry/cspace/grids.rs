@@ -1,29 +1,29 @@
-//! Rows and grids from rows against clearances and parry2d's verdicts, for all four kinds of arm.
+//! Slices and grids from slices against clearances and parry2d's verdicts, for all four kinds of arm.
 
 use crate::common::{self, Benchmark, convex, disc};
-use cplan::cspace::{Bitmap, Grid, Proves, Row, Rows, bitmap, grid_from_rows, outer_grid, sampled_grid};
+use cplan::cspace::{Bitmap, Grid, Proves, Slice, Slices, bitmap, grid_from_slices, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Hits, Point, Vector};
-use cplan::model::{Arm, Motion, Scene};
-use cplan::space::{Axis, Configuration};
+use cplan::model::{Arm, JointType, Scene};
+use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// A centre within this of contact may be judged either way, metres: parry2d's tolerance is some 1e-10.
 const BOUNDARY: f64 = 1e-7;
 
-fn revolute() -> impl Strategy<Value = (Motion, Axis)> {
+fn revolute() -> impl Strategy<Value = (JointType, JointRange)> {
     let axis = prop_oneof![
-        Just(Axis::Circle),
-        (-4.0..0.0f64, 0.5..6.0f64).prop_map(|(lower, extent)| Axis::Interval { lower, upper: lower + extent }),
-        Just(Axis::Interval { lower: -4.0, upper: 4.5 }),
+        Just(JointRange::Circle),
+        (-4.0..0.0f64, 0.5..6.0f64).prop_map(|(lower, extent)| JointRange::Interval { lower, upper: lower + extent }),
+        Just(JointRange::Interval { lower: -4.0, upper: 4.5 }),
     ];
-    (prop_oneof![Just(1.0), Just(-1.0)], axis).prop_map(|(sign, axis)| (Motion::Revolute { sign }, axis))
+    (prop_oneof![Just(1.0), Just(-1.0)], axis).prop_map(|(sign, axis)| (JointType::Revolute { sign }, axis))
 }
 
-fn prismatic() -> impl Strategy<Value = (Motion, Axis)> {
+fn prismatic() -> impl Strategy<Value = (JointType, JointRange)> {
     (-PI..PI, -1.0..0.2f64, 0.1..1.5f64).prop_map(|(angle, lower, extent)| {
         let direction = Vector::new(angle.cos(), angle.sin());
-        (Motion::Prismatic { direction }, Axis::Interval { lower, upper: lower + extent })
+        (JointType::Prismatic { direction }, JointRange::Interval { lower, upper: lower + extent })
     })
 }
 
@@ -74,26 +74,26 @@ fn link_clearance(scene: &Scene, link: usize, q: Configuration) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
-fn at(axis: Axis, t: f64) -> f64 {
-    axis.domain().0 + t * axis.extent()
+fn at(range: JointRange, t: f64) -> f64 {
+    range.domain().0 + t * range.extent()
 }
 
 /// Whether a value of joint 1 is in a reach range; the turn at which it is, if so. Ranges begin within half a turn of zero
 /// and are up to a turn long, limits are anywhere: a value may be two turns off.
 fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
-    let turns = if scene.arm().joints[0].motion.is_revolute() { -2..=2 } else { 0..=0 };
+    let turns = if scene.arm().joints[0].joint_type.is_revolute() { -2..=2 } else { 0..=0 };
     let is_within = |r: &[f64; 2], value: f64| r[0] <= value && value <= r[1];
     turns.into_iter().find(|turn| ranges.iter().any(|r| is_within(r, value + TAU * f64::from(*turn))))
 }
 
 /// Checks this for 400 configurations, and returns the most turns by which one of them was off the range that it is in.
 fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> Result<i32, TestCaseError> {
-    let rows = Rows::new(scene);
-    let [first, second] = scene.arm().topology().axes;
+    let slices = Slices::new(scene);
+    let [first, second] = scene.arm().topology().ranges;
     let mut most = 0;
-    for index in rows.second_link_pairs() {
+    for index in slices.second_link_pairs() {
         let mut ranges = Vec::new();
-        let hits = rows.reach_range(index, grow, &mut ranges);
+        let hits = slices.reach_range(index, grow, &mut ranges);
         let pair = scene.pairs()[index];
         for k in 0..400 {
             let q = Configuration::new(at(first, f64::from(k % 20) / 19.0), at(second, f64::from(k / 20) / 19.0));
@@ -117,10 +117,10 @@ fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> R
 /// one begins before half a turn and ends after a turn and a third, so that the lower limit is two turns below it.
 #[test]
 fn a_limit_may_be_two_turns_below_a_reach_range() {
-    let axis = Axis::Interval { lower: -4.0, upper: 4.5 };
-    let turn = Motion::Revolute { sign: 1.0 };
+    let axis = JointRange::Interval { lower: -4.0, upper: 4.5 };
+    let turn = JointType::Revolute { sign: 1.0 };
     let links = [0.5, 0.9].map(|length| common::link("bar", vec![common::rectangle(0.0, length, -0.05, 0.05)]));
-    let joints = [common::joint("j1", turn, axis), common::joint("j2", turn, Axis::Circle)];
+    let joints = [common::joint("j1", turn, axis), common::joint("j2", turn, JointRange::Circle)];
     let arm = common::arm(joints, links, Vector::new(0.5, 0.0), Point::new(0.9, 0.0));
     let most = (0..72).map(|k| {
         let angle = TAU * f64::from(k) / 72.0;
@@ -137,7 +137,7 @@ proptest! {
     #[test]
     fn bitmaps_are_grids(scene in any_scene(), cells in (1..90_usize, 1..200_usize), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
         let cells = [cells.0, cells.1];
-        let (bits, grid) = (bitmap(&scene, cells, clearance), grid_from_rows(&scene, cells, clearance));
+        let (bits, grid) = (bitmap(&scene, cells, clearance), grid_from_slices(&scene, cells, clearance));
         prop_assert_eq!(bits.cells(), cells);
         for index in 0..cells[0] * cells[1] {
             if bits.blocked(index / cells[1], index % cells[1]) != grid.blocked[index] {
@@ -151,18 +151,18 @@ proptest! {
     }
 
     #[test]
-    fn rows_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
-        let rows = Rows::new(&scene);
-        let [first, second] = scene.arm().topology().axes;
-        let bands = rows.bands(grow);
-        let mut row = Row::default();
+    fn slices_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
+        let slices = Slices::new(&scene);
+        let [first, second] = scene.arm().topology().ranges;
+        let bands = slices.bands(grow);
+        let mut slice = Slice::default();
         let q1 = at(first, s);
-        rows.row(q1, grow, &mut row);
+        slices.slice(q1, grow, &mut slice);
         for k in 0..=200 {
             let t = f64::from(k) / 200.0;
             let q = Configuration::new(q1, at(second, t));
             let distance = link_clearance(&scene, 1, q) - grow;
-            prop_assert!(distance.abs() < BOUNDARY || row.forbids(q[1]) == (distance < 0.0), "row {}: {}", q, distance);
+            prop_assert!(distance.abs() < BOUNDARY || slice.forbids(q[1]) == (distance < 0.0), "row {}: {}", q, distance);
             let q = Configuration::new(at(first, t), 0.0);
             let distance = link_clearance(&scene, 0, q) - grow;
             prop_assert!(distance.abs() < BOUNDARY || bands.forbids(q[0]) == (distance < 0.0), "band {}: {}", q, distance);
@@ -175,12 +175,12 @@ proptest! {
     }
 
     #[test]
-    fn grids_from_rows_are_those_of_collision_tests(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
+    fn grids_from_slices_are_those_of_collision_tests(scene in any_scene(), clearance in prop_oneof![Just(0.0), 0.0..0.1f64]) {
         let cells = [23, 31];
-        let (rows, sampled) = (grid_from_rows(&scene, cells, clearance), sampled_grid(&scene, cells, clearance));
-        for index in 0..rows.blocked.len() {
-            if rows.blocked[index] != sampled.blocked[index] {
-                let distance = scene.clearance(rows.center(index)) - clearance;
+        let (slices, sampled) = (grid_from_slices(&scene, cells, clearance), sampled_grid(&scene, cells, clearance));
+        for index in 0..slices.blocked.len() {
+            if slices.blocked[index] != sampled.blocked[index] {
+                let distance = scene.clearance(slices.center(index)) - clearance;
                 prop_assert!(distance.abs() < BOUNDARY, "cell {} is {} from contact", index, distance);
             }
         }
@@ -207,16 +207,17 @@ proptest! {
 }
 
 #[test]
-fn w20_from_rows_is_that_of_collision_tests() {
+fn w20_from_slices_is_that_of_collision_tests() {
     let scene = common::w20();
     let cells = [1024, 1024];
-    let (rows, sampled) = (grid_from_rows(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
-    let differing: Vec<usize> = (0..rows.blocked.len()).filter(|&i| rows.blocked[i] != sampled.blocked[i]).collect();
+    let (slices, sampled) = (grid_from_slices(&scene, cells, 0.0), sampled_grid(&scene, cells, 0.0));
+    let differing: Vec<usize> =
+        (0..slices.blocked.len()).filter(|&i| slices.blocked[i] != sampled.blocked[i]).collect();
     for &index in &differing {
-        let distance = scene.clearance(rows.center(index));
+        let distance = scene.clearance(slices.center(index));
         assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");
     }
-    let blocked = rows.blocked.iter().filter(|b| **b).count() as f64 / rows.blocked.len() as f64;
+    let blocked = slices.blocked.iter().filter(|b| **b).count() as f64 / slices.blocked.len() as f64;
     assert!(blocked > 0.1 && blocked < 0.9, "a mixed picture, not a share of {blocked}");
 }
 
@@ -230,7 +231,7 @@ fn differing(bits: &Bitmap, grid: &Grid) -> Vec<usize> {
 fn bitmaps_of_the_benchmarks_are_their_grids() {
     for scene in [common::benchmark(Benchmark::A).0, common::w20()] {
         let cells = [2048, 2048];
-        let (bits, grid) = (bitmap(&scene, cells, 0.0), grid_from_rows(&scene, cells, 0.0));
+        let (bits, grid) = (bitmap(&scene, cells, 0.0), grid_from_slices(&scene, cells, 0.0));
         for index in differing(&bits, &grid) {
             let distance = scene.clearance(grid.center(index));
             assert!(distance.abs() < BOUNDARY, "cell {index} is {distance} from contact");

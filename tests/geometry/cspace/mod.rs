@@ -1,7 +1,7 @@
-//! Configuration-space obstacles as rows, grids and regions, against clearances and distances of sampled configurations.
+//! Configuration-space obstacles as slices, grids and regions, against clearances and distances of sampled configurations.
 
 mod crowded;
 mod grids;
 mod nearest;
 mod regions;
-mod rows;
+mod slices;

@@ -3,10 +3,10 @@
 use crate::common::{all_kinds, arm, disc, joint, link, obstacle, placed, q, rectangle, rr, scene, wall};
 use cplan::cspace::nearest_free;
 use cplan::geometry::{Point, Vector};
-use cplan::model::{Motion, Scene, Workspace};
-use cplan::space::{Axis, Configuration};
+use cplan::model::{JointType, Scene, Workspace};
+use cplan::space::{Configuration, JointRange};
 
-/// Free as a user means it: the definition, without rows.
+/// Free as a user means it: the definition, without slices.
 fn is_free(scene: &Scene, at: Configuration) -> bool {
     let clearance = scene.clearance(at);
     scene.arm().topology().contains(at) && clearance > 0.0 && clearance >= scene.workspace().clearance
@@ -15,14 +15,14 @@ fn is_free(scene: &Scene, at: Configuration) -> bool {
 /// Least distance from `from` to a free configuration of an `n` by `n` lattice over the domain.
 fn lattice(scene: &Scene, from: Configuration, n: u32) -> f64 {
     let topology = scene.arm().topology();
-    let value = |axis: Axis, i: u32| {
+    let value = |axis: JointRange, i: u32| {
         let (lower, upper) = axis.domain();
         lower + (upper - lower) * f64::from(i) / f64::from(n)
     };
     let mut least = f64::INFINITY;
     for i in 0..=n {
         for k in 0..=n {
-            let at = q(value(topology.axes[0], i), value(topology.axes[1], k));
+            let at = q(value(topology.ranges[0], i), value(topology.ranges[1], k));
             let distance = topology.distance(from, at);
             if distance < least && is_free(scene, at) {
                 least = distance;
@@ -50,7 +50,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
             let scene = crowded(which, clearance);
             for i in 0..6 {
                 for k in 0..6 {
-                    let domain = scene.arm().topology().axes.map(Axis::domain);
+                    let domain = scene.arm().topology().ranges.map(JointRange::domain);
                     let part = |j: usize, i: i32| {
                         domain[j].0 + (domain[j].1 - domain[j].0) * (f64::from(i) * 1.09 - 0.2) / 5.0
                     };
@@ -65,7 +65,7 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
                     assert_eq!(found.clearance, scene.clearance(at));
                     assert!((found.distance - (at - from).norm()).abs() < 1e-12);
                     let brute = lattice(&scene, from, N);
-                    // A minimum between two rows may escape by their spacing.
+                    // A minimum between two slices may escape by their spacing.
                     assert!(found.distance <= brute + found.spacing, "kind {which}: {} > {brute}", found.distance);
                 }
             }
@@ -77,8 +77,8 @@ fn no_configuration_of_a_lattice_is_free_and_nearer() {
 /// One bar in front of a disc: the nearest way out is a turn of joint 1 whose angle has a closed form.
 #[test]
 fn the_way_out_has_the_known_angle() {
-    let turn = Motion::Revolute { sign: 1.0 };
-    let limits = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let turn = JointType::Revolute { sign: 1.0 };
+    let limits = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let blind = arm(
         [joint("a", turn, limits), joint("b", turn, limits)],
         [link("first", vec![wall(Point::origin(), Point::new(1.0, 0.0))]), link("second", Vec::new())],
@@ -101,7 +101,7 @@ fn the_way_out_has_the_known_angle() {
 
 #[test]
 fn the_short_way_round_the_circle_counts() {
-    let scene = scene(rr([Axis::Circle; 2]), vec![disc(Point::new(-0.5, 0.02), 0.05)]);
+    let scene = scene(rr([JointRange::Circle; 2]), vec![disc(Point::new(-0.5, 0.02), 0.05)]);
     let from = q(std::f64::consts::PI - 0.001, 0.0);
     let found = nearest_free(&scene, from).unwrap();
     assert!(is_free(&scene, found.configuration));
@@ -113,7 +113,7 @@ fn the_short_way_round_the_circle_counts() {
 fn an_arm_that_is_buried_has_no_way_out() {
     let obstacles = vec![obstacle("rock", disc(Point::origin(), 5.0))];
     let workspace = Workspace { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() };
-    assert_eq!(nearest_free(&placed(rr([Axis::Circle; 2]), workspace), q(0.0, 0.0)), None);
+    assert_eq!(nearest_free(&placed(rr([JointRange::Circle; 2]), workspace), q(0.0, 0.0)), None);
 }
 
 #[test]

@@ -3,14 +3,16 @@
 use crate::common::{convex, placed};
 use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
-use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
-use cplan::space::{Axis, Configuration};
+use cplan::model::{
+    Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
+};
+use cplan::space::{Configuration, JointRange};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-fn joint(name: &str, motion: Motion, axis: Axis) -> Joint {
-    Joint { name: name.into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
+fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
+    Joint { name: name.into(), joint_type, range, velocity: 1.0, acceleration: 1.0, jerk: None }
 }
 
 fn link(name: &str, shapes: Vec<Convex>) -> Link {
@@ -53,7 +55,7 @@ fn bar(length: f64, half: f64) -> Convex {
 
 /// Two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, four convex obstacles; the one below is moved by `shift`.
 fn torus(shift: f64) -> Scene {
-    let turning = |name| joint(name, Motion::Revolute { sign: 1.0 }, Axis::Circle);
+    let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
     let below = [(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)];
     let obstacles = vec![
         polygon(&below.map(|(x, y)| (x + shift, y))),
@@ -89,15 +91,15 @@ fn any_joint(name: &'static str) -> impl Strategy<Value = Joint> {
     let turning = (
         prop_oneof![Just(1.0), Just(-1.0)],
         prop_oneof![
-            Just(Axis::Circle),
-            Just(Axis::Interval { lower: -3.0, upper: 3.0 }),
-            Just(Axis::Interval { lower: -4.0, upper: 5.5 }),
+            Just(JointRange::Circle),
+            Just(JointRange::Interval { lower: -3.0, upper: 3.0 }),
+            Just(JointRange::Interval { lower: -4.0, upper: 5.5 }),
         ],
     )
-        .prop_map(|(sign, axis)| (Motion::Revolute { sign }, axis));
+        .prop_map(|(sign, axis)| (JointType::Revolute { sign }, axis));
     let sliding = (0.0..TAU).prop_map(|angle: f64| {
         let direction = Vector::new(angle.cos(), angle.sin());
-        (Motion::Prismatic { direction }, Axis::Interval { lower: -0.7, upper: 1.1 })
+        (JointType::Prismatic { direction }, JointRange::Interval { lower: -0.7, upper: 1.1 })
     });
     prop_oneof![turning, sliding].prop_map(move |(motion, axis)| joint(name, motion, axis))
 }
@@ -200,7 +202,7 @@ proptest! {
 /// and leave at the same place.
 #[test]
 fn a_wall_that_meets_a_point_keeps_its_margin() {
-    let turning = |name| joint(name, Motion::Revolute { sign: 1.0 }, Axis::Circle);
+    let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
     let wall = polygon(&[(0.4081276797182928, 0.3016264095245186), (-0.4081276797182928, 0.30162640952451863)]);
     let point = polygon(&[(0.05, 0.4365861856598767)]);
     let offset = Vector::new(0.0, 0.044567284175443776);
@@ -270,8 +272,9 @@ fn a_thin_wall_of_two_bands_is_closed() {
 
 #[test]
 fn a_gantry_without_margin_is_exact() {
-    let slide =
-        |name, direction| joint(name, Motion::Prismatic { direction }, Axis::Interval { lower: -2.0, upper: 2.0 });
+    let slide = |name, direction| {
+        joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -2.0, upper: 2.0 })
+    };
     // Slides 60 degrees apart, the second one turned clockwise so that the map to joint values reflects.
     let joints = [slide("x", Vector::x()), slide("y", Vector::new(0.5, -0.75f64.sqrt()))];
     let tool = polygon(&[(-0.1, -0.1), (0.2, -0.1), (0.0, 0.15)]);
@@ -291,7 +294,7 @@ fn a_gantry_without_margin_is_exact() {
 #[test]
 fn windows_follow_axes() {
     let (mut arm, workspace) = torus(0.0).into_parts();
-    arm.joints[1].axis = Axis::Interval { lower: -2.0, upper: 2.5 };
+    arm.joints[1].range = JointRange::Interval { lower: -2.0, upper: 2.5 };
     let scene = placed(arm, workspace);
     let regions = regions(&scene, 1e-2, Configuration::new(1.0, 0.0), 2);
     assert_eq!(regions.window, [(1.0 - 2.0 * TAU, 1.0 + 2.0 * TAU), (-2.0, 2.5)]);

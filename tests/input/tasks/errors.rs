@@ -1,4 +1,4 @@
-//! Objects and steps that are refused, with the place, what is wrong, and the cure.
+//! Objects and steps that are refused, with the place, what is wrong, and what to do about it.
 
 use super::{CELL, task_of, with_world};
 use cplan::input::{Inspection, Overrides, inspect, load};
@@ -228,7 +228,7 @@ fn what_the_arm_cannot_do() {
             &["line 33, column 16", "step 5: (1, 1.6) m is out of reach", "from 0.2000 to 1.8000 m", "cure: "],
         ),
         (goal, "move = { tip = [0.0, 0.1] }", &["out of reach"]),
-        (goal, "move = { tip = [0.21, 0.0] }", &["no posture", "within the joint limits", "\"elbow\"", "cure: "]),
+        (goal, "move = { tip = [0.21, 0.0] }", &["no IK solution", "within the joint limits", "\"elbow\"", "cure: "]),
         ("at = [1.0, 1.0]", "at = [5.0, 1.0]", &["line 25, column 8", "step 1: (5, 1) m is out of reach"]),
         ("at = [0.5, 1.5]", "at = [2.5, 1.5]", &["line 27, column 16", "step 2: (2.5, 1.5) m is out of reach"]),
         // The cup's grasp is (0.01, 0), turned by 1.5 rad.
@@ -253,11 +253,11 @@ fn what_the_arm_cannot_do() {
     let many =
         healthy().replace("[[obstacle]]", "[task]\nrepeat = 50\n[[obstacle]]").replace("[0.1, 0.2]", "[0.1, 3.2]");
     let error = task_of(&many, &Overrides::default()).unwrap_err();
-    assert_eq!(error.defects().len(), 1, "{error}");
+    assert_eq!(error.diagnostics().len(), 1, "{error}");
     // A pick of what lies out of reach follows from the place.
     let repeated = many.replace("3.2", "0.2").replace("renew = true\n", "").replace("[0.5, 1.5]", "[2.5, 1.5]");
     let error = task_of(&repeated, &Overrides::default()).unwrap_err();
-    assert_eq!(error.defects().len(), 1, "{error}");
+    assert_eq!(error.diagnostics().len(), 1, "{error}");
 }
 
 #[test]

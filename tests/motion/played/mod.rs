@@ -147,9 +147,9 @@ pub fn judge(what: &str, message: &Message, begin: u64, certified: &Certified, j
                     "{at}: acceleration {a}, limit {}",
                     joint.acceleration
                 );
-                let (lower, upper) = match joint.axis {
-                    cplan::space::Axis::Interval { lower, upper } => (lower, upper),
-                    cplan::space::Axis::Circle => (f64::NEG_INFINITY, f64::INFINITY),
+                let (lower, upper) = match joint.range {
+                    cplan::space::JointRange::Interval { lower, upper } => (lower, upper),
+                    cplan::space::JointRange::Circle => (f64::NEG_INFINITY, f64::INFINITY),
                 };
                 assert!(p >= lower - 1e-9 && p <= upper + 1e-9, "{at}: position {p}");
                 let off = (p - certified.at(time + t, k)).abs();

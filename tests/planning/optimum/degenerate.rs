@@ -3,20 +3,20 @@
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, rr, scene};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Motion, MotionProblem};
+use cplan::model::{JointType, MotionProblem};
 use cplan::search::{Motions, least_length};
-use cplan::space::{Axis, Configuration, Metric};
+use cplan::space::{Configuration, JointRange, Metric};
 use std::f64::consts::{PI, TAU};
 
-const CIRCLES: [Axis; 2] = [Axis::Circle, Axis::Circle];
+const CIRCLES: [JointRange; 2] = [JointRange::Circle, JointRange::Circle];
 
 /// The bound where nothing is in the way is the length of the straight motion to the nearest copy of a goal.
-fn assert_straight(axes: [Axis; 2], start: Configuration, goals: &[Configuration]) {
+fn assert_straight(axes: [JointRange; 2], start: Configuration, goals: &[Configuration]) {
     let scene = scene(rr(axes), Vec::new());
     let topology = scene.arm().topology();
     for metric in metrics() {
         let way = |goal: &Configuration| {
-            let turns = |k: usize| if topology.axes[k].is_circle() { -3..=3 } else { 0..=0 };
+            let turns = |k: usize| if topology.ranges[k].is_circle() { -3..=3 } else { 0..=0 };
             let copies = turns(0).flat_map(|i| turns(1).map(move |j| q(f64::from(i) * TAU, f64::from(j) * TAU)));
             let base = topology.lift(*goal, start);
             copies.map(|by| metric.norm(base + by - start)).fold(f64::INFINITY, f64::min)
@@ -44,10 +44,10 @@ fn without_obstacles_ways_are_straight() {
     assert_straight(CIRCLES, q(-3.0, 0.0), &[q(3.0, 0.5)]);
     assert_straight(CIRCLES, q(-3.0, 3.0), &[q(3.0, -3.0), q(0.0, 0.0)]);
     assert_straight(CIRCLES, q(9.0, -14.0), &[q(-2.0, 1.0), q(1.0, 1.0), q(100.0, 3.0)]);
-    let limits = Axis::Interval { lower: -3.0, upper: 3.0 };
+    let limits = JointRange::Interval { lower: -3.0, upper: 3.0 };
     assert_straight([limits; 2], q(-3.0, 3.0), &[q(3.0, -3.0), q(2.9, 2.9)]);
-    assert_straight([Axis::Circle, limits], q(3.0, -3.0), &[q(-3.0, 3.0)]);
-    assert_straight([limits, Axis::Circle], q(3.0, -3.0), &[q(-3.0, 3.0)]);
+    assert_straight([JointRange::Circle, limits], q(3.0, -3.0), &[q(-3.0, 3.0)]);
+    assert_straight([limits, JointRange::Circle], q(3.0, -3.0), &[q(-3.0, 3.0)]);
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn a_goal_at_the_start_is_reached_at_once() {
         assert_straight(CIRCLES, at, &[at]);
         assert_straight(CIRCLES, at, &[at + q(TAU, -TAU)]);
     }
-    let limits = Axis::Interval { lower: -1.0, upper: 1.0 };
+    let limits = JointRange::Interval { lower: -1.0, upper: 1.0 };
     for at in [q(-1.0, -1.0), q(1.0, 1.0), q(1.0, -1.0), q(0.0, 0.0)] {
         assert_straight([limits; 2], at, &[at]);
     }
@@ -65,8 +65,8 @@ fn a_goal_at_the_start_is_reached_at_once() {
 /// Joint 1's domain begins as 64 strips. Starts and goals exactly where two meet, on either side of it by a last bit, on
 /// the seam, and the same on other turns.
 #[test]
-fn starts_and_goals_on_rows() {
-    let axes = [Axis::Circle, Axis::Interval { lower: -1.0, upper: 2.5 }];
+fn starts_and_goals_on_slices() {
+    let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 2.5 }];
     for (first, turns) in axes.into_iter().flat_map(|axis| [-3, -1, 0, 1, 2].map(|turns| (axis, turns))) {
         let (lower, upper) = first.domain();
         let turn = if first.is_circle() { f64::from(turns) * TAU } else { 0.0 };
@@ -79,18 +79,18 @@ fn starts_and_goals_on_rows() {
                 for way in [-0.7, -0.1, -0.05, -1e-9, 1e-9, 0.05, 0.1, 0.7] {
                     let goal = q(x + way, 0.3);
                     if first.contains(goal[0]) {
-                        assert_straight([first, Axis::Circle], q(x, 0.2), &[goal]);
-                        assert_straight([first, Axis::Circle], goal, &[q(x, 0.2)]);
+                        assert_straight([first, JointRange::Circle], q(x, 0.2), &[goal]);
+                        assert_straight([first, JointRange::Circle], goal, &[q(x, 0.2)]);
                     }
                 }
                 // Along the row.
-                assert_straight([first, Axis::Circle], q(x, 0.2), &[q(x, 3.0)]);
+                assert_straight([first, JointRange::Circle], q(x, 0.2), &[q(x, 3.0)]);
             }
         }
     }
 }
 
-fn among(axes: [Axis; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
+fn among(axes: [JointRange; 2], pieces: Vec<Convex>, start: Configuration, goal: Configuration) -> MotionProblem {
     asked(scene(rr(axes), pieces), start, goal)
 }
 
@@ -106,7 +106,7 @@ fn the_other_way_round() {
         (q(0.5, 0.0), q(PI, 0.0), PI - 0.5),
     ];
     for (start, goal, way) in ways {
-        let problem = among([Axis::Circle, Axis::Circle], vec![post.clone()], start, goal);
+        let problem = among([JointRange::Circle, JointRange::Circle], vec![post.clone()], start, goal);
         for factor in LIMITS {
             let found = bound(&problem, Metric::Euclidean, factor * way, 1e-4);
             assert!((found - way).abs() <= 2.0 * ROUNDING * way, "{start:?} to {goal:?}: {found}, not {way}");
@@ -117,15 +117,19 @@ fn the_other_way_round() {
 /// A joint without room to move: nothing to cut into strips, or nothing beside them.
 #[test]
 fn joints_that_cannot_move() {
-    let fixed = Axis::Interval { lower: 0.5, upper: 0.5 };
-    for axes in [[fixed, Axis::Circle], [Axis::Circle, fixed], [fixed, fixed]] {
+    let fixed = JointRange::Interval { lower: 0.5, upper: 0.5 };
+    for axes in [[fixed, JointRange::Circle], [JointRange::Circle, fixed], [fixed, fixed]] {
         let to = |k: usize, by: f64| if axes[k].is_circle() { 0.5 + by } else { 0.5 };
         assert_straight(axes, q(0.5, 0.5), &[q(to(0, 1.0), to(1, 1.0))]);
         assert_straight(axes, q(0.5, 0.5), &[q(to(0, -3.0), to(1, 3.5))]);
     }
     let wall = rectangle(1.2, 1.4, 0.9, 1.1);
-    let problem =
-        among([Axis::Interval { lower: 0.0, upper: 0.0 }, Axis::Circle], vec![wall], q(0.0, 0.0), q(0.0, 3.0));
+    let problem = among(
+        [JointRange::Interval { lower: 0.0, upper: 0.0 }, JointRange::Circle],
+        vec![wall],
+        q(0.0, 0.0),
+        q(0.0, 3.0),
+    );
     assert!(bound(&problem, Metric::Euclidean, 10.0, 1e-4) <= 3.0);
 }
 
@@ -146,10 +150,10 @@ fn what_is_in_the_link_all_along_closes_nothing() {
     let (far, half, radius) = (0.9_f64, 0.1_f64, 0.1);
     // Link and obstacle are segments grown by the radius; the link just touches an end of the obstacle's.
     let touching = (half / far).atan() + (2.0 * radius / far.hypot(half)).asin();
-    let around = Axis::Interval { lower: touching - PI, upper: PI - touching };
-    let first = Axis::Interval { lower: -0.5, upper: 0.48 };
-    let slide = Motion::Prismatic { direction: Vector::y() };
-    let turn = Motion::Revolute { sign: 1.0 };
+    let around = JointRange::Interval { lower: touching - PI, upper: PI - touching };
+    let first = JointRange::Interval { lower: -0.5, upper: 0.48 };
+    let slide = JointType::Prismatic { direction: Vector::y() };
+    let turn = JointType::Revolute { sign: 1.0 };
     let capsule = |from: Point, to: Point| convex(vec![from, to], radius);
     for motion in [slide, turn] {
         let joints = [joint("first", motion, first), joint("second", turn, around)];

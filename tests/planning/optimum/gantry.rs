@@ -3,8 +3,8 @@
 use super::{LIMITS, ROUNDING, bound};
 use crate::common::{arm, asked, convex, disc, joint, link, q, rectangle, scene};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Motion, MotionProblem};
-use cplan::space::{Axis, Configuration, GoalSet, Metric};
+use cplan::model::{JointType, MotionProblem};
+use cplan::space::{Configuration, GoalSet, JointRange, Metric};
 use std::f64::consts::TAU;
 
 /// Half the way that each slide has, metres.
@@ -12,8 +12,8 @@ pub const REACH: f64 = 2.0;
 
 /// A tool without extent whose slides point along `angles`, among `pieces`.
 pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
-    let slide = |angle: f64| Motion::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
-    let axis = Axis::Interval { lower: -REACH, upper: REACH };
+    let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
+    let axis = JointRange::Interval { lower: -REACH, upper: REACH };
     let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
     let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::origin(), 0.0)])];
     let arm = arm(joints, links, Vector::zeros(), Point::origin());

@@ -27,7 +27,7 @@ struct Bitmap {
 
 impl Bitmap {
     fn new(task: &Task, world: &World) -> Self {
-        let axes = task.arm.topology().axes.map(|axis| {
+        let axes = task.arm.topology().ranges.map(|axis| {
             let (lower, upper) = axis.domain();
             (lower, upper, axis.is_circle())
         });
@@ -113,7 +113,7 @@ fn payloads_are_judged_like_a_flood_fill() {
         let mut free = || {
             let draw = || {
                 Configuration::from_fn(|k, _| {
-                    let (lower, upper) = topology.axes[k].domain();
+                    let (lower, upper) = topology.ranges[k].domain();
                     dice.range(lower, upper)
                 })
             };

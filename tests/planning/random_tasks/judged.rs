@@ -3,7 +3,7 @@
 
 use super::{manner, task};
 use crate::common::random::{seeds, times};
-use cplan::check::{Passage, ReplayedStep};
+use cplan::check::{CollisionCheck, ReplayedStep};
 use cplan::engine::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
 use cplan::model::{RecordedStep, RecordedTurn, Task};
 use cplan::motion::Drive;
@@ -26,7 +26,7 @@ fn record(task: &Task, answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
 }
 
 fn is_free(step: &ReplayedStep) -> bool {
-    matches!(step.passage, Passage::Free { .. }) && step.turn.is_none_or(|turn| turn.verdict.is_ok())
+    matches!(step.collision_check, CollisionCheck::Free { .. }) && step.turn.is_none_or(|turn| turn.verdict.is_ok())
 }
 
 #[test]
@@ -47,10 +47,10 @@ fn what_is_planned_is_judged_free() {
         let mut clearance = f64::INFINITY;
         for (step, leg) in judge.zip(&answer.legs) {
             assert_eq!((&step.faults[..], &step.broken[..]), (&[][..], &[][..]), "seed {seed}, {:?}", step.step);
-            assert!(is_free(&step), "seed {seed}: {:?}, {:?} in {:?}", step.passage, step.turn, step.step);
+            assert!(is_free(&step), "seed {seed}: {:?}, {:?} in {:?}", step.collision_check, step.turn, step.step);
             assert_eq!(step.turn.is_some(), leg.turn.is_some(), "seed {seed}");
             turns += u64::from(step.turn.is_some());
-            if let Passage::Free { clearance: bound, .. } = step.passage {
+            if let CollisionCheck::Free { clearance: bound, .. } = step.collision_check {
                 clearance = clearance.min(bound);
             }
         }

@@ -4,7 +4,7 @@
 
 use crate::random_worlds::solid::{Solid, V, add, norm, rotate, sub};
 use cplan::engine::task::TaskAnswer;
-use cplan::model::{Action, Goal, Holding, Item, Joint, Motion, Step, Task};
+use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Step, Task};
 
 /// Positions agree to this, metres: inverse kinematics promises a few nanometres.
 const NEAR: f64 = 1e-7;
@@ -13,7 +13,7 @@ const NEAR: f64 = 1e-7;
 const LOOKS: usize = 300;
 
 /// Share of the arm's reach to which an object may press into what supports it.
-const GIVE: f64 = 1e-4;
+const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
 /// A frame: cosine and sine of its turn, and its origin.
 type Frame = (V, V);
@@ -178,8 +178,8 @@ fn state(t: &cplan::motion::Trajectory, time: f64) -> (V, V) {
 
 fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(), String> {
     for k in 0..2 {
-        let (lower, upper) = joints[k].axis.domain();
-        if !joints[k].axis.is_circle() && !(lower - 1e-9..=upper + 1e-9).contains(&position[k]) {
+        let (lower, upper) = joints[k].range.domain();
+        if !joints[k].range.is_circle() && !(lower - 1e-9..=upper + 1e-9).contains(&position[k]) {
             return Err(format!("joint {k} at {} is beyond its limits", position[k]));
         }
         if velocity[k].abs() > joints[k].velocity * share * (1.0 + 1e-6) {
@@ -213,9 +213,9 @@ impl<'a> World<'a> {
     /// Frames of both links, and the tip.
     fn frames(&self, q: V) -> ([Frame; 2], V) {
         let arm = &self.task.arm;
-        let joint = |k: usize| match arm.joints[k].motion {
-            Motion::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
-            Motion::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
+        let joint = |k: usize| match arm.joints[k].joint_type {
+            JointType::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
+            JointType::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
         };
         let first = compose(([1.0, 0.0], [arm.base.x, arm.base.y]), joint(0));
         let second = compose(compose(first, ([1.0, 0.0], [arm.offset.x, arm.offset.y])), joint(1));
@@ -248,21 +248,22 @@ impl<'a> World<'a> {
 
     /// By how much a body that rests on something presses into it less than it may; negative: more. Whatever the clearance.
     fn pressed(&self, body: &Solid, support: &Solid) -> f64 {
-        body.distance(support) + GIVE * self.task.arm.reach()
+        body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }
 
     /// Calls `f` with what moves, what it can meet, their distance at `q`, and of what rests on the other [`World::pressed`].
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.obstacles.len();
         let (frames, _) = self.frames(q);
-        let spared = |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
+        let allowed_contacts =
+            |number: usize| [target, self.released].iter().flatten().any(|&object| number == fixed + object);
         let obstacles = self.obstacles();
         for (link, frame) in frames.into_iter().enumerate() {
             for part in &self.task.arm.links[link].parts {
                 let body = Solid::new(&part.shape).placed(frame.0, frame.1);
                 for (number, solid, heights) in &obstacles {
                     let meets = part.heights.lower <= heights[1] && heights[0] <= part.heights.upper;
-                    if meets && (link == 0 || !spared(*number)) {
+                    if meets && (link == 0 || !allowed_contacts(*number)) {
                         f(["link 1", "link 2"][link], *number, body.distance(solid), None);
                     }
                 }
@@ -324,10 +325,10 @@ impl<'a> World<'a> {
             bodies.map(move |body| norm(held.frame.1) + body.reach + body.radius + tip)
         });
         let second = own.chain(carried).fold(0.0, f64::max);
-        let (lower, upper) = arm.joints[1].axis.domain();
-        let slides = if arm.joints[1].motion.is_revolute() { 0.0 } else { lower.abs().max(upper.abs()) };
+        let (lower, upper) = arm.joints[1].range.domain();
+        let slides = if arm.joints[1].joint_type.is_revolute() { 0.0 } else { lower.abs().max(upper.abs()) };
         let first = second + slides + norm([arm.offset.x, arm.offset.y]);
-        [0, 1].map(|k| if arm.joints[k].motion.is_revolute() { [first, second][k] } else { 1.0 })
+        [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { [first, second][k] } else { 1.0 })
     }
 
     /// What happens at the end of a motion; `then` is what the next place may touch.
@@ -341,7 +342,7 @@ impl<'a> World<'a> {
             Action::Move(Goal::Joints(target)) => {
                 for k in 0..2 {
                     let off = q[k] - target[k];
-                    let turns = if self.task.arm.joints[k].axis.is_circle() {
+                    let turns = if self.task.arm.joints[k].range.is_circle() {
                         (off / std::f64::consts::TAU).round()
                     } else {
                         0.0

@@ -50,7 +50,7 @@ pub fn task(seed: u64) -> Task {
     let anywhere = |dice: &mut Dice| {
         let mut draw = || {
             Configuration::from_fn(|k, _| {
-                let (lower, upper) = topology.axes[k].domain();
+                let (lower, upper) = topology.ranges[k].domain();
                 dice.range(lower, upper)
             })
         };

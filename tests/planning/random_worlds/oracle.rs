@@ -2,7 +2,7 @@
 //! and distances are its own.
 
 use super::solid::{Solid, V, add, dot, norm, rotate, sub};
-use cplan::model::{Motion, Scene};
+use cplan::model::{JointType, Scene};
 use cplan::space::{Configuration, Path};
 
 /// A part of a link and what it can meet.
@@ -19,7 +19,7 @@ pub type Meeting = (u16, u16);
 
 /// The world as the oracle sees it.
 pub struct Oracle {
-    motions: [Motion; 2],
+    motions: [JointType; 2],
     base: V,
     offset: V,
     movers: Vec<Mover>,
@@ -46,12 +46,12 @@ impl Oracle {
     pub fn new(scene: &Scene) -> Self {
         let arm = scene.arm();
         let axes = [0, 1].map(|k| {
-            let axis = arm.topology().axes[k];
+            let axis = arm.topology().ranges[k];
             let (lower, upper) = axis.domain();
             (lower, upper, axis.is_circle())
         });
-        let motions = [arm.joints[0].motion, arm.joints[1].motion];
-        let turns = motions.map(|m| matches!(m, Motion::Revolute { .. }));
+        let motions = [arm.joints[0].joint_type, arm.joints[1].joint_type];
+        let turns = motions.map(|m| matches!(m, JointType::Revolute { .. }));
         let offset = [arm.offset.x, arm.offset.y];
         let travel = axes[1].0.abs().max(axes[1].1.abs());
         let mut obstacles = Vec::new();
@@ -102,8 +102,8 @@ impl Oracle {
                 place = add(place, rotate(self.offset, turn));
             }
             match self.motions[k] {
-                Motion::Revolute { sign } => turn = rotate([(sign * q[k]).cos(), (sign * q[k]).sin()], turn),
-                Motion::Prismatic { direction } => {
+                JointType::Revolute { sign } => turn = rotate([(sign * q[k]).cos(), (sign * q[k]).sin()], turn),
+                JointType::Prismatic { direction } => {
                     place = add(place, rotate([direction.x * q[k], direction.y * q[k]], turn));
                 }
             }
@@ -120,7 +120,7 @@ impl Oracle {
         let obstacle = &self.obstacles[usize::from(o)];
         let second = half[1] * mover.speed[1];
         let first = match (self.motions[0], mover.link) {
-            (Motion::Revolute { .. }, 1) => {
+            (JointType::Revolute { .. }, 1) => {
                 // Only the second joint changes the distance from the base.
                 let out = solid.corners().iter().map(|&p| norm(sub(p, self.base))).fold(0.0, f64::max);
                 (out + second).min(mover.speed[0])

@@ -4,9 +4,9 @@ use super::oracle::Oracle;
 use crate::common::{asked, convex, disc, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Heights, Joint, Link, Motion, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
 };
-use cplan::space::{Axis, Configuration, GoalSet};
+use cplan::space::{Configuration, GoalSet, JointRange};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -66,18 +66,18 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
         let (motion, axis) = if which == 'R' {
             let sign = if dice.chance(0.3) { -1.0 } else { 1.0 };
             let axis = match dice.below(4) {
-                0 | 1 => Axis::Circle,
-                2 => Axis::Interval { lower: dice.range(-3.0, -0.5), upper: dice.range(0.5, 3.0) },
-                _ => Axis::Interval { lower: dice.range(-2.0 * PI, -PI), upper: dice.range(PI, 1.5 * PI) },
+                0 | 1 => JointRange::Circle,
+                2 => JointRange::Interval { lower: dice.range(-3.0, -0.5), upper: dice.range(0.5, 3.0) },
+                _ => JointRange::Interval { lower: dice.range(-2.0 * PI, -PI), upper: dice.range(PI, 1.5 * PI) },
             };
-            (Motion::Revolute { sign }, axis)
+            (JointType::Revolute { sign }, axis)
         } else {
             let angle = if dice.chance(0.3) { dice.below(4) as f64 * PI / 2.0 } else { dice.range(-PI, PI) };
             let direction = Vector::new(angle.cos(), angle.sin());
-            let axis = Axis::Interval { lower: dice.range(-0.9, 0.1), upper: dice.range(0.3, 1.2) };
-            (Motion::Prismatic { direction }, axis)
+            let axis = JointRange::Interval { lower: dice.range(-0.9, 0.1), upper: dice.range(0.3, 1.2) };
+            (JointType::Prismatic { direction }, axis)
         };
-        Joint { name: which.to_string(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
+        Joint { name: which.to_string(), joint_type: motion, range: axis, velocity: 1.0, acceleration: 1.0, jerk: None }
     };
     let mut letters = kind.chars();
     let joints = [letters.next().unwrap_or('R'), letters.next().unwrap_or('R')].map(&mut joint);
@@ -201,7 +201,7 @@ fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
     let mut found = None;
     for _ in 0..200 {
         let q = Configuration::from_fn(|k, _| {
-            let (lower, upper) = topology.axes[k].domain();
+            let (lower, upper) = topology.ranges[k].domain();
             match dice.below(40) {
                 0 => lower,
                 1 => upper,
@@ -227,7 +227,7 @@ fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
         }
     }
     for k in 0..2 {
-        if topology.axes[k].is_circle() && dice.chance(0.1) {
+        if topology.ranges[k].is_circle() && dice.chance(0.1) {
             q[k] += TAU * (dice.below(5) as f64 - 2.0);
         }
     }

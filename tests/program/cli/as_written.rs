@@ -266,13 +266,13 @@ fn the_only_planar_pair_is_taken() {
         joint("z", "revolute", "1 0 0", "l2", "l3"),
     ];
     run(&none, "").refused(1, &["none of the robot's 3 joints", "cure"]);
-    // A pair that is named and not planar: the cure names the one that is.
+    // A pair that is named and not planar: the help names the one that is.
     place.write("world.toml", format!("[robot]\njoints = [\"a2\", \"quill\"]\n{TURN}"));
     run(&scara, "").refused(1, &["one common plane", "[robot] joints = [\"a1\", \"a2\"]"]);
 }
 
 #[test]
-fn starts_are_taken_by_the_tip_if_one_posture_alone_reaches_it() {
+fn starts_are_taken_by_the_tip_if_one_ik_solution_alone_reaches_it() {
     let place = Place::new();
     place.write("arm.urdf", arm("velocity=\"1\""));
     let limited = arm("lower=\"0\" upper=\"3\" velocity=\"1\"").replace("\"continuous\"", "\"revolute\"");
@@ -290,9 +290,9 @@ fn starts_are_taken_by_the_tip_if_one_posture_alone_reaches_it() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], options)
     };
-    run(world, "").found(&["the start is the only posture with the tip at (1, 0.5)"]);
+    run(world, "").found(&["the start is the only IK solution with the tip at (1, 0.5)"]);
     let both = world.replace("[robot]\nlimits = { j2 = [0, 3] }\n", "");
-    run(&both, "").refused(1, &["2 postures put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
+    run(&both, "").refused(1, &["2 IK solutions put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
     run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "cure"]);
     run(&both.replace("[1, 0.5]", "[0, 0]"), "").refused(1, &["leaves a joint free", "cure"]);
     run(&world.replace("tip", "joints = [0, 1]\ntip"), "").refused(1, &["either `joints` or `tip`", "cure"]);

@@ -97,7 +97,7 @@ fn what_is_wrong_with_a_suite_is_told_at_once() {
         "[[problem]]\nrobot = \"absent.urdf\"\nworld = \"open.toml\"\n[[problem]]\nrobot = \"a.urdf\"\nworld = \"b.toml\"\n",
         &["line 2", "no file worlds/absent.urdf", "worlds/a.urdf", "worlds/b.toml", "relative to the manifest"],
     );
-    // All worlds' defects together, each with its file and place.
+    // All worlds' diagnostics together, each with its file and place.
     place.write("worlds/open.toml", "[start]\njoints = [9.0, 0.0]\n[goal]\njoints = [0.0, 0.0]\n");
     place.write("worlds/closed.toml", "[start]\njoints = [0.0, 0.0]\n");
     let two = format!(

@@ -70,7 +70,7 @@ fn every_command_with_json_answers_in_json() {
     for words in cases {
         place.run(words, "--json").error(1, "input", &[]);
     }
-    // The report of a robot that cannot be planned with is the answer, and has its defects.
+    // The report of a robot that cannot be planned with is the answer, and has its diagnostics.
     let json = place.run(&["inspect", "none.urdf"], "--json");
     assert_eq!(json.code, 1);
     assert_eq!(json.json()["plannable"], false);

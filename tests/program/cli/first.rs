@@ -181,9 +181,9 @@ fn places_that_cannot_be_written_give_one_error() {
 
 /// Every key of a wrong kind is refused with its place and what to write instead.
 #[test]
-fn every_wrong_kind_of_value_has_a_cure() {
+fn every_wrong_kind_of_value_has_help() {
     let place = Place::new();
-    for (world, cure) in [
+    for (world, help) in [
         ("[start]\njoints = {}\n", "joints = [q1, q2]"),
         ("start = [0.1, 0.2]\n", "[start] joints = [q1, q2]"),
         ("goal = [0.1, 0.2]\n", "[goal] joints = [q1, q2]"),
@@ -196,7 +196,7 @@ fn every_wrong_kind_of_value_has_a_cure() {
         ("name = 3\n", "name = \"words\""),
         ("[[obstacle]]\ncircle = { center = [1e308, 0], radius = 1 }\n", "metres"),
     ] {
-        place.plan(world, "").refused(1, &["world.toml: line ", cure, "cure: "]);
+        place.plan(world, "").refused(1, &["world.toml: line ", help, "cure: "]);
     }
     place.write("world.toml", FREE);
     let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();

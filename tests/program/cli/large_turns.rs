@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::common::{random, recheck};
-use cplan::check::{Cell, ProofDefect, StuckBox};
+use cplan::check::{Cell, ProofError, StuckBox};
 use cplan::input::{LoadedScene, load_scene};
 use cplan::model::Pair;
 use cplan::space::Configuration;
@@ -62,7 +62,7 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
     let step = (candidates.len() / tried).max(1);
     for &(start, careless) in candidates.iter().step_by(step) {
         let verdict = recheck(&[stuck(careless)], scene, Configuration::new(start, FOLDED), &goal.into(), 0.0);
-        assert_eq!(verdict, Err(ProofDefect::NotSeparated(0)), "{start} is not {careless}");
+        assert_eq!(verdict, Err(ProofError::NotSeparated(0)), "{start} is not {careless}");
     }
 
     // Through the front door.

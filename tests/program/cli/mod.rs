@@ -3,7 +3,7 @@
 mod as_written;
 mod commands;
 mod compare;
-mod cures;
+mod diagnostics;
 mod error_json;
 mod fields;
 mod first;

@@ -46,13 +46,13 @@ fn the_shortest_path_has_no_other_beside_it() {
 }
 
 #[test]
-fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_doors() {
+fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_portals() {
     let place = Place::new();
     let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [1.3, 0.2], radius = 0.2 }}\n");
     let done = place.plan(world, "--planner trapezoid --path own --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let path = done.json()["path"].as_array().unwrap().len();
-    // Start, then a door and a centre in turn, a door, goal.
+    // Start, then a portal and a centre in turn, a portal, goal.
     assert!(path >= 3 && path % 2 == 1, "{path} waypoints");
 }
 

@@ -104,9 +104,9 @@ fn a_recording_that_presses_a_corner_into_a_support_is_refuted() {
 }
 
 /// Share of the arm's reach of 1.8 m, metres.
-const GIVE: f64 = 1.8e-4;
+const PENETRATION_ALLOWANCE: f64 = 1.8e-4;
 
-/// An object that ends in a tip on its axis: its outline and how it is held, how far from its origin the tip is, and the share of [`GIVE`] by
+/// An object that ends in a tip on its axis: its outline and how it is held, how far from its origin the tip is, and the share of [`PENETRATION_ALLOWANCE`] by
 /// which the tip is given way. Sides are moved inwards by `d`, the greatest of 1, 0.7, 0.7 * 0.7, ... of it with which no corner
 /// moves farther than it: one of angle `a` moves by `d / sin(a / 2)`.
 const TIPPED: [([&str; 2], f64, f64); 5] = [
@@ -147,7 +147,7 @@ fn with_a_clearance_nothing_is_pressed_deeper_than_without() {
         for (what, support) in on_the_axis(1.2) {
             for (clearance, deeper) in [(0.005, 1.01), (0.02, 20.0)] {
                 for (by, code) in [(0.99, 0), (deeper, 3)] {
-                    let world = tipped(object, &support, [tip, by * share * GIVE, clearance]);
+                    let world = tipped(object, &support, [tip, by * share * PENETRATION_ALLOWANCE, clearance]);
                     let done = Place::new().plan(world, "--json --quiet");
                     let kept = done.code != 0 || done.json()["clearance"].as_f64().unwrap() >= clearance;
                     if done.code != code || !kept {
@@ -182,8 +182,11 @@ fn with_a_clearance_nothing_recorded_may_press_deeper_than_without() {
             assert_eq!(done.code, 0, "{object:?} on {what}: {}", done.stderr);
             place.write("plan.json", without_clearances(&place.read("plan.json")));
             for (by, code) in [(0.0, 0), (0.99, 0), (1.01, 3), (20.0, 3)] {
-                let nearer =
-                    on_the_axis(1.2 - by * share * GIVE).into_iter().find(|nearer| nearer.0 == what).unwrap().1;
+                let nearer = on_the_axis(1.2 - by * share * PENETRATION_ALLOWANCE)
+                    .into_iter()
+                    .find(|nearer| nearer.0 == what)
+                    .unwrap()
+                    .1;
                 place.write("nearer.toml", tipped(object, &nearer, [tip, 0.0, clearance]));
                 let done = place.run(&["verify", &shipped("robots/planar_2r.urdf"), "nearer.toml", "plan.json"], "");
                 if done.code != code {

@@ -246,9 +246,12 @@ fn the_first_step_that_fails_is_named() {
         let reasons = failed["reasons"].as_array().unwrap();
         assert!(reasons.iter().any(|reason| reason.as_str().unwrap().contains("post")), "{failed}");
         assert_eq!(&failed["from"], result["steps"][0]["path"].as_array().unwrap().last().unwrap());
-        let postures = failed["postures"].as_array().unwrap();
-        let ends = rows(&postures.iter().map(|posture| posture["joints"].clone()).collect());
-        assert!(!ends.is_empty() && postures.iter().all(|posture| posture["reason"].is_string()), "{failed}");
+        let ik_solutions = failed["postures"].as_array().unwrap();
+        let ends = rows(&ik_solutions.iter().map(|ik_solution| ik_solution["joints"].clone()).collect());
+        assert!(
+            !ends.is_empty() && ik_solutions.iter().all(|ik_solution| ik_solution["reason"].is_string()),
+            "{failed}"
+        );
         let off = |q: [f64; 2]| (tip(q)[0] - 1.45).hypot(tip(q)[1] - 0.25);
         assert!(ends.into_iter().all(|q| off(q) < 1e-9), "{failed}");
         let before = result["steps"].as_array().unwrap();

@@ -11,7 +11,7 @@ use cplan::draw::{Picture, View, svg};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::Trace;
-use cplan::space::{Axis, Configuration, Path, Segment};
+use cplan::space::{Configuration, JointRange, Path, Segment};
 use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
@@ -51,7 +51,7 @@ fn words(text: &str) -> String {
     all.join("\n")
 }
 
-fn planar(axes: [Axis; 2]) -> cplan::model::Arm {
+fn planar(axes: [JointRange; 2]) -> cplan::model::Arm {
     arm(["shoulder", "elbow"], [TURN; 2], axes, [1.0, 0.8], [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)])
 }
 
@@ -68,7 +68,7 @@ fn three() -> Scene {
 
 fn torus() -> Scene {
     scene(
-        planar([Axis::Circle, Axis::Circle]),
+        planar([JointRange::Circle, JointRange::Circle]),
         vec![
             polygon("block", &[(0.9, 0.6), (1.4, 0.6), (1.4, 1.1), (0.9, 1.1)]),
             circle("post", -1.35, 0.1, 0.2),
@@ -266,8 +266,8 @@ fn empty_and_degenerate_scenes_have_finite_axes() {
     let no_goals: [Segment; 0] = [];
     let far = || vec![circle("far", 1e9, -1e9, 1.0), polygon("farther", &[(1e12, 0.0), (1e12, 1.0), (9e11, 1.0)])];
     for (name, scene) in [
-        ("empty", scene(planar([Axis::Circle, interval(-1.0, 1.0)]), Vec::new())),
-        ("far", scene(planar([Axis::Circle, interval(-1.0, 1.0)]), far())),
+        ("empty", scene(planar([JointRange::Circle, interval(-1.0, 1.0)]), Vec::new())),
+        ("far", scene(planar([JointRange::Circle, interval(-1.0, 1.0)]), far())),
         ("tiny", scene(tiny.clone(), Vec::new())),
         ("tiny_far", scene(tiny, far())),
     ] {

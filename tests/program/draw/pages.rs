@@ -4,7 +4,7 @@ use super::{at, bare, three, torus};
 use crate::common::{Benchmark, benchmark};
 use cplan::check::certify;
 use cplan::cspace::c_obstacles;
-use cplan::draw::{AxesFrame, Picture, Posture, View, page};
+use cplan::draw::{ArmPicture, AxesFrame, Picture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
@@ -168,7 +168,7 @@ fn a_proof_is_shown_where_it_is() {
 }
 
 #[test]
-fn a_posture_is_shown_with_its_frames() {
+fn an_arm_is_shown_with_its_frames() {
     let scene = three();
     let frame = AxesFrame {
         name: "tool0".to_owned(),
@@ -176,8 +176,8 @@ fn a_posture_is_shown_with_its_frames() {
         axes: [Vector3::x(), Vector3::y(), Vector3::z()],
     };
     let title = vec!["posture".to_owned()];
-    let posture = Posture { title, status: String::new(), scene: &scene, at: at(0.5, 0.5), frames: vec![frame] };
-    let value = inspected("page_posture", &View::of_posture(&posture));
+    let arm_picture = ArmPicture { title, status: String::new(), scene: &scene, at: at(0.5, 0.5), frames: vec![frame] };
+    let value = inspected("page_posture", &View::of_arm(&arm_picture));
     assert_eq!(value["frames"][0]["at"], serde_json::json!([0.5, -0.25]));
     assert_eq!(value["frames"][0]["axes"][2], serde_json::json!([0.0, 0.0, 1.0]));
     assert_eq!(value["start"], serde_json::json!([0.5, 0.5]));

@@ -3,27 +3,35 @@
 use crate::common::{self, convex, disc, placed};
 use cplan::cspace::CObstacle;
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
-use cplan::space::{Axis, Configuration, Path, Topology};
+use cplan::model::{
+    Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
+};
+use cplan::space::{Configuration, JointRange, Path, Topology};
 use nalgebra::Vector3;
 use std::collections::VecDeque;
 
-pub const TURN: Motion = Motion::Revolute { sign: 1.0 };
+pub const TURN: JointType = JointType::Revolute { sign: 1.0 };
 
-pub fn slide(x: f64, y: f64) -> Motion {
-    Motion::Prismatic { direction: Vector::new(x, y) }
+pub fn slide(x: f64, y: f64) -> JointType {
+    JointType::Prismatic { direction: Vector::new(x, y) }
 }
 
-pub fn interval(lower: f64, upper: f64) -> Axis {
-    Axis::Interval { lower, upper }
+pub fn interval(lower: f64, upper: f64) -> JointRange {
+    JointRange::Interval { lower, upper }
 }
 
 /// An arm whose links are bars along x.
-pub fn arm(names: [&str; 2], motions: [Motion; 2], axes: [Axis; 2], lengths: [f64; 2], bars: [Convex; 2]) -> Arm {
+pub fn arm(
+    names: [&str; 2],
+    motions: [JointType; 2],
+    axes: [JointRange; 2],
+    lengths: [f64; 2],
+    bars: [Convex; 2],
+) -> Arm {
     let joint = |k: usize| Joint {
         name: names[k].to_owned(),
-        motion: motions[k],
-        axis: axes[k],
+        joint_type: motions[k],
+        range: axes[k],
         velocity: 1.0,
         acceleration: 1.0,
         jerk: None,
@@ -102,7 +110,7 @@ impl Cells {
     }
 
     fn at(&self, axis: usize, steps: f64) -> f64 {
-        let axis = self.topology.axes[axis];
+        let axis = self.topology.ranges[axis];
         axis.domain().0 + steps / self.n as f64 * axis.extent()
     }
 
@@ -152,14 +160,14 @@ impl Cells {
         let (i, j) = (index as i64 / n, index as i64 % n);
         let step = |d: [i64; 2]| {
             let mut to = [i + d[0], j + d[1]];
-            for (to, axis) in to.iter_mut().zip(self.topology.axes) {
+            for (to, axis) in to.iter_mut().zip(self.topology.ranges) {
                 if axis.is_circle() {
                     *to = to.rem_euclid(n);
                 } else if !(0..n).contains(to) {
                     return None;
                 }
             }
-            let moved = [0, 1].map(|k| d[k] as f64 * self.topology.axes[k].extent() / n as f64);
+            let moved = [0, 1].map(|k| d[k] as f64 * self.topology.ranges[k].extent() / n as f64);
             Some(((to[0] * n + to[1]) as usize, moved))
         };
         [[-1, 0], [1, 0], [0, -1], [0, 1]].into_iter().filter_map(step).collect()

@@ -139,12 +139,12 @@ fn follows(name: &str, picture: &TaskPicture) {
             None => {}
         }
     }
-    // After all steps nothing is carried; where one fails, its world shows the postures that were tried.
+    // After all steps nothing is carried; where one fails, its world shows the configurations that were tried.
     let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
     if picture.answer.impossible().is_none() {
         assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());
     } else {
-        let tried = picture.answer.impossible().map_or(0, |fails| fails.postures.len());
+        let tried = picture.answer.impossible().map_or(0, |fails| fails.ik_solutions.len());
         assert_eq!(last["unreached"].as_array().unwrap().len(), tried);
     }
 }
@@ -357,8 +357,8 @@ fn a_step_that_fails_is_named() {
     let farther = [Action::Move(Goal::Tip(Point::new(-7.0, 0.0)))];
     let (first, third) = ("step 1 fails: impossible, proven", "step 3 fails: impossible, proven");
     for (name, steps, step, reason, panels) in [
-        ("task_failed", &far[..], third, "step 3, place at (-5, 0) m: no posture", 3),
-        ("task_failed_at_once", &farther[..], first, "step 1, move the tip to (-7, 0) m: no posture", 2),
+        ("task_failed", &far[..], third, "step 3, place at (-5, 0) m: no IK solution", 3),
+        ("task_failed_at_once", &farther[..], first, "step 1, move the tip to (-7, 0) m: no IK solution", 2),
     ] {
         let task = task(objects(), fixed(), steps, 1);
         let text = drawn(name, &task, &answer(&task));
@@ -386,7 +386,7 @@ fn hollow_diamonds(text: &str) -> usize {
     outlines.filter(is_diamond).count()
 }
 
-/// With the object in the hand neither posture at its place can be taken.
+/// With the object in the hand neither configuration at its place can be taken.
 #[test]
 fn the_motion_that_fails_is_drawn() {
     let held = |holding| vec![object("part", false, holding, [1.2, -0.5])];
@@ -395,14 +395,14 @@ fn the_motion_that_fails_is_drawn() {
     let blocked = task(held(Holding::Level), obstacles, &[pick(0), place(-1.1, 0.4)], 1);
     let answer = answer(&blocked);
     let TaskVerdict::Infeasible(why) = &answer.verdict else { panic!("{:?}", answer.verdict) };
-    assert_eq!((why.step.number, why.postures.len()), (2, 2));
+    assert_eq!((why.step.number, why.ik_solutions.len()), (2, 2));
     assert_eq!(why.from, answer.legs[0].timed.curve.curve().path().goal());
     assert_eq!(why.scene.payload().map(|payload| payload.object.as_str()), Some("part"));
-    for to in &why.postures {
-        let tip = blocked.arm.tip_at(to.posture);
+    for to in &why.ik_solutions {
+        let tip = blocked.arm.tip_at(to.ik_solution);
         assert!((tip - Point::new(-1.1, 0.4)).norm() < 1e-9, "{tip}");
-        assert!(to.reason.contains("block") && !why.scene.obstructions(to.posture).is_empty(), "{to:?}");
-        let [a, b] = [0, 1].map(|k| (to.posture[k] * 1e4).round() / 1e4);
+        assert!(to.reason.contains("block") && !why.scene.obstructions(to.ik_solution).is_empty(), "{to:?}");
+        let [a, b] = [0, 1].map(|k| (to.ik_solution[k] * 1e4).round() / 1e4);
         assert!(why.reasons.iter().any(|reason| reason.contains(&format!("({a}, {b}) rad"))), "{:?}", why.reasons);
     }
     let text = drawn("task_blocked", &blocked, &answer);
@@ -411,7 +411,7 @@ fn the_motion_that_fails_is_drawn() {
     assert!(words.contains("not reached") && !words.contains("separating boxes"), "{words}");
     let frames = frames(&text);
     assert_eq!((frames.len(), hollow_diamonds(&text)), (3, 3));
-    // The object is in the hand in both postures, which are drawn in the colour of what is barred.
+    // The object is in the hand in both configurations, which are drawn in the colour of what is barred.
     let part = color_of(&text, "part");
     assert_eq!(frames[0].iter().filter(|m| m.stroke == part && m.union).count(), 2);
     assert!(frames[2].iter().all(|m| m.stroke != part));

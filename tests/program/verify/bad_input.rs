@@ -1,4 +1,4 @@
-//! Recordings that cannot be used: refused with the file, the place, what is wrong, and the cure.
+//! Recordings that cannot be used: refused with the file, the place, what is wrong, and what to do about it.
 
 use cplan::input::{load_recording, load_scene};
 use std::fs;

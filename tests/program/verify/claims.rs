@@ -112,7 +112,7 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     assert_eq!(case.judged(&only(0..count), &["--goal", "1.5,0"]).0, 3);
     assert_eq!(case.judged(&only(0..count), &["--goal-tip", "0.5,0.5"]).0, 3);
     assert_eq!(case.judged(&only(0..count), &["--start", "0,0"]).0, 3);
-    // A goal of the tip is met in any posture.
+    // A goal of the tip is met in any IK solution.
     let case = Case::new("planar_2r", "two_branches");
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
     let (robot, world) = (case.robot.clone(), case.world.clone());

@@ -4,7 +4,7 @@ use crate::common::rr;
 use cplan::check::{Limit, limits_kept};
 use cplan::input::{load_recording, load_scene};
 use cplan::model::Joint;
-use cplan::space::{Axis, Configuration, Derivative, Interpolation, Recording};
+use cplan::space::{Configuration, Derivative, Interpolation, JointRange, Recording};
 use proptest::prelude::*;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -116,7 +116,7 @@ proptest! {
         }
         // Limits a little above and a little below the greatest that was seen.
         let broken = |factor: f64| {
-            let mut joints: [Joint; 2] = rr([Axis::Circle; 2]).joints;
+            let mut joints: [Joint; 2] = rr([JointRange::Circle; 2]).joints;
             for (joint, greatest) in joints.iter_mut().zip(greatest) {
                 (joint.velocity, joint.acceleration) = (greatest[1] * factor, greatest[2].max(1e-3) * factor);
             }

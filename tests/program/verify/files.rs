@@ -1,6 +1,6 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
-use cplan::check::{Excess, Limit, Passage, blend, limits_kept, passage};
+use cplan::check::{CollisionCheck, Excess, Limit, blend, check_collision, limits_kept};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
 use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
@@ -41,9 +41,9 @@ fn read(scene: &LoadedScene, name: &str, content: impl AsRef<[u8]>) -> Recording
     load_recording(&file, scene).unwrap_or_else(|e| panic!("{e}")).recording
 }
 
-fn judge(scene: &LoadedScene, recording: &Recording) -> (Passage, Vec<Excess>) {
+fn judge(scene: &LoadedScene, recording: &Recording) -> (CollisionCheck, Vec<Excess>) {
     let clearance = scene.scene.workspace().clearance;
-    (passage(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm().joints, recording))
+    (check_collision(&scene.scene, recording, clearance), limits_kept(&scene.scene.arm().joints, recording))
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
         for &(format, file) in FORMATS {
             let recording = read(&scene, file, written(format, &report));
             let (verdict, broken) = judge(&scene, &recording);
-            let Passage::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
+            let CollisionCheck::Free { clearance, .. } = verdict else { panic!("{name}, {file}: {verdict:?}") };
             assert_eq!(broken, [], "{name}, {file}");
             // The same motion: the bounds differ by how the search went, both at least 0.9 of the truth.
             if let Some(certified) = report.clearance {
@@ -111,7 +111,7 @@ fn tampered_results_are_caught() {
 
     for &(format, name) in FORMATS {
         let (verdict, broken) = read(&fast, format, name);
-        assert!(matches!(verdict, Passage::Free { .. }), "{name}");
+        assert!(matches!(verdict, CollisionCheck::Free { .. }), "{name}");
         let ratio = |limit| {
             let worst = broken.iter().filter(|e| e.limit == limit);
             worst.map(|e| e.value.abs() / e.allowed).fold(0.0, f64::max)
@@ -121,14 +121,14 @@ fn tampered_results_are_caught() {
         assert!((speed - 2.0).abs() < 1e-3 && (pull - 4.0).abs() < 0.2, "{name}: {speed}, {pull}");
 
         let (verdict, broken) = read(&pushed, format, name);
-        assert!(matches!(verdict, Passage::Free { .. }), "{name}");
+        assert!(matches!(verdict, CollisionCheck::Free { .. }), "{name}");
         assert!(kinds(&broken).contains(&(1, Limit::RestAtStart)), "{name}: {broken:?}");
         let (_, broken) = read(&thrown, format, name);
         let end = broken.iter().find(|e| e.limit == Limit::RestAtEnd).expect("does not end at rest");
         assert_eq!((end.joint, end.value, end.moment.sample), (0, -0.25, last), "{name}");
 
         let (verdict, _) = read(&hit, format, name);
-        let Passage::Collision { first, free_until, deepest } = verdict else { panic!("{name}: {verdict:?}") };
+        let CollisionCheck::Collision { first, free_until, deepest } = verdict else { panic!("{name}: {verdict:?}") };
         assert!(
             times[at - 1] < free_until && free_until <= first.moment.time && first.moment.time < times[at],
             "{name}"
@@ -145,7 +145,7 @@ fn the_straight_way_collides_where_the_path_does_not() {
     let (a, b) = (path[0], path[path.len() - 1]);
     let csv = format!("shoulder,elbow\n{},{}\n{},{}\n", a[0], a[1], b[0], b[1]);
     let (verdict, broken) = judge(&scene, &read(&scene, "ends.csv", &csv));
-    let Passage::Collision { first, .. } = verdict else { panic!("{verdict:?}") };
+    let CollisionCheck::Collision { first, .. } = verdict else { panic!("{verdict:?}") };
     assert_eq!(broken, []);
     // The first contact by bisection of densely sampled distances.
     let at = |u: f64| Configuration::new(a[0] + (b[0] - a[0]) * u, a[1] + (b[1] - a[1]) * u);

@@ -3,12 +3,12 @@
 use crate::common::{q, rr};
 use cplan::check::{Excess, Limit, limits_kept};
 use cplan::model::Joint;
-use cplan::space::{Axis, Configuration, Derivative, Recording};
+use cplan::space::{Configuration, Derivative, JointRange, Recording};
 use proptest::prelude::*;
 
 /// Range from -1 to 1, top speed 1, acceleration 4.
 fn joints() -> [Joint; 2] {
-    rr([Axis::Interval { lower: -1.0, upper: 1.0 }; 2]).joints
+    rr([JointRange::Interval { lower: -1.0, upper: 1.0 }; 2]).joints
 }
 
 fn judged(times: &[f64], position: Vec<Configuration>, velocity: Option<Vec<Configuration>>) -> Vec<Excess> {

@@ -1,10 +1,10 @@
 //! The continuous check against dense sampling and contacts known in closed form.
 
 use crate::common::{all_kinds, clutter, disc, q, rectangle, rr, scene};
-use cplan::check::{Passage, passage};
+use cplan::check::{CollisionCheck, check_collision};
 use cplan::geometry::Point;
 use cplan::model::Scene;
-use cplan::space::{Axis, Configuration, Recording};
+use cplan::space::{Configuration, JointRange, Recording};
 use proptest::prelude::*;
 use std::f64::consts::FRAC_PI_4;
 
@@ -45,7 +45,7 @@ proptest! {
         reach in 0.02..0.5_f64,
     ) {
         let scene = scene(all_kinds().swap_remove(kind), clutter());
-        let domain = [0, 1].map(|k| scene.arm().topology().axes[k].domain());
+        let domain = [0, 1].map(|k| scene.arm().topology().ranges[k].domain());
         let corner = |k: usize, t: f64| domain[k].0 + t * (domain[k].1 - domain[k].0);
         let first = rows[0].0;
         // A walk about one place, so that some motions are free.
@@ -61,15 +61,15 @@ proptest! {
         // No point of these arms is farther than 3 m from a joint: so much can distances change between samples.
         let turned = |w: &[(f64, f64)]| (at(&recording, w[1].0) - at(&recording, w[0].0)).abs().sum();
         let step = 3.0 * samples.windows(2).map(turned).fold(0.0, f64::max);
-        match passage(&scene, &recording, 0.0) {
-            Passage::Free { clearance, nearest } => {
+        match check_collision(&scene, &recording, 0.0) {
+            CollisionCheck::Free { clearance, nearest } => {
                 prop_assert!(clearance > 0.0 && clearance <= seen + 1e-12);
                 let nearest = nearest.expect("there are obstacles");
                 prop_assert!(clearance >= 0.9 * nearest.contact.separation.distance - 1e-12);
                 prop_assert!((at(&recording, nearest.moment.time) - nearest.moment.at).norm() < 1e-9);
                 prop_assert!(nearest.contact.separation.distance <= seen + step);
             }
-            Passage::Collision { first, free_until, deepest } => {
+            CollisionCheck::Collision { first, free_until, deepest } => {
                 prop_assert!(scene.clearance(first.moment.at) <= 0.0);
                 prop_assert!((at(&recording, first.moment.time) - first.moment.at).norm() < 1e-9);
                 prop_assert!(free_until <= first.moment.time && first.moment.time - free_until < 1e-9);
@@ -79,7 +79,7 @@ proptest! {
                 let place = recording.times().unwrap().iter().rposition(|t| *t <= first.moment.time);
                 prop_assert_eq!(Some(first.moment.sample), place);
             }
-            Passage::Undecided(place) => prop_assert!(place.contact.separation.distance.abs() < 1e-6),
+            CollisionCheck::Undecided(place) => prop_assert!(place.contact.separation.distance.abs() < 1e-6),
         }
     }
 }
@@ -87,13 +87,13 @@ proptest! {
 /// A speck in the way of the outstretched arm, and the angle at which the bar's side meets it.
 fn speck() -> (Scene, f64) {
     let radius = 1e-9;
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![disc(Point::new(1.2, 1.2), radius)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![disc(Point::new(1.2, 1.2), radius)]);
     (scene, FRAC_PI_4 - ((0.05 + radius) / 1.2_f64.hypot(1.2)).asin())
 }
 
 fn collision(scene: &Scene, recording: &Recording) -> (f64, f64) {
-    match passage(scene, recording, 0.0) {
-        Passage::Collision { first, free_until, .. } => {
+    match check_collision(scene, recording, 0.0) {
+        CollisionCheck::Collision { first, free_until, .. } => {
             assert_eq!((first.contact.pair.link, first.contact.pair.obstacle), (1, 0));
             (first.moment.time, free_until)
         }
@@ -130,7 +130,7 @@ fn an_excursion_between_samples_that_stand_still_is_found() {
     assert!((6.0 * time * (1.0 - time) * (1.0 - time) - angle).abs() < 1e-7 && time < 1.0 / 3.0, "{time}");
     // Just short of the speck it is free, just beyond it hits.
     let reaching = angle * 27.0 / 4.0;
-    assert!(matches!(passage(&scene, &excursion(reaching - 1e-5), 0.0), Passage::Free { .. }));
+    assert!(matches!(check_collision(&scene, &excursion(reaching - 1e-5), 0.0), CollisionCheck::Free { .. }));
     let (time, _) = collision(&scene, &excursion(reaching + 1e-5));
     assert!((time - 1.0 / 3.0).abs() < 1e-2, "{time}");
 }
@@ -146,16 +146,20 @@ fn contacts_at_the_very_ends_count() {
     let still = Recording::new(vec![q(FRAC_PI_4, 0.0)], Some(vec![4.0]), None).unwrap();
     assert_eq!(collision(&scene, &still), (4.0, 4.0));
     let still = Recording::new(vec![q(0.0, 0.0)], None, None).unwrap();
-    assert!(matches!(passage(&scene, &still, 0.0), Passage::Free { clearance, .. } if clearance > 0.5));
+    assert!(matches!(check_collision(&scene, &still, 0.0), CollisionCheck::Free { clearance, .. } if clearance > 0.5));
 }
 
 #[test]
 fn the_clearance_asked_for_decides() {
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.9, 2.0, -1.0, 1.0)]);
     let motion = Recording::new(vec![q(-0.3, 0.0), q(0.3, 0.0)], Some(vec![0.0, 1.0]), None).unwrap();
     let truth = 1.9 - 1.8_f64.hypot(0.05);
-    assert!(matches!(passage(&scene, &motion, 0.0985), Passage::Free { clearance, .. } if clearance >= 0.0985));
-    let Passage::Collision { first, .. } = passage(&scene, &motion, truth + 1e-6) else { panic!("too near") };
+    assert!(
+        matches!(check_collision(&scene, &motion, 0.0985), CollisionCheck::Free { clearance, .. } if clearance >= 0.0985)
+    );
+    let CollisionCheck::Collision { first, .. } = check_collision(&scene, &motion, truth + 1e-6) else {
+        panic!("too near")
+    };
     assert!(first.contact.separation.distance < truth + 1e-6 && first.contact.separation.distance > 0.0);
 }
 
@@ -163,17 +167,17 @@ fn the_clearance_asked_for_decides() {
 fn grazing_at_exactly_the_clearance_is_not_called_free() {
     // The forearm's corner stays on a circle; the wall touches that circle.
     let reach = 1.8_f64.hypot(0.05);
-    let scene = scene(rr([Axis::Circle, Axis::Circle]), vec![rectangle(reach, 3.0, -1.0, 1.0)]);
+    let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(reach, 3.0, -1.0, 1.0)]);
     let motion = Recording::new(vec![q(-0.3, 0.0), q(0.3, 0.0)], Some(vec![0.0, 1.0]), None).unwrap();
-    let verdict = passage(&scene, &motion, 0.0);
-    assert!(!matches!(verdict, Passage::Free { .. }), "{verdict:?}");
+    let verdict = check_collision(&scene, &motion, 0.0);
+    assert!(!matches!(verdict, CollisionCheck::Free { .. }), "{verdict:?}");
 }
 
 #[test]
 fn a_scene_without_obstacles_is_free() {
     let motion = Recording::new(vec![q(-0.3, 0.0), q(0.3, 0.0)], None, None).unwrap();
-    let verdict = passage(&scene(rr([Axis::Circle, Axis::Circle]), vec![]), &motion, 0.0);
-    assert_eq!(verdict, Passage::Free { clearance: f64::INFINITY, nearest: None });
+    let verdict = check_collision(&scene(rr([JointRange::Circle, JointRange::Circle]), vec![]), &motion, 0.0);
+    assert_eq!(verdict, CollisionCheck::Free { clearance: f64::INFINITY, nearest: None });
 }
 
 #[test]

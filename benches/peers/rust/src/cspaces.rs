@@ -3,7 +3,7 @@
 use crate::rounds::Rounds;
 use crate::torus::Checker;
 use crate::{Result, brute_force, scenes};
-use cplan::cspace::{bitmap, grid_from_rows, outer_grid, regions};
+use cplan::cspace::{bitmap, grid_from_slices, outer_grid, regions};
 use cplan::space::Configuration;
 use serde_json::{Value, json};
 
@@ -17,7 +17,7 @@ pub fn run(urdf: &str, world: &str, cells: usize, rounds: usize) -> Result<Value
     let scene = scenes::scene(urdf, world)?;
     let arm = brute_force::Arm::new(&scenes::bars(&scene)?, &scenes::obstacles(&scene));
     let shape = [cells; 2];
-    let grid = grid_from_rows(&scene, shape, 0.0);
+    let grid = grid_from_slices(&scene, shape, 0.0);
     let first: Vec<f64> = (0..cells).map(|i| grid.center(i * cells)[0]).collect();
     let second: Vec<f64> = (0..cells).map(|j| grid.center(j)[1]).collect();
     let mut times = Rounds::default();
@@ -26,7 +26,7 @@ pub fn run(urdf: &str, world: &str, cells: usize, rounds: usize) -> Result<Value
         tested = times.time("parry2d", || arm.cells(&first, &second));
         for _ in 0..REPEATS {
             times.time("bitmap", || bitmap(&scene, shape, 0.0));
-            times.time("rows", || grid_from_rows(&scene, shape, 0.0));
+            times.time("rows", || grid_from_slices(&scene, shape, 0.0));
             times.time("outer", || outer_grid(&scene, shape, 0.0));
             times.time("regions", || regions(&scene, MARGIN, Configuration::new(0.0, 0.0), 1));
         }

@@ -7,11 +7,11 @@ mod mazes;
 
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
-use cplan::cspace::{Grid, Proves, grid_from_rows};
+use cplan::cspace::{Grid, Proves, grid_from_slices};
 use cplan::field::multigrid::{Ends, Multigrid};
 use cplan::field::search::{Order, Search};
 use cplan::field::{Component, FreeCells, Lattice, Neighborhood, StepLabels, harmonic};
-use cplan::space::{Axis, Configuration, Topology};
+use cplan::space::{JointRange, Configuration, Topology};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -38,11 +38,11 @@ pub fn maze(cells: usize) -> Grid {
 
 /// The arm's configuration space, cut open at half a turn: none of the peers here knows a torus.
 pub fn of_arm(urdf: &str, world: &str, cells: usize) -> Result<Grid> {
-    Ok(rectangle(cells, grid_from_rows(&scenes::scene(urdf, world)?, [cells; 2], 0.0).blocked))
+    Ok(rectangle(cells, grid_from_slices(&scenes::scene(urdf, world)?, [cells; 2], 0.0).blocked))
 }
 
 fn rectangle(cells: usize, blocked: Vec<bool>) -> Grid {
-    let topology = Topology { axes: [Axis::Interval { lower: 0.0, upper: 1.0 }; 2] };
+    let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] };
     Grid { topology, proves: Proves::Sampled, cells: [cells; 2], blocked }
 }
 

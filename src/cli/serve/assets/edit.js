@@ -9,11 +9,11 @@ const DOUBLE = 350;
 class Editor {
   /**
    * `changed(final)` is called when the scene has changed; `selected()` when something else is selected; `used(panel)` when a
-   * panel is. `postures()` are the start and goals of the last answer, `blocked()` those that are not free, each with what is
+   * panel is. `configurations()` are the start and goals of the last answer, `blocked()` those that are not free, each with what is
    * in the way; `isDrawn(obstacle)` says whether an obstacle is seen where it is.
    */
-  constructor(view, { changed, selected, used, postures, blocked, isDrawn }) {
-    Object.assign(this, { view, changed, selected, used, postures, blocked, isDrawn });
+  constructor(view, { changed, selected, used, configurations, blocked, isDrawn }) {
+    Object.assign(this, { view, changed, selected, used, configurations, blocked, isDrawn });
     this.scene = null;
     /** What is selected: { kind: 'obstacle', index, corner } | { kind: 'start' } | { kind: 'goal' }. */
     this.selection = null;
@@ -66,12 +66,12 @@ class Editor {
   }
 
   get start() {
-    return this.postures().start ?? this.view.model.start;
+    return this.configurations().start ?? this.view.model.start;
   }
 
   get goal() {
     const { goal } = this.scene;
-    return goal?.joints ?? this.view.ends()[0] ?? this.postures().goals[0];
+    return goal?.joints ?? this.view.ends()[0] ?? this.configurations().goals[0];
   }
 
   /** The tip at the start, and the place that it is to go to. */
@@ -107,7 +107,7 @@ class Editor {
   }
 
   /** The same in the configuration space. */
-  findPosture(panel, event) {
+  findConfiguration(panel, event) {
     const near = 1.5 * (GRASP[event.pointerType] ?? GRASP.mouse);
     const [x, y] = panel.spot(event);
     const is = (q) => q && Math.hypot(...[0, 1].map((k) => CSpace.place(this.view, panel, q)[k] - [x, y][k])) <= near;
@@ -118,7 +118,7 @@ class Editor {
   /** What a pointer in one of the panels would take. */
   reached(panel, value, event) {
     if (!this.scene || this.scene.world.has_steps) return null;
-    return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findPosture(panel, event);
+    return panel === this.view.panels.workspace ? this.find(panel, value, event) : this.findConfiguration(panel, event);
   }
 
   down(panel, value, event) {
@@ -193,7 +193,7 @@ class Editor {
     } else if (inWorkspace) {
       this.placeTip(kind, value);
     } else {
-      this.placePosture(kind, value);
+      this.placeConfiguration(kind, value);
     }
     this.redraw();
   }
@@ -203,7 +203,7 @@ class Editor {
     else this.scene.start = { tip: roundedPoint(value), near: this.start };
   }
 
-  placePosture(kind, value) {
+  placeConfiguration(kind, value) {
     const joints = this.arm.joints.map((joint, k) => {
       const [low, high] = joint.domain;
       return joint.circle ? rounded4(Geometry.wrap(joint, value[k])) : rounded4(Math.min(high, Math.max(low, value[k])));
@@ -217,8 +217,8 @@ class Editor {
   room(make) {
     const { reach } = this.scene.world;
     const { base, links } = this.arm;
-    const postures = [this.start, ...this.postures().goals].filter(Boolean);
-    const parts = postures.flatMap((q) => {
+    const configurations = [this.start, ...this.configurations().goals].filter(Boolean);
+    const parts = configurations.flatMap((q) => {
       const at = Geometry.poses(this.arm, q);
       return links.flatMap((link, k) => link.parts.map((part) => Geometry.placed(part, at[k])));
     });
@@ -353,7 +353,7 @@ class Editor {
     }
   }
 
-  /** Postures that are not free: the links that hit something red, and what they hit. */
+  /** Configurations that are not free: the links that hit something red, and what they hit. */
   drawBlocked(context, panel) {
     const { theme } = panel;
     const { world } = this.view;

@@ -47,7 +47,7 @@ class Live {
       changed: (final) => this.changed(final),
       selected: () => this.controls?.follow(),
       used: (panel) => this.notices.over(panel),
-      postures: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
+      configurations: () => ({ start: this.places?.start, goals: this.places?.goals ?? [] }),
       blocked: () => this.blocked ?? [],
       isDrawn: ({ shape }) => this.root.classList.contains('behind') || this.shown?.error ? Boolean(this.drawn?.has(shape)) : true,
     });

@@ -17,7 +17,7 @@ const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
   ['path', 'path', true],
   ['roadmap', 'visibility graph', true],
-  ['rows', 'rows that the path passes', true],
+  ['rows', 'slices that the path passes', true],
   ['channel', 'channel', true],
   ['cells', 'cells', true],
   ['wavefront', 'wavefront', true],

@@ -33,7 +33,7 @@ impl Condition {
     /// What has to be otherwise so that `pair` can be done: after exactly the pairs that are `done`, it could not, for these
     /// reasons. `pair_of` says which pair moves an obstacle.
     ///
-    /// What bars the way in one posture, or from one place, need not do so from another: it is learned, not proven. Where
+    /// What bars the way in one IK solution, or from one place, need not do so from another: it is learned, not proven. Where
     /// nothing is learned from a reason, the pair is to come sooner or later than just here.
     pub fn learned(pair: usize, done: &[bool], refusals: &[Refusal], pair_of: impl Fn(usize) -> Option<usize>) -> Self {
         let elsewhere = |other: usize| if done[other] { Before(pair, other) } else { Before(other, pair) };

@@ -10,7 +10,7 @@ use crate::space::Configuration;
 use nalgebra::Isometry2;
 use std::sync::Arc;
 
-/// Where all objects lie, as far as that does not depend on postures; elsewhere as if they were not turned.
+/// Where all objects lie, as far as that does not depend on IK solutions; elsewhere as if they were not turned.
 type Poses = Arc<[Option<Pose>]>;
 
 /// Where all objects lie before an item of a task.

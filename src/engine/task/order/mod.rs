@@ -7,9 +7,9 @@ mod tour;
 mod walk;
 
 use super::answer::Leg;
+use super::heuristic::{Heuristic, stops};
 use super::least_time::least_time;
 use super::legs::Legs;
-use super::outlook::{Outlook, stops};
 use super::state::State;
 use crate::model::{Arm, Item, Step, Task};
 use condition::Condition;
@@ -112,7 +112,7 @@ impl<'a> Orders<'a> {
     pub fn least_seconds(&self) -> f64 {
         let settled = self.settled();
         let start = State::at_start(&settled);
-        Outlook::new(&settled).remaining(start.q, start.progress)
+        Heuristic::new(&settled).remaining(start.q, start.progress)
     }
 
     /// Takes the orders of `other`.

@@ -1,7 +1,7 @@
 //! Good orders for groups that are too large to try all.
 
+use super::super::heuristic::{Stop, Stops};
 use super::super::least_time::least_time;
-use super::super::outlook::{Stop, Stops};
 use super::condition::Condition;
 use crate::geometry::Ordered;
 use crate::model::{Arm, Task};
@@ -16,11 +16,11 @@ const MOST_VISITS: usize = 20_000_000;
 /// Beyond so many pairs the table of times between them would not fit, and the order stays as it is.
 const MOST_PAIRS: usize = 300;
 
-/// The times of a group with nothing in the way, by postures, and what is known beyond; a posture that is not known is one that takes no time.
+/// The times of a group with nothing in the way, by IK solutions, and what is known beyond; an IK solution that is not known is one that takes no time.
 pub(super) struct Tour {
     /// From where the group is entered to the pick of each pair.
     entry: Vec<Vec<f64>>,
-    /// From the pick of each pair to its place: by the pick's posture, then the place's.
+    /// From the pick of each pair to its place: by the pick's IK solution, then the place's.
     carry: Vec<Vec<Vec<f64>>>,
     /// From the place of one pair to the pick of another.
     way: Vec<Vec<Vec<Vec<f64>>>>,
@@ -45,15 +45,15 @@ impl Tour {
         }
         let entry = match index.checked_sub(1).map(|before| &stops[before]) {
             None => Some(vec![task.start]),
-            Some(Stops::One(stop)) => stop.postures().map(<[_]>::to_vec),
+            Some(Stops::One(stop)) => stop.ik_solutions().map(<[_]>::to_vec),
             Some(_) => None,
         };
         let exit = match stops.get(index + 1) {
-            Some(Stops::One(stop)) => stop.postures().map(<[_]>::to_vec),
+            Some(Stops::One(stop)) => stop.ik_solutions().map(<[_]>::to_vec),
             _ => None,
         };
         let arm = &task.arm;
-        let to_stop = |from: Option<&[Configuration]>, to: &Stop| between(arm, from, to.postures(), to.speed());
+        let to_stop = |from: Option<&[Configuration]>, to: &Stop| between(arm, from, to.ik_solutions(), to.speed());
         let least = |times: Vec<Vec<f64>>| -> Vec<f64> {
             let column = |at: usize| times.iter().map(|row| row[at]).fold(f64::INFINITY, f64::min);
             (0..times.first().map_or(0, Vec::len)).map(column).collect()
@@ -61,15 +61,15 @@ impl Tour {
         let shortest = |row: Vec<f64>| row.into_iter().fold(f64::INFINITY, f64::min);
         Some(Self {
             entry: pairs.iter().map(|[pick, _]| least(to_stop(entry.as_deref(), pick))).collect(),
-            carry: pairs.iter().map(|[pick, place]| to_stop(pick.postures(), place)).collect(),
+            carry: pairs.iter().map(|[pick, place]| to_stop(pick.ik_solutions(), place)).collect(),
             way: pairs
                 .iter()
-                .map(|[_, place]| pairs.iter().map(|[pick, _]| to_stop(place.postures(), pick)).collect())
+                .map(|[_, place]| pairs.iter().map(|[pick, _]| to_stop(place.ik_solutions(), pick)).collect())
                 .collect(),
             exit: pairs
                 .iter()
                 .map(|[_, place]| {
-                    between(arm, place.postures(), exit.as_deref(), 1.0).into_iter().map(shortest).collect()
+                    between(arm, place.ik_solutions(), exit.as_deref(), 1.0).into_iter().map(shortest).collect()
                 })
                 .collect(),
             carry_more: vec![0.0; pairs.len()],
@@ -90,7 +90,7 @@ impl Tour {
         self.unknown_more = known().sum::<f64>() / (2 * known().count()) as f64;
     }
 
-    /// Seconds for the pairs in this order: the shortest way through the layers of postures, and what is known beyond.
+    /// Seconds for the pairs in this order: the shortest way through the layers of IK solutions, and what is known beyond.
     pub fn seconds(&self, order: &[usize]) -> f64 {
         let Some(&first) = order.first() else { return 0.0 };
         let mut times = self.entry[first].clone();
@@ -172,12 +172,12 @@ fn through(times: &mut Vec<f64>, stage: &[Vec<f64>], next: &mut Vec<f64>) {
     std::mem::swap(times, next);
 }
 
-/// Least seconds between postures; none where they are not known.
+/// Least seconds between IK solutions; none where they are not known.
 fn between(arm: &Arm, from: Option<&[Configuration]>, to: Option<&[Configuration]>, speed: f64) -> Vec<Vec<f64>> {
     let seconds = |row: usize, column: usize| match (from, to) {
         (Some(from), Some(to)) => least_time(arm, from[row], to[column], speed),
         _ => 0.0,
     };
-    let count = |postures: Option<&[Configuration]>| postures.map_or(1, <[_]>::len);
+    let count = |ik_solutions: Option<&[Configuration]>| ik_solutions.map_or(1, <[_]>::len);
     (0..count(from)).map(|row| (0..count(to)).map(|column| seconds(row, column)).collect()).collect()
 }

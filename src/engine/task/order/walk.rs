@@ -9,7 +9,7 @@ use crate::model::Task;
 use std::collections::BTreeMap;
 
 /// States that are followed at once, those soonest reached: all there are with level payloads, whose places do not depend on
-/// postures.
+/// IK solutions.
 const WIDTH: usize = 8;
 
 /// States of the world after the same steps, with the least seconds to each; never empty.
@@ -18,7 +18,7 @@ pub(super) type Layer = Vec<(f64, State)>;
 /// The item that cannot be done after those before it.
 pub(super) struct Failure {
     pub item: usize,
-    /// Why, from each state and with each posture.
+    /// Why, from each state and with each IK solution.
     pub refusals: Vec<Refusal>,
 }
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::hull;
-use crate::model::{Arm, Heights, Joint, Link, Motion, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
-use crate::space::Axis;
+use crate::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
+use crate::space::JointRange;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -32,13 +32,16 @@ fn shape(spread: f64) -> impl Strategy<Value = Convex> {
     prop_oneof![thin, capsule, disc, polygon]
 }
 
-fn joint(turns: bool, axis: Axis) -> Joint {
-    let motion =
-        if turns { Motion::Revolute { sign: -1.0 } } else { Motion::Prismatic { direction: Vector::new(0.6, 0.8) } };
-    Joint { name: "joint".into(), motion, axis, velocity: 1.0, acceleration: 1.0, jerk: None }
+fn joint(turns: bool, range: JointRange) -> Joint {
+    let motion = if turns {
+        JointType::Revolute { sign: -1.0 }
+    } else {
+        JointType::Prismatic { direction: Vector::new(0.6, 0.8) }
+    };
+    Joint { name: "joint".into(), joint_type: motion, range, velocity: 1.0, acceleration: 1.0, jerk: None }
 }
 
-fn scene(turns: [bool; 2], ranges: [Axis; 2], offset: Vector, part: Convex, piece: Convex) -> Scene {
+fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex, piece: Convex) -> Scene {
     let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
     let part = Part { shape: part, heights: Heights::ALL, body: "body".into() };
     let arm = Arm {
@@ -59,7 +62,7 @@ fn scene(turns: [bool; 2], ranges: [Axis; 2], offset: Vector, part: Convex, piec
 
 /// All kinds of arms, those whose joint 2 is on the axis of joint 1 among them.
 fn case() -> impl Strategy<Value = Case> {
-    let far = Axis::Interval { lower: -4.0, upper: 5.0 };
+    let far = JointRange::Interval { lower: -4.0, upper: 5.0 };
     let arm = ([any::<bool>(); 2], any::<bool>(), prop_oneof![Just((0.0, 0.0)), (-0.7..0.7_f64, -0.7..0.7_f64)]);
     let at = (-1.0..1.0_f64, -1.0..1.0_f64);
     let rows = (-3.0..3.0_f64, prop_oneof![0.001..0.02_f64, 0.02..0.3_f64]);
@@ -68,7 +71,7 @@ fn case() -> impl Strategy<Value = Case> {
     (arm, shape(0.8), shape(0.6), at, rows, others, clearance).prop_map(
         move |((turns, round, offset), part, piece, at, (middle, half), others, clearance)| {
             let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
-            let second = if turns[1] && round { Axis::Circle } else { far };
+            let second = if turns[1] && round { JointRange::Circle } else { far };
             let piece = Convex::trusted(moved, piece.radius());
             let scene = scene(turns, [far, second], Vector::new(offset.0, offset.1), part, piece);
             Case { scene, clearance, rows: [middle - half, middle + half], others: [others.0, others.1] }
@@ -119,7 +122,7 @@ impl Case {
             ends.extend([-TAU, 0.0, TAU].map(|turn| [from, to + turn]));
             ends.push([f64::midpoint(left.lower.max(right.lower), left.upper.min(right.upper)); 2]);
         }
-        let (lower, upper) = self.scene.arm().joints[1].axis.domain();
+        let (lower, upper) = self.scene.arm().joints[1].range.domain();
         ends.push(self.others.map(|share| lower + share * (upper - lower)));
         ends.into_iter().map(|ends| [0, 1].map(|side| Configuration::new(self.rows[side], ends[side]))).collect()
     }

@@ -1,14 +1,14 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
-use super::{Arm, Grip, Heights, Joint, Motion, Payload, Plane, Workspace};
-use crate::space::Axis;
+use super::{Arm, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
+use crate::space::JointRange;
 
 /// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
 const UNIT_ROUNDING: f64 = 1e-9;
 
 /// Why arm and workspace make no scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SceneDefect {
+pub enum SceneError {
     /// A joint's range is empty or not finite.
     #[error("joint \"{joint}\": no range from {lower} to {upper}")]
     Range {
@@ -27,7 +27,7 @@ pub enum SceneDefect {
     },
     /// A turning joint's sign is neither 1 nor -1, or a sliding one's direction not of length 1.
     #[error("joint \"{joint}\": a sign is 1 or -1, a direction of length 1")]
-    Motion {
+    JointType {
         /// The joint's name in the URDF.
         joint: String,
     },
@@ -78,7 +78,7 @@ pub enum SceneDefect {
         /// The object's name in the world.
         object: String,
     },
-    /// There is no obstacle of this number to spare, or to rest on.
+    /// There is no obstacle of this number whose contact to allow, or to rest on.
     #[error("there is no obstacle number {number} among {count}")]
     NoObstacle {
         /// The number that was given; the first obstacle is 0.
@@ -93,8 +93,8 @@ pub(super) fn check(
     arm: &Arm,
     workspace: &Workspace,
     payload: Option<&Payload>,
-    spared: &[usize],
-) -> Result<(), SceneDefect> {
+    allowed_contacts: &[usize],
+) -> Result<(), SceneError> {
     check_arm(arm)?;
     check_workspace(workspace)?;
     if let Some(payload) = payload {
@@ -104,70 +104,72 @@ pub(super) fn check(
             Grip::Level { angle, point } => [angle, point.x, point.y].iter().all(|x| x.is_finite()),
         };
         if !is_finite {
-            return Err(SceneDefect::Grip { object: payload.object.clone() });
+            return Err(SceneError::Grip { object: payload.object.clone() });
         }
     }
     let count = workspace.obstacles.len();
     let supports = payload.map_or(&[][..], |payload| &payload.supports);
-    match spared.iter().chain(supports).find(|&&number| number >= count) {
-        Some(&number) => Err(SceneDefect::NoObstacle { number, count }),
+    match allowed_contacts.iter().chain(supports).find(|&&number| number >= count) {
+        Some(&number) => Err(SceneError::NoObstacle { number, count }),
         None => Ok(()),
     }
 }
 
-fn check_arm(arm: &Arm) -> Result<(), SceneDefect> {
+fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     arm.joints.iter().try_for_each(check_joint)?;
     for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
         if !place.iter().all(|x| x.is_finite()) {
-            return Err(SceneDefect::NotFinite { what });
+            return Err(SceneError::NotFinite { what });
         }
     }
     let Plane { u, v, normal } = arm.plane;
     // Heights may be measured either way.
     let off = [u.norm() - 1.0, v.norm() - 1.0, normal.norm() - 1.0, u.dot(&v), u.dot(&normal), v.dot(&normal)];
     if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
-        return Err(SceneDefect::Plane);
+        return Err(SceneError::Plane);
     }
     arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| check_heights(&part.body, part.heights))
 }
 
-fn check_joint(joint: &Joint) -> Result<(), SceneDefect> {
+fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     let name = || joint.name.clone();
-    match joint.axis {
-        Axis::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
-            return Err(SceneDefect::Range { joint: name(), lower, upper });
+    match joint.range {
+        JointRange::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
+            return Err(SceneError::Range { joint: name(), lower, upper });
         }
-        Axis::Circle if !joint.motion.is_revolute() => return Err(SceneDefect::SlidesOnCircle { joint: name() }),
-        Axis::Interval { .. } | Axis::Circle => {}
+        JointRange::Circle if !joint.joint_type.is_revolute() => {
+            return Err(SceneError::SlidesOnCircle { joint: name() });
+        }
+        JointRange::Interval { .. } | JointRange::Circle => {}
     }
-    let is_unit = match joint.motion {
-        Motion::Revolute { sign } => sign.abs() == 1.0,
-        Motion::Prismatic { direction } => (direction.norm() - 1.0).abs() <= UNIT_ROUNDING,
+    let is_unit = match joint.joint_type {
+        JointType::Revolute { sign } => sign.abs() == 1.0,
+        JointType::Prismatic { direction } => (direction.norm() - 1.0).abs() <= UNIT_ROUNDING,
     };
     if !is_unit {
-        return Err(SceneDefect::Motion { joint: name() });
+        return Err(SceneError::JointType { joint: name() });
     }
     let limits = [("velocity", Some(joint.velocity)), ("acceleration", Some(joint.acceleration)), ("jerk", joint.jerk)];
     match limits.into_iter().find_map(|(limit, value)| Some((limit, value.filter(|v| !(v.is_finite() && *v > 0.0))?))) {
-        Some((limit, value)) => Err(SceneDefect::Limit { joint: name(), limit, value }),
+        Some((limit, value)) => Err(SceneError::Limit { joint: name(), limit, value }),
         None => Ok(()),
     }
 }
 
-fn check_workspace(workspace: &Workspace) -> Result<(), SceneDefect> {
+fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
     workspace.obstacles.iter().try_for_each(|obstacle| check_heights(&obstacle.name, obstacle.heights))?;
     let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
     match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
-        Some(preference) => Err(SceneDefect::Preference { name: preference.name.clone() }),
+        Some(preference) => Err(SceneError::Preference { name: preference.name.clone() }),
         None => Ok(()),
     }
 }
 
-pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneDefect> {
-    if clearance.is_finite() && clearance >= 0.0 { Ok(()) } else { Err(SceneDefect::Clearance { clearance }) }
+pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
+    if clearance.is_finite() && clearance >= 0.0 { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
 }
 
-fn check_heights(of: &str, Heights { lower, upper }: Heights) -> Result<(), SceneDefect> {
-    if lower <= upper { Ok(()) } else { Err(SceneDefect::Heights { of: of.to_owned(), lower, upper }) }
+fn check_heights(of: &str, Heights { lower, upper }: Heights) -> Result<(), SceneError> {
+    if lower <= upper { Ok(()) } else { Err(SceneError::Heights { of: of.to_owned(), lower, upper }) }
 }

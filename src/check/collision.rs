@@ -54,7 +54,7 @@ pub struct Encounter {
 
 /// What the continuous check of a motion found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Passage {
+pub enum CollisionCheck {
     /// Proven: the whole motion keeps more than zero and at least the clearance asked for.
     Free {
         /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can
@@ -86,7 +86,7 @@ pub enum Passage {
 /// points. The bound of [`Posture::bound`] decides, else both halves are looked at, so that many samples cost little
 /// where nothing is near. Once a contact is found only what comes before it is looked at.
 #[must_use]
-pub fn passage(scene: &Scene, recording: &Recording, clearance: f64) -> Passage {
+pub fn check_collision(scene: &Scene, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     let mut search = Search {
         scene,
@@ -269,15 +269,15 @@ impl Search<'_> {
         }
     }
 
-    fn verdict(self) -> Passage {
+    fn verdict(self) -> CollisionCheck {
         match (self.hit, self.open, self.least) {
             (Some((place, first)), open, least) => {
                 let from = open.map_or(place, |(from, _)| if from < place { from } else { place });
                 let free_until = self.pieces[from.0].time(from.1);
-                Passage::Collision { first, free_until, deepest: least.unwrap_or(first) }
+                CollisionCheck::Collision { first, free_until, deepest: least.unwrap_or(first) }
             }
-            (None, Some((_, nearest)), _) => Passage::Undecided(nearest),
-            (None, None, nearest) => Passage::Free { clearance: self.proven, nearest },
+            (None, Some((_, nearest)), _) => CollisionCheck::Undecided(nearest),
+            (None, None, nearest) => CollisionCheck::Free { clearance: self.proven, nearest },
         }
     }
 }

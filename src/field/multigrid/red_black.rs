@@ -6,7 +6,7 @@
 //! the one before or after.
 //!
 //! Where a limit reflects, or a circle has an odd number of cells, neighbours have the same colour. Two even ones find
-//! each other's value in the frame of the odd cells; odd ones are eliminated together ([`Chequer::settle`]).
+//! each other's value in the frame of the odd cells; odd ones are eliminated together ([`RedBlack::settle`]).
 
 use super::band::{Band, STAGES};
 use super::frame::Ends;
@@ -39,7 +39,7 @@ pub(super) struct Shape {
 
 /// The five-point operator of the free cells, by colour.
 #[derive(Debug, Clone)]
-pub(super) struct Chequer {
+pub(super) struct RedBlack {
     pub shape: Shape,
     /// 4 + shift: what the diagonal is before what a reflecting end gives back.
     pub degree: f64,
@@ -48,7 +48,7 @@ pub(super) struct Chequer {
     pub odd: Band<f32>,
 }
 
-impl Chequer {
+impl RedBlack {
     pub fn new([rows, columns]: [usize; 2], ends: [Ends; 2], free: &[bool], degree: f64) -> Self {
         let width = columns.div_ceil(2).next_multiple_of(LANES);
         let band = || Band::new(width, rows + 2);

@@ -1,4 +1,4 @@
-//! Every defect has a cure: files with slips of the pen, by the hundred, through the program.
+//! Every diagnostic has help: files with slips of the pen, by the hundred, through the program.
 
 use super::{Done, FREE, Place, shipped};
 use crate::common::random::times;
@@ -13,7 +13,7 @@ const MISSING: [&str; 6] =
 const MEMBERS: [&str; 7] =
     ["points", "steps", "path", "trajectory", "joint_names", "\"joints\"", "too large to be meant"];
 
-/// Done (0, 3, 4), or told what is wrong: one object with file, place, message and cure. Whether it is an error.
+/// Done (0, 3, 4), or told what is wrong: one object with file, place, message and help. Whether it is an error.
 fn is_answered(done: &Done, text: &str) -> bool {
     let what = || format!("{}{}\n{text}", done.stdout, done.stderr);
     assert!(!done.stderr.contains("panicked"), "{}", what());
@@ -24,18 +24,18 @@ fn is_answered(done: &Done, text: &str) -> bool {
     let json = done.json();
     assert_eq!(json["status"], "error", "{}", what());
     let own = vec![json.clone()];
-    let defects = json["defects"].as_array().filter(|defects| !defects.is_empty()).unwrap_or(&own);
-    for defect in defects {
-        let said = |key: &str| defect[key].as_str().is_some_and(|text| !text.trim().is_empty());
-        assert!(said("file") && said("message") && said("cure"), "{defect:#}\n{text}");
-        let message = defect["message"].as_str().unwrap_or_default();
+    let diagnostics = json["defects"].as_array().filter(|diagnostics| !diagnostics.is_empty()).unwrap_or(&own);
+    for diagnostic in diagnostics {
+        let said = |key: &str| diagnostic[key].as_str().is_some_and(|text| !text.trim().is_empty());
+        assert!(said("file") && said("message") && said("cure"), "{diagnostic:#}\n{text}");
+        let message = diagnostic["message"].as_str().unwrap_or_default();
         let is_missing = MISSING.iter().any(|words| message.contains(words));
         let is_document =
-            defect["file"].as_str().is_some_and(|file| file.ends_with(".json") || file.ends_with(".yaml"));
+            diagnostic["file"].as_str().is_some_and(|file| file.ends_with(".json") || file.ends_with(".yaml"));
         let is_member = is_document && MEMBERS.iter().any(|words| message.contains(words));
         assert!(
-            defect["line"].as_u64().is_some_and(|line| line > 0) || is_missing || is_member,
-            "no line: {defect:#}\n{text}"
+            diagnostic["line"].as_u64().is_some_and(|line| line > 0) || is_missing || is_member,
+            "no line: {diagnostic:#}\n{text}"
         );
     }
     true

@@ -1,4 +1,4 @@
-//! Arcs, stretches, rows and grids against distances of sampled postures.
+//! Arcs, stretches, slices and grids against distances of sampled configurations.
 
 use crate::common::convex;
 use cplan::geometry::{

@@ -20,7 +20,7 @@ const PARALLEL: f64 = 1e-6;
 /// which they matter, and most never. This is the search of Polyanya (Cui, Harabor, Grastien 2017), with cones
 /// bounded by lines through vertices rather than by rounded points, so that what is seen is decided exactly, and with
 /// turns as nodes of their own. It holds for any norm: pulling a path taut never makes it longer.
-pub(super) struct TautSearch<'a> {
+pub(super) struct Polyanya<'a> {
     mesh: &'a Mesh,
     measure: Measure,
     terminals: &'a Terminals,
@@ -51,7 +51,7 @@ struct Node {
 enum Step {
     /// To look around at a node.
     Turn(u32),
-    /// To follow a cone, an index into [`TautSearch::cones`].
+    /// To follow a cone, an index into [`Polyanya::cones`].
     Look(u32),
     /// A goal, as a node.
     Arrive(u32),
@@ -61,7 +61,7 @@ enum Step {
 /// arrival comes first, then the latest.
 type Open = (Reverse<Ordered>, bool, u32, Step);
 
-impl<'a> TautSearch<'a> {
+impl<'a> Polyanya<'a> {
     pub fn new(mesh: &'a Mesh, measure: Measure, terminals: &'a Terminals) -> Self {
         let mut has_goal = vec![false; mesh.triangles()];
         terminals.parts.iter().for_each(|(triangle, _)| has_goal[*triangle as usize] = true);
@@ -93,9 +93,9 @@ impl<'a> TautSearch<'a> {
         let mut seen = Vec::new();
         for triangle in mesh.triangles_at(start) {
             self.find_goals(0, triangle, |part| Some(*part));
-            for outlook in mesh.outlooks_within(triangle, start) {
-                seen.extend(outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge)));
-                self.push_cone(0, outlook.cone, self.estimate(0, &outlook.cone));
+            for successor in mesh.successors_within(triangle, start) {
+                seen.extend(successor.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge)));
+                self.push_cone(0, successor.cone, self.estimate(0, &successor.cone));
             }
         }
         // Triangles share corners.
@@ -130,11 +130,11 @@ impl<'a> TautSearch<'a> {
         let mesh = self.mesh;
         let corner = &mesh.corners()[node.corner as usize];
         let Some(gaze) = corner.beyond(self.nodes[node.parent as usize].at) else { return };
-        for outlook in mesh.outlooks(corner, gaze) {
-            self.find_goals(number, outlook.cone.edge / 3, |part| Some(*part));
-            let seen = outlook.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
+        for successor in mesh.successors(corner, gaze) {
+            self.find_goals(number, successor.cone.edge / 3, |part| Some(*part));
+            let seen = successor.seen.into_iter().flatten().filter_map(|half_edge| mesh.corner_at(half_edge));
             seen.for_each(|corner| self.see(number, corner));
-            self.push_cone(number, outlook.cone, self.estimate(number, &outlook.cone));
+            self.push_cone(number, successor.cone, self.estimate(number, &successor.cone));
         }
     }
 

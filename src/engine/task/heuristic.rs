@@ -1,7 +1,7 @@
 //! What remains of a task, if nothing were in the way.
 
+use super::ik_solutions::{goal_ik_solutions, ik_solutions};
 use super::least_time::least_time;
-use super::postures::{goal_postures, postures};
 use super::state::Progress;
 use super::stroke::least_rest;
 use crate::geometry::{Point, Pose};
@@ -12,8 +12,8 @@ use nalgebra::{Isometry2, Rotation2};
 /// Where a step can end.
 #[derive(Debug, Clone)]
 pub(super) struct Stop {
-    /// All postures at the target; none if they are not known before the steps before are, or are infinitely many.
-    postures: Option<Vec<Configuration>>,
+    /// All IK solutions at the target; none if they are not known before the steps before are, or are infinitely many.
+    ik_solutions: Option<Vec<Configuration>>,
     speed: f64,
     /// Seconds that the arm stands still there, at the least.
     dwell: f64,
@@ -22,17 +22,17 @@ pub(super) struct Stop {
 impl Stop {
     /// How many places there are to stand at: one if they are not known.
     fn count(&self) -> usize {
-        self.postures.as_ref().map_or(1, Vec::len)
+        self.ik_solutions.as_ref().map_or(1, Vec::len)
     }
 
     /// The configuration of a place to stand at, where it is known.
     fn at(&self, place: usize) -> Option<Configuration> {
-        self.postures.as_ref().map(|postures| postures[place])
+        self.ik_solutions.as_ref().map(|ik_solutions| ik_solutions[place])
     }
 
-    /// All postures, if they are known.
-    pub fn postures(&self) -> Option<&[Configuration]> {
-        self.postures.as_deref()
+    /// All IK solutions, if they are known.
+    pub fn ik_solutions(&self) -> Option<&[Configuration]> {
+        self.ik_solutions.as_deref()
     }
 
     /// The share of top speeds on the way to it.
@@ -83,31 +83,31 @@ struct Table {
     placed: Vec<Vec<Vec<f64>>>,
 }
 
-/// Least times to the end of a task from everywhere in it, over all postures and orders.
-pub(super) struct Outlook<'a> {
+/// Least times to the end of a task from everywhere in it, over all IK solutions and orders.
+pub(super) struct Heuristic<'a> {
     arm: &'a Arm,
     stops: Vec<Stops>,
     after: Vec<After>,
 }
 
-impl<'a> Outlook<'a> {
-    /// `O(n b^2)` for `n` steps with `b` postures each, and `O(2^k k^2 b^2)` for a group of up to [`MOST_PAIRS`] pairs, whose
+impl<'a> Heuristic<'a> {
+    /// `O(n b^2)` for `n` steps with `b` IK solutions each, and `O(2^k k^2 b^2)` for a group of up to [`MOST_PAIRS`] pairs, whose
     /// best order is found. Of larger ones each pick is reached from the nearest place, and the farthest of these ways left out
     /// for the first.
     pub fn new(task: &'a Task) -> Self {
         let stops = stops(task);
-        let mut outlook = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
-        for item in (0..outlook.stops.len()).rev() {
-            outlook.after[item] = match &outlook.stops[item] {
+        let mut heuristic = Self { arm: &task.arm, after: vec![After::Nothing; stops.len()], stops };
+        for item in (0..heuristic.stops.len()).rev() {
+            heuristic.after[item] = match &heuristic.stops[item] {
                 Stops::One(stop) => {
-                    After::One((0..stop.count()).map(|place| outlook.from(stop.at(place), item + 1)).collect())
+                    After::One((0..stop.count()).map(|place| heuristic.from(stop.at(place), item + 1)).collect())
                 }
-                Stops::Pairs(pairs) if pairs.len() <= MOST_PAIRS => After::Pairs(outlook.table(pairs, item)),
-                Stops::Pairs(pairs) => After::Many(outlook.at_least(pairs, item)),
+                Stops::Pairs(pairs) if pairs.len() <= MOST_PAIRS => After::Pairs(heuristic.table(pairs, item)),
+                Stops::Pairs(pairs) => After::Many(heuristic.at_least(pairs, item)),
                 Stops::Nothing => After::Nothing,
             };
         }
-        outlook
+        heuristic
     }
 
     /// Least seconds from a configuration to the end of the task; infinite where a target is out of reach.
@@ -192,7 +192,7 @@ impl<'a> Outlook<'a> {
     }
 }
 
-/// Where an object lies, as far as that does not depend on postures: its origin, and its orientation if known.
+/// Where an object lies, as far as that does not depend on IK solutions: its origin, and its orientation if known.
 #[derive(Clone, Copy)]
 struct Lies {
     at: Point,
@@ -227,7 +227,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
             Action::Move(_) => None,
         };
         let dwell = least_rest(task, step, object);
-        Stop { postures: targets(task, step, lies, &mut held), speed: step.speed, dwell }
+        Stop { ik_solutions: targets(task, step, lies, &mut held), speed: step.speed, dwell }
     };
     let of = |item: &Item| match item {
         Item::Step(step) => Stops::One(stop(step, &mut lies)),
@@ -242,7 +242,7 @@ pub(super) fn stops(task: &Task) -> Vec<Stops> {
     task.items.iter().map(of).collect()
 }
 
-/// All postures of a step, and what becomes of its object.
+/// All IK solutions of a step, and what becomes of its object.
 fn targets(
     task: &Task,
     step: &Step,
@@ -251,12 +251,12 @@ fn targets(
 ) -> Option<Vec<Configuration>> {
     let arm = &task.arm;
     let tip_to = |target: Option<Point>| {
-        let reach = postures(arm, arm.tip, target?, task.start);
+        let reach = ik_solutions(arm, arm.tip, target?, task.start);
         reach.all.then_some(reach.configurations)
     };
     match &step.action {
         Action::Move(goal) => {
-            let reach = goal_postures(arm, goal, task.start);
+            let reach = goal_ik_solutions(arm, goal, task.start);
             reach.all.then_some(reach.configurations)
         }
         Action::Pick { object, grasp, .. } => {
@@ -281,16 +281,16 @@ fn targets(
 mod tests {
     use super::*;
     use crate::geometry::Vector;
-    use crate::model::{Joint, Link, Motion, OutlineSource, Plane};
-    use crate::space::Axis;
+    use crate::model::{Joint, JointType, Link, OutlineSource, Plane};
+    use crate::space::JointRange;
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
     fn arm() -> Arm {
         let joint = |name: &str| Joint {
             name: name.into(),
-            motion: Motion::Revolute { sign: 1.0 },
-            axis: Axis::Circle,
+            joint_type: JointType::Revolute { sign: 1.0 },
+            range: JointRange::Circle,
             velocity: 2.0,
             acceleration: 9.0,
             jerk: None,
@@ -319,20 +319,20 @@ mod tests {
         ) {
             let arm = arm();
             let stop = |(radius, angle): (f64, f64), dwell| Stop {
-                postures: Some(postures(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
+                ik_solutions: Some(ik_solutions(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
                 speed: 1.0,
                 dwell,
             };
             let pairs: Vec<[Stop; 2]> = spots.iter().zip(&dwells).map(|((a, b), (c, d))| [stop(*a, *c), stop(*b, *d)]).collect();
             let home = stop((1.2, 0.3), 0.1);
-            let mut outlook = Outlook {
+            let mut heuristic = Heuristic {
                 arm: &arm,
                 after: vec![After::Nothing, After::One(vec![0.0; home.count()])],
                 stops: vec![Stops::Pairs(pairs.clone()), Stops::One(home)],
             };
-            let least = outlook.at_least(&pairs, 0);
-            outlook.after[0] = After::Pairs(outlook.table(&pairs, 0));
-            let best = outlook.from(Some(Configuration::new(0.3, -1.0)), 0);
+            let least = heuristic.at_least(&pairs, 0);
+            heuristic.after[0] = After::Pairs(heuristic.table(&pairs, 0));
+            let best = heuristic.from(Some(Configuration::new(0.3, -1.0)), 0);
             prop_assert!(least <= best + 1e-12, "{least} {best}");
             prop_assert!(least > 0.0);
         }

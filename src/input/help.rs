@@ -34,8 +34,8 @@ const FORMS: [(&str, &str); 27] = [
 /// Where nothing better is known.
 const ANY: &str = "`cplan init` writes a world with every key explained, `cplan schema` what editors check by";
 
-/// The cure for what is wrong at a byte of a world file: the form of the key that it stands at.
-pub(super) fn cure(text: &str, at: usize) -> &'static str {
+/// Help for what is wrong at a byte of a world file: the form of the key that it stands at.
+pub(super) fn help(text: &str, at: usize) -> &'static str {
     let before = &text[..floor(text, at)];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[line_start..].find('\n').map_or(text.len(), |i| line_start + i);
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn the_key_at_the_place_tells_what_to_write() {
-        let of = |text: &str, mark: &str| cure(text, text.find(mark).unwrap());
+        let of = |text: &str, mark: &str| help(text, text.find(mark).unwrap());
         assert!(of("[start]\njoints = {}\n", "{}").starts_with("joints = [q1, q2]"));
         assert!(of("start = [1, 2]\n", "[1").starts_with("[start]"));
         assert!(of("[robot]\njoints = 3\n", "3").starts_with("joints = [\"first\""));
@@ -81,6 +81,6 @@ mod tests {
             of("[[obstacle]]\ncircle = { center = [5, 5], radius = \"\u{e4}\" }\n", "\"\u{e4}").starts_with("radius")
         );
         assert_eq!(of("[start]\nangle = 3\n", "3"), ANY);
-        assert_eq!(cure("", 9), ANY);
+        assert_eq!(help("", 9), ANY);
     }
 }

@@ -1,20 +1,20 @@
-//! Rows of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
+//! Slices of configuration space: at a fixed value of joint 1, exactly which values of joint 2 are forbidden.
 
 use crate::geometry::{BoxTree, Features, Hits, Point, ROUNDING, Vector, merge_in_place};
 use crate::interrupt::checkpoint;
-use crate::model::{Carried, Motion, Pair, Scene, on_axis, swept};
+use crate::model::{Carried, JointType, Pair, Scene, on_axis, swept};
 use crate::space::Configuration;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 use std::ops::Range;
 
-/// A scene prepared for rows.
+/// A scene prepared for slices.
 ///
 /// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`crate::geometry::ROUNDING`], and of joint
 /// values: *unwrapped* for a revolute joint (start in `[-pi, pi)`, end possibly beyond `pi`, to be repeated by whole
-/// turns), as they are for a prismatic one. Limits are not applied; see [`Rows::row`] for that.
+/// turns), as they are for a prismatic one. Limits are not applied; see [`Slices::slice`] for that.
 #[derive(Debug, Clone)]
-pub struct Rows<'a> {
+pub struct Slices<'a> {
     scene: &'a Scene,
     pairs: Vec<Prepared>,
     parts: Vec<PreparedPart>,
@@ -50,10 +50,10 @@ impl PreparedPart {
         let [first, second] = &arm.joints;
         let part = scene.part(pairs[0]);
         let (carried, sweep) = if pairs[0].link == 0 {
-            (Carried::new(first.motion, part), None)
+            (Carried::new(first.joint_type, part), None)
         } else {
             let sweep = swept(part, second, arm.offset);
-            (Carried::new(second.motion, part), Some(Carried::new(first.motion, &sweep)))
+            (Carried::new(second.joint_type, part), Some(Carried::new(first.joint_type, &sweep)))
         };
         let pieces = BoxTree::new(pairs.iter().map(|&pair| scene.piece(pair).bounds()).collect());
         Self { carried, sweep, pairs: from..from + pairs.len(), pieces }
@@ -62,18 +62,18 @@ impl PreparedPart {
     /// The numbers of its pairs, ascending, that it can come near to with joint 2 at `elbow`, and some others.
     fn near(&self, elbow: Point, grow: f64, found: &mut Vec<u32>) {
         found.clear();
-        match self.carried.motion() {
-            Motion::Revolute { .. } => {
+        match self.carried.joint_type() {
+            JointType::Revolute { .. } => {
                 let around = Vector::repeat(self.carried.shape().reach_from(Point::origin()) + grow + ROUNDING);
                 self.pieces.meeting(&[elbow - around, elbow + around], found);
                 found.iter_mut().for_each(|index| *index += self.pairs.start as u32);
             }
-            Motion::Prismatic { .. } => found.extend(self.pairs.start as u32..self.pairs.end as u32),
+            JointType::Prismatic { .. } => found.extend(self.pairs.start as u32..self.pairs.end as u32),
         }
     }
 }
 
-impl<'a> Rows<'a> {
+impl<'a> Slices<'a> {
     /// Prepares a scene. Linear in its size.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
@@ -139,39 +139,39 @@ impl<'a> Rows<'a> {
     }
 
     /// All forbidden values of joint 2 at `q1`, over the axis's domain, with obstacles grown by `grow`: those of link 2
-    /// only. Reuses `row`'s memory. `O(m log m)` in the contacts.
-    pub fn row(&self, q1: f64, grow: f64, row: &mut Row) {
+    /// only. Reuses `slice`'s memory. `O(m log m)` in the contacts.
+    pub fn slice(&self, q1: f64, grow: f64, slice: &mut Slice) {
         checkpoint();
-        row.clear();
+        slice.clear();
         let (elbow, heading) = self.elbow(q1);
         let joint = &self.scene.arm().joints[1];
-        let mut near = std::mem::take(&mut row.near);
+        let mut near = std::mem::take(&mut slice.near);
         for part in self.parts.iter().filter(|part| part.sweep.is_some()) {
             part.near(elbow, grow, &mut near);
             for &index in &near {
-                row.scratch.clear();
+                slice.scratch.clear();
                 let index = index as usize;
-                let hits = self.at_elbow(index, elbow, heading, grow, &mut row.scratch);
-                let Row { forbidden, scratch, .. } = row;
+                let hits = self.at_elbow(index, elbow, heading, grow, &mut slice.scratch);
+                let Slice { forbidden, scratch, .. } = slice;
                 on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
             }
         }
-        row.near = near;
-        row.merge();
+        slice.near = near;
+        slice.merge();
     }
 
     /// All forbidden values of joint 1, over the axis's domain, with obstacles grown by `grow`: those of link 1 only.
-    pub fn bands(&self, grow: f64) -> Row {
-        let mut row = Row::default();
+    pub fn bands(&self, grow: f64) -> Slice {
+        let mut slice = Slice::default();
         for index in 0..self.second_link_pairs().start {
-            row.scratch.clear();
-            let hits = self.first_link(index, grow, &mut row.scratch);
-            let Row { forbidden, scratch, .. } = &mut row;
+            slice.scratch.clear();
+            let hits = self.first_link(index, grow, &mut slice.scratch);
+            let Slice { forbidden, scratch, .. } = &mut slice;
             let joint = &self.scene.arm().joints[0];
             on_axis(joint, hits, scratch, |interval| forbidden.push(Forbidden { pair: index, interval }));
         }
-        row.merge();
-        row
+        slice.merge();
+        slice
     }
 
     /// Numbers of the pairs of link 2; those of link 1 come before.
@@ -186,9 +186,9 @@ impl<'a> Rows<'a> {
     #[must_use]
     pub fn motion(&self, index: usize, step: f64, clearance: f64) -> f64 {
         let pair = self.pairs[index];
-        match self.scene.arm().joints[0].motion {
-            Motion::Prismatic { .. } => step,
-            Motion::Revolute { .. } => {
+        match self.scene.arm().joints[0].joint_type {
+            JointType::Prismatic { .. } => step,
+            JointType::Revolute { .. } => {
                 let part = self.part(pair);
                 let carried = part.sweep.as_ref().unwrap_or(&part.carried).shape().reach_from(Point::origin());
                 let touched = self.piece(pair).shape().reach_from(self.scene.arm().base) + clearance;
@@ -201,9 +201,9 @@ impl<'a> Rows<'a> {
     #[must_use]
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.part(self.pairs[index]).carried;
-        match part.motion() {
-            Motion::Prismatic { .. } => 1.0,
-            Motion::Revolute { .. } => part.shape().reach_from(Point::origin()),
+        match part.joint_type() {
+            JointType::Prismatic { .. } => 1.0,
+            JointType::Revolute { .. } => part.shape().reach_from(Point::origin()),
         }
     }
 
@@ -213,7 +213,7 @@ impl<'a> Rows<'a> {
         (pose * Point::from(self.scene.arm().offset), pose * Vector::x())
     }
 
-    /// [`Rows::second_link`] with the elbow at hand.
+    /// [`Slices::second_link`] with the elbow at hand.
     pub(super) fn at_elbow(
         &self,
         index: usize,
@@ -237,9 +237,9 @@ pub struct Forbidden {
     pub interval: [f64; 2],
 }
 
-/// The forbidden intervals of one row (or, for link 1, of joint 1). On a circle an interval over the seam is in two.
+/// The forbidden intervals of one slice (or, for link 1, of joint 1). On a circle an interval over the seam is in two.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Row {
+pub struct Slice {
     /// By pair, in the pairs' order.
     pub forbidden: Vec<Forbidden>,
     /// Their union: disjoint, ascending.
@@ -248,7 +248,7 @@ pub struct Row {
     near: Vec<u32>,
 }
 
-impl Row {
+impl Slice {
     /// Whether the joint value is forbidden. `O(log n)`.
     #[must_use]
     pub fn forbids(&self, value: f64) -> bool {

@@ -1,20 +1,20 @@
-//! Postures in words: why one is outside the limits or not free, why none reaches a point.
+//! Configurations in words: why one is outside the limits or not free, why no IK solution reaches a point.
 
 use crate::geometry::Point;
 use crate::model::{Freedom, Inverse, Scene, within};
-use crate::space::{Axis, Configuration, Segment};
+use crate::space::{Configuration, JointRange, Segment};
 
-/// Which postures of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
+/// Which IK solutions of `solved` the joint limits allow, turns of circles and long ranges included; and of each branch that
 /// they rule out, why.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
-        let copies = [0, 1].map(|i| within(joints[i].axis, joints[i].motion.is_revolute(), branch[i]));
+        let copies = [0, 1].map(|i| within(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
         let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
         // What is free is within the limits somewhere.
-        let shown = Configuration::from_fn(|i, _| match joints[i].axis {
-            Axis::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
+        let shown = Configuration::from_fn(|i, _| match joints[i].range {
+            JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
             _ => copies[i].first().copied().unwrap_or(branch[i]),
         });
         beyond.then(|| format!("({}): {}", describe(scene, shown), beyond_limits(scene, shown).join("; ")))
@@ -51,12 +51,12 @@ fn rounded(value: f64) -> f64 {
 pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
     for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
-        if let Axis::Interval { lower, upper } = joint.axis
-            && !joint.axis.contains(*value)
+        if let JointRange::Interval { lower, upper } = joint.range
+            && !joint.range.contains(*value)
         {
             let unit = joint.unit();
             // Unrounded when rounding would hide the excess.
-            let shown = if joint.axis.contains(rounded(*value)) { *value } else { rounded(*value) };
+            let shown = if joint.range.contains(rounded(*value)) { *value } else { rounded(*value) };
             outside.push(format!(
                 "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
                 joint.name
@@ -66,16 +66,16 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// What to do about a posture outside the limits.
-pub(super) const CURE_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
+/// What to do about a configuration outside the limits.
+pub(super) const HELP_FOR_LIMITS: &str = "choose values within, or override [robot] limits in the world file";
 
 /// Why `q` is not free, in words, the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
 
-/// What to do about a posture that is not free.
-pub(super) fn cure_for_contact(scene: &Scene) -> &'static str {
+/// What to do about a configuration that is not free.
+pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
     if scene.workspace().clearance > 0.0 {
         "move it away from the obstacle, or ask for less clearance"
     } else {
@@ -83,7 +83,7 @@ pub(super) fn cure_for_contact(scene: &Scene) -> &'static str {
     }
 }
 
-/// That no posture reaches `point`, in words; `what` it is begins the sentence.
+/// That no IK solution reaches `point`, in words; `what` it is begins the sentence.
 pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
     let arm = scene.arm();
     format!(
@@ -98,7 +98,7 @@ pub(super) fn out_of_reach(scene: &Scene, what: &str, point: Point) -> String {
 }
 
 /// What to do about a point out of reach.
-pub(super) const CURE_FOR_REACH: &str = "choose a point nearer by; coordinates are metres in the arm's plane";
+pub(super) const HELP_FOR_REACH: &str = "choose a point nearer by; coordinates are metres in the arm's plane";
 
 /// What an arm with two revolute joints reaches, for messages.
 fn reach(scene: &Scene) -> String {
