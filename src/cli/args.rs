@@ -13,7 +13,7 @@ use super::serve::ServeArgs;
 use crate::engine::Method;
 use crate::input::{JointValues, Overrides, TipPoint};
 use crate::motion::SHORTEST_INTERVAL;
-use clap::{ArgAction, Args, CommandFactory, Parser, Subcommand, ValueHint};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
@@ -21,7 +21,6 @@ use std::path::PathBuf;
 /// a proof that there is none, or "unknown".
 #[derive(Debug, Parser)]
 #[command(name = "cplan", version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-#[command(disable_help_flag = true)]
 #[command(after_help = "\
 Examples:
   cplan demo
@@ -53,20 +52,20 @@ pub struct Cli {
     pub files: Option<Files>,
     #[command(flatten)]
     pub plan: PlanArgs,
-    /// Print help; `cplan help planners` has the planners' own options.
-    // Compact: a line an option.
-    #[arg(short, long, action = ArgAction::HelpShort)]
-    help: Option<bool>,
 }
 
 impl Cli {
-    /// The grammar. What planners can be told is left out of the main job's help, which has no room for it.
+    /// The grammar. What planners can be told is left out of the main job's help, a line an option, which has no room for it.
     pub fn grammar() -> clap::Command {
         let planners: BTreeSet<String> =
             PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
-        Self::command().mut_args(|argument| {
-            let is_planners = planners.contains(argument.get_id().as_str());
-            argument.hide_short_help(is_planners)
+        let names = Method::ALL.map(|method| method.name()).join(", ");
+        let help = format!("Planner: {names}; `cplan help planners` tells of each and of its options");
+        Self::command().mut_args(|argument| match argument.get_id().as_str() {
+            "planner" => argument.hide_possible_values(true).help(help.clone()),
+            "joints" => argument.hide_possible_values(true),
+            id if planners.contains(id) => argument.hide(true),
+            _ => argument,
         })
     }
 }

@@ -93,7 +93,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 /// Shows what planners can be told.
 fn planners() -> Result<u8, Failure> {
     let mut grammar = Cli::grammar();
-    let help = grammar.find_subcommand_mut("planners").map(|command| command.render_help().to_string());
+    let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());
     sinks::print(&help.unwrap_or_default())?;
     Ok(DONE)
 }
