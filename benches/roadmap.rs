@@ -1,6 +1,8 @@
 //! Roadmap planners among random disjoint polygons, 23 % of the area filled: what they build, the whole visibility graph,
 //! one query; and beside it the textbook's visibility graph, every pair of corners against every side.
 
+#[path = "../tests/common/dice.rs"]
+mod dice;
 #[path = "../tests/common/roadmap.rs"]
 #[allow(dead_code, reason = "the judges of the test suite are not needed here")]
 mod roadmap;
@@ -10,7 +12,8 @@ use cplan::geometry::{Point, segments_cross};
 use cplan::planner::{Planner, Proposal, Query, Trapezoid, Visibility};
 use cplan::space::Metric;
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use roadmap::{Random, configuration, sides, star_crowd};
+use dice::Dice;
+use roadmap::{configuration, sides, star_crowd};
 use std::hint::black_box;
 
 /// Corners in all.
@@ -21,7 +24,7 @@ const NAIVE: usize = 1_000;
 
 /// Queries between free places all over the window.
 fn queries(regions: &Regions) -> Vec<Query> {
-    let (mut random, planner) = (Random(7), Trapezoid::default());
+    let (mut random, planner) = (Dice::new(7), Trapezoid::default());
     let map = planner.build(regions);
     let mut place = || configuration_within(&mut random, regions);
     let mut queries = Vec::new();
@@ -34,7 +37,7 @@ fn queries(regions: &Regions) -> Vec<Query> {
     queries
 }
 
-fn configuration_within(random: &mut Random, regions: &Regions) -> cplan::space::Configuration {
+fn configuration_within(random: &mut Dice, regions: &Regions) -> cplan::space::Configuration {
     let [x, y] = regions.window.map(|(low, high)| random.within(low, high));
     configuration(x, y)
 }
@@ -43,7 +46,7 @@ fn measure<P: Planner<Space = Regions>>(criterion: &mut Criterion, name: &str, p
     let mut group = criterion.benchmark_group(name);
     group.sample_size(20);
     for size in SIZES {
-        let regions = star_crowd(&mut Random(1), size / 10);
+        let regions = star_crowd(&mut Dice::new(1), size / 10);
         let queries = queries(&regions);
         let map = planner.build(&regions);
         group.bench_function(BenchmarkId::new("build", size), |b| b.iter(|| planner.build(black_box(&regions))));
@@ -71,7 +74,7 @@ fn graphs(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("visibility graph");
     group.sample_size(10);
     for size in SIZES {
-        let regions = star_crowd(&mut Random(1), size / 10);
+        let regions = star_crowd(&mut Dice::new(1), size / 10);
         let planner = Visibility::default();
         let whole = |regions: &Regions| planner.build(regions).arcs();
         println!("{size} corners: {} arcs", whole(&regions).len());

@@ -43,6 +43,7 @@
 #![forbid(unsafe_code)]
 
 pub mod interrupt;
+mod text;
 pub mod geometry;
 pub mod space;
 pub mod model;

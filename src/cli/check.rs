@@ -8,12 +8,12 @@ use crate::cspace::{CObstacle, NearestFree, nearest_free};
 use crate::draw::Picture;
 use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use crate::input::{self, LoadedScene};
-use crate::model::{Contact, Scene, plain_line};
+use crate::model::{Contact, Scene};
 use crate::output::{configuration, contours, range, value};
 use crate::space::Configuration;
+use crate::text::Columns;
 use nalgebra::Vector3;
 use serde::Serialize;
-use std::fmt::Write;
 
 /// What there is to say about one configuration.
 #[derive(Debug, Serialize)]
@@ -185,11 +185,8 @@ fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours
 fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
     let scene = &loaded.scene;
     let arm = scene.arm();
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    let mut line = |key: &str, value: String| {
-        let _ = writeln!(text, "{key:<10} {}", plain_line(&value));
-    };
+    let mut columns = Columns::default();
+    let mut line = |key: &str, value: String| columns.add(key, &value);
     line("arm", format!("{} ({})", arm.name, arm.kind()));
     let axis = |v: [f64; 3]| format!("({:.4}, {:.4}, {:.4})", v[0], v[1], v[2]);
     let Basis { u, v, normal } = &findings.plane;
@@ -237,5 +234,5 @@ fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {
         None => {}
     }
     line("result", if findings.free { "free".into() } else { "not free".into() });
-    text
+    columns.into_text()
 }

@@ -3,32 +3,14 @@
 use crate::input::{
     Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, RateEntry, RateSource, Role,
 };
-use std::fmt::Write;
+use crate::text::{Columns, counted};
 
 /// Pairs of joints that form no arm are named up to this number: the others are of a kind.
 const REFUSED_SHOWN: usize = 12;
 
-/// Lines with a key in front; a key is written once.
-#[derive(Default)]
-struct Lines {
-    text: String,
-    before: &'static str,
-}
-
-impl Lines {
-    fn add(&mut self, key: &'static str, line: &str) {
-        for (i, line) in line.lines().enumerate() {
-            let shown = if i == 0 && key != self.before { key } else { "" };
-            // Writing to a string cannot fail.
-            let _ = writeln!(self.text, "{shown:<10} {line}");
-            self.before = key;
-        }
-    }
-}
-
 /// The whole report.
 pub fn text(report: &Inspection) -> String {
-    let mut lines = Lines::default();
+    let mut lines = Columns::default();
     let name = report.robot.as_deref().unwrap_or("(no name)");
     lines.add("robot", &format!("{name}, {}", report.urdf));
     lines.add("world", report.world.as_deref().unwrap_or("none given: nothing is chosen, held or overridden"));
@@ -74,11 +56,11 @@ pub fn text(report: &Inspection) -> String {
             n => format!("the robot cannot be planned with as it is: see the {n} defects"),
         },
     );
-    lines.text
+    lines.into_text()
 }
 
 /// A link and everything below it, indented by depth.
-fn tree(lines: &mut Lines, report: &Inspection, link: &str, depth: usize) {
+fn tree(lines: &mut Columns, report: &Inspection, link: &str, depth: usize) {
     if depth == 0 {
         lines.add("tree", &described(report, link));
     }
@@ -166,7 +148,7 @@ fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> S
     format!("{what} {value} {}{per} ({source})", unit(joint))
 }
 
-fn pairs(lines: &mut Lines, report: &Inspection) {
+fn pairs(lines: &mut Columns, report: &Inspection) {
     let pairs = &report.pairs;
     let line = |p: &PairEntry| {
         let verdict = if p.planar { "a planar arm" } else { "no" };
@@ -187,22 +169,21 @@ fn pairs(lines: &mut Lines, report: &Inspection) {
     }
 }
 
-fn outline(lines: &mut Lines, outline: &OutlineEntry) {
+fn outline(lines: &mut Columns, outline: &OutlineEntry) {
     let OutlineEntry { link, source, parts, area, heights, bodies } = outline;
     let from = match *source {
         "none" => "none: it has no geometry and cannot collide".to_owned(),
-        "bar" => format!("a bar, as the world file asks; {} of {area:.6} m2 in all", pieces(*parts)),
-        source => format!("from {source} geometry; {} of {area:.6} m2 in all", pieces(*parts)),
+        "bar" => format!("a bar, as the world file asks; {} of {area:.6} m2 in all", counted(*parts, "part")),
+        source => format!("from {source} geometry; {} of {area:.6} m2 in all", counted(*parts, "part")),
     };
     let heights = heights.map_or(String::new(), |[lower, upper]| format!("; heights {lower:.4} to {upper:.4} m"));
     lines.add("outline", &format!("\"{link}\": {from}{heights}"));
     for body in bodies.iter().filter(|b| bodies.len() > 1 || b.link != *link) {
-        lines.add("outline", &format!("  of it \"{}\": {}, {:.6} m2", body.link, pieces(body.parts), body.area));
+        lines.add(
+            "outline",
+            &format!("  of it \"{}\": {}, {:.6} m2", body.link, counted(body.parts, "part"), body.area),
+        );
     }
-}
-
-fn pieces(count: usize) -> String {
-    if count == 1 { "1 part".into() } else { format!("{count} parts") }
 }
 
 fn vector(d: [f64; 3]) -> String {

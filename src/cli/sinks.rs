@@ -2,9 +2,9 @@
 
 use super::failure::Failure;
 use crate::input::{FileIdentity, read_from};
-use crate::model::{plain, plain_json};
 use crate::motion::{Format, check_writable, write_whole};
 use crate::output::{Drawn, PictureFormat};
+use crate::text::{plain, plain_json};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 

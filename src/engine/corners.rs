@@ -4,11 +4,9 @@
 //! pieces before and after it are drawn out until they meet: away from what the path hugs, with one corner less.
 
 use crate::check::{CertifiedPath, Rejection, certify};
-use crate::geometry::Ordered;
+use crate::geometry::OpenList;
 use crate::model::Scene;
 use crate::space::{Configuration, Metric, Path, Topology};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// Times that pieces which have come too near to something are left as they are, and the rest is certified again.
 const TRIES: usize = 6;
@@ -72,14 +70,14 @@ fn drawn_out(
         let longer = metric.norm(corner - at[i]) + metric.norm(at[j] - corner) - metric.norm(at[j] - at[i]);
         Some((longer.max(0.0), corner))
     };
-    let mut queue = BinaryHeap::new();
+    let mut open = OpenList::default();
     for i in 0..n {
         if let Some((longer, _)) = offer(&at, &left, i) {
-            queue.push(Reverse((Ordered(longer), i, 0)));
+            open.push(longer, (i, 0));
         }
     }
     let mut spent = 0.0;
-    while let Some(Reverse((Ordered(longer), i, version))) = queue.pop() {
+    while let Some((longer, (i, version))) = open.pop() {
         if left[i].gone || left[i].version != version {
             continue;
         }
@@ -99,7 +97,7 @@ fn drawn_out(
             if changed < n {
                 left[changed].version += 1;
                 if let Some((longer, _)) = offer(&at, &left, changed) {
-                    queue.push(Reverse((Ordered(longer), changed, left[changed].version)));
+                    open.push(longer, (changed, left[changed].version));
                 }
             }
         }

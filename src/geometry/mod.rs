@@ -15,6 +15,7 @@ mod inset;
 mod intervals;
 mod meet;
 mod minkowski;
+mod open_list;
 mod ordered;
 mod penetration;
 pub(crate) mod planar;
@@ -36,6 +37,7 @@ pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
 pub(crate) use minkowski::minkowski_difference;
 pub use minkowski::penetration_depth;
+pub use open_list::OpenList;
 pub use ordered::Ordered;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,

@@ -1,7 +1,7 @@
 //! Errors in what the user wrote: where, what, and what to do about it.
 
 use super::source::Position;
-use crate::model::{plain, plain_line};
+use crate::text::{plain, plain_line};
 use std::fmt;
 use thiserror::Error;
 

@@ -13,4 +13,4 @@ pub use file::{FileFormat, SaveError};
 pub use picture::{Drawn, PictureFormat, PictureFormatError};
 pub(crate) use picture::{contours, status, title_of};
 pub(crate) use step_lines::{StepLine, step_lines};
-pub(crate) use summary::{Line, configuration, counted, laid_out, range, value};
+pub(crate) use summary::{Line, configuration, laid_out, range, value};

@@ -1,11 +1,12 @@
 //! Pictures and pages of a plan.
 
-use super::summary::{counted, facts};
+use super::summary::facts;
 use super::task_summary;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, ArmPicture, DrawError, Picture, TaskPicture, View};
 use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
+use crate::text::counted;
 use std::path::Path;
 use thiserror::Error;
 

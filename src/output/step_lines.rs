@@ -1,6 +1,6 @@
 //! A line a step, for people.
 
-use super::summary::counted;
+use crate::text::counted;
 
 /// Repetitions of a step that are shown; of the others only how many there are.
 const SHOWN_CYCLES: usize = 3;

@@ -3,9 +3,9 @@
 use super::task_summary;
 use crate::check::CertifiedCurve;
 use crate::engine::{Bound, Made, MotionPlan, Options, Plan, Verdict, percent};
-use crate::model::{Arm, Joint, Scene, plain_line};
+use crate::model::{Arm, Joint, Scene};
 use crate::space::{Configuration, JointRange, Metric, Segment};
-use std::fmt::Write;
+use crate::text::{Columns, counted};
 use std::time::Duration;
 
 /// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
@@ -150,22 +150,11 @@ pub(super) fn field(options: &Options) -> Option<Line> {
     options.planner.field().map(|field| ("field", field.to_string()))
 }
 
-/// Lines in two columns; a key that is the same as in the line before is not repeated.
+/// Lines in two columns.
 pub fn laid_out(lines: &[Line]) -> String {
-    let mut text = String::new();
-    let mut before = "";
-    for (key, line) in lines {
-        let shown = if *key == before { "" } else { key };
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "{shown:<10} {}", plain_line(line));
-        before = key;
-    }
-    text
-}
-
-/// A number of things: `1 obstacle`, `3 obstacles`.
-pub fn counted(count: usize, thing: &str) -> String {
-    format!("{count} {thing}{}", if count == 1 { "" } else { "s" })
+    let mut columns = Columns::default();
+    lines.iter().for_each(|(key, line)| columns.add(key, line));
+    columns.into_text()
 }
 
 /// What the motion keeps, and where it comes nearest.

@@ -1,10 +1,11 @@
 //! The summary of a task for people.
 
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Line, arm_lines, configuration, counted, field, named, non_empty, notes};
+use super::summary::{Line, arm_lines, configuration, field, named, non_empty, notes};
 use crate::engine::task::{Leg, TaskAnswer, TaskReport};
 use crate::engine::{Plan, TaskPlan, percent};
 use crate::model::Task;
+use crate::text::counted;
 
 /// What was found, a line a step.
 pub(super) fn lines(whole: &Plan, plan: &TaskPlan) -> Vec<Line> {

@@ -3,11 +3,9 @@
 use super::NONE;
 use super::decomposition::{CellPortal, Decomposition};
 use super::terminals::Terminals;
-use crate::geometry::{Ordered, Point};
+use crate::geometry::{OpenList, Ordered, Point};
 use crate::interrupt::checkpoint;
 use crate::space::{Measure, Metric, Segment};
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// Cells to pass, with the portals between them: one less than cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,13 +62,13 @@ impl Adjacency {
             terminals,
             nodes: vec![Node { cost: f64::INFINITY, ..Node::START }; self.centers.len() + goal_cells.len()],
             is_goal: vec![false; self.centers.len()],
-            open: BinaryHeap::new(),
+            open: OpenList::default(),
         };
         goal_cells.iter().for_each(|&(cell, _)| search.is_goal[cell as usize] = true);
         for &cell in start_cells {
             search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
         }
-        while let Some(Reverse((_, node, Ordered(cost)))) = search.open.pop() {
+        while let Some((_, (node, Ordered(cost)))) = search.open.pop() {
             checkpoint();
             if cost > search.nodes[node as usize].cost {
                 continue;
@@ -101,17 +99,14 @@ impl Node {
     const START: Self = Self { cost: 0.0, before: NONE, portal: NONE, cell: NONE };
 }
 
-/// An entry of the open list: estimate, node (those beyond the cells are goals) and its cost when it was put there. Of
-/// equal estimates the least node comes first, so that the order is that of the input.
-type Open = Reverse<(Ordered, u32, Ordered)>;
-
 struct Search<'a> {
     adjacency: &'a Adjacency,
     portals: &'a [CellPortal],
     terminals: &'a Terminals,
     nodes: Vec<Node>,
     is_goal: Vec<bool>,
-    open: BinaryHeap<Open>,
+    /// Nodes (those beyond the cells are goals) and their costs when they were put there, by estimate.
+    open: OpenList<(u32, Ordered)>,
 }
 
 impl Search<'_> {
@@ -149,7 +144,7 @@ impl Search<'_> {
         if by.cost < self.nodes[node].cost {
             self.nodes[node] = by;
             let estimate = by.cost + self.terminals.straight_distance(at);
-            self.open.push(Reverse((Ordered(estimate), node as u32, Ordered(by.cost))));
+            self.open.push(estimate, (node as u32, Ordered(by.cost)));
         }
     }
 

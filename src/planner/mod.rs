@@ -35,6 +35,7 @@ pub use wavefront::{GridSearch, Wavefront};
 use crate::field::{Component, Potential, rough_harmonic};
 use crate::geometry::planar::NONE;
 use crate::space::{Configuration, GoalSet, Path};
+use crate::text::counted;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -116,7 +117,6 @@ impl Size {
 
 impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let counted = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
         match *self {
             Size::Graph { nodes, edges } => write!(f, "{}, {}", counted(nodes, "node"), counted(edges, "edge")),
             Size::Windows { cells, windows } => {

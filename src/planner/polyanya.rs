@@ -3,11 +3,10 @@
 use super::NONE;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};
 use super::terminals::Terminals;
-use crate::geometry::{Ordered, Orientation, Point, cross, orientation};
+use crate::geometry::{OpenList, Orientation, Point, cross, orientation};
 use crate::interrupt::checkpoint;
 use crate::space::{Measure, Segment};
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 
 /// Two lines whose directions enclose less than this sine are not intersected: rounding would be magnified by its
 /// inverse.
@@ -29,7 +28,7 @@ pub(super) struct Polyanya<'a> {
     nodes: Vec<Node>,
     /// Least cost of each corner so far.
     reached: Vec<f64>,
-    open: BinaryHeap<Open>,
+    open: OpenList<Open>,
     cones: Vec<(Cone, u32)>,
     /// Entries ever put on the open list.
     pushed: u32,
@@ -57,9 +56,9 @@ enum Step {
     Arrive(u32),
 }
 
-/// An entry of the open list: estimate, whether it is an arrival, its number, and what to do. Of equal estimates an
-/// arrival comes first, then the latest.
-type Open = (Reverse<Ordered>, bool, u32, Step);
+/// An entry of the open list: whether it is an arrival, its number, and what to do. Of equal estimates an arrival comes
+/// first, then the latest.
+type Open = (Reverse<bool>, Reverse<u32>, Step);
 
 impl<'a> Polyanya<'a> {
     pub fn new(mesh: &'a Mesh, measure: Measure, terminals: &'a Terminals) -> Self {
@@ -72,7 +71,7 @@ impl<'a> Polyanya<'a> {
             has_goal,
             nodes: Vec::new(),
             reached: vec![f64::INFINITY; mesh.corners().len()],
-            open: BinaryHeap::new(),
+            open: OpenList::default(),
             cones: Vec::new(),
             pushed: 0,
             arcs: Vec::new(),
@@ -102,7 +101,7 @@ impl<'a> Polyanya<'a> {
         seen.sort_unstable();
         seen.dedup();
         seen.into_iter().for_each(|corner| self.see(0, corner));
-        while let Some((.., step)) = self.open.pop() {
+        while let Some((_, (.., step))) = self.open.pop() {
             checkpoint();
             match step {
                 Step::Arrive(node) => return Some(self.waypoints(node)),
@@ -160,7 +159,7 @@ impl<'a> Polyanya<'a> {
                         (left, estimates[1], right, estimates[0])
                     };
                     self.push_cone(root, worse, other);
-                    if self.open.peek().is_some_and(|&(Reverse(Ordered(least)), ..)| least < best) {
+                    if self.open.peek().is_some_and(|(least, _)| least < best) {
                         self.push_cone(root, better, best);
                         return;
                     }
@@ -233,7 +232,8 @@ impl<'a> Polyanya<'a> {
 
     fn push(&mut self, estimate: f64, step: Step) {
         self.pushed += 1;
-        self.open.push((Reverse(Ordered(estimate)), matches!(step, Step::Arrive(_)), self.pushed, step));
+        let is_arrival = matches!(step, Step::Arrive(_));
+        self.open.push(estimate, (Reverse(is_arrival), Reverse(self.pushed), step));
     }
 
     /// A lower bound on the way from `p` to the nearest goal.

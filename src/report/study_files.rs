@@ -7,7 +7,7 @@ use super::study::{Refusal, Study};
 use super::table::{Align, Column, Table, quoted};
 use super::words::words;
 use crate::model::Status;
-use crate::model::plain_line;
+use crate::text::plain_line;
 use serde_json::{Value, json};
 
 /// More problems than this are not listed one by one in tables; CSV, JSON and the page have them all.

@@ -1,6 +1,6 @@
 //! Text tables.
 
-use crate::model::plain_line;
+use crate::text::plain_line;
 
 /// Side to which a column's cells are moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,6 +8,7 @@ use super::study::Study;
 use crate::engine::percent;
 use crate::model::Status;
 use crate::planner::PathKind;
+use crate::text::counted;
 
 /// A side is said to be better if a fair coin would favour it as clearly as this seldom.
 const SIGNIFICANT: f64 = 0.05;
@@ -63,10 +64,6 @@ pub fn words(study: &Study) -> Vec<String> {
         );
     }
     words
-}
-
-fn counted(n: usize, one: &str) -> String {
-    format!("{n} {one}{}", if n == 1 { "" } else { "s" })
 }
 
 fn outcomes(study: &Study) -> String {

@@ -2,11 +2,10 @@
 
 use super::boxes::portal;
 use crate::check::Cell;
-use crate::geometry::Ordered;
+use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
 use crate::space::{Configuration, GoalSet, Measure, Metric, Segment, Topology};
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, VecDeque};
+use std::collections::VecDeque;
 
 const NONE: u32 = u32::MAX;
 
@@ -124,10 +123,11 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
     // Where each box is entered, in the fundamental domain.
     let mut entry = vec![topology.wrap(start); boxes.count()];
     let mut parent = vec![NONE; boxes.count()];
-    let mut queue = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
+    let mut open = OpenList::default();
+    open.push(0.0, from);
     let mut best = (f64::INFINITY, from);
     length[from as usize] = 0.0;
-    while let Some(Reverse((Ordered(so_far), index))) = queue.pop() {
+    while let Some((so_far, index)) = open.pop() {
         checkpoint();
         if so_far >= best.0 {
             break;
@@ -154,7 +154,7 @@ pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, end
                 length[next as usize] = longer;
                 entry[next as usize] = place - portal.shift;
                 parent[next as usize] = index;
-                queue.push(Reverse((Ordered(longer), next)));
+                open.push(longer, next);
             }
         });
     }

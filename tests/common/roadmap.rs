@@ -1,25 +1,9 @@
 //! Scenes for roadmap planners, and judges of their answers that share no code with them.
 
+use super::dice::Dice;
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
 use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
-
-/// A small deterministic generator (SplitMix64): scenes depend on their seed alone.
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in `[low, high)`.
-    pub fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 /// Free space over a window of two intervals.
 pub fn regions(window: [(f64, f64); 2], free: Vec<Polygon>) -> Regions {
@@ -43,7 +27,7 @@ pub fn window_with_holes(x: (f64, f64), y: (f64, f64), holes: Vec<Vec<Point>>) -
 }
 
 /// `side * side` disjoint convex polygons of `corners` corners each, within `[0, side]^2`.
-pub fn convex_crowd(random: &mut Random, side: usize, corners: usize) -> Vec<Vec<Point>> {
+pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<Point>> {
     let mut crowd = Vec::new();
     for i in 0..side {
         for j in 0..side {
@@ -60,14 +44,13 @@ pub fn convex_crowd(random: &mut Random, side: usize, corners: usize) -> Vec<Vec
 
 /// `count` disjoint star-shaped polygons of ten corners each, most of them not convex, of random sizes at random places in
 /// a window of as many unit squares: about 23 % of it is filled.
-pub fn star_crowd(random: &mut Random, count: usize) -> Regions {
+pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     let columns = (count as f64).sqrt().ceil() as usize;
     let rows = count.div_ceil(columns);
     let stars = (0..count).map(|k| {
         let size = random.within(0.25, 0.49);
         let [x, y] = [k % columns, k / columns].map(|k| k as f64 + random.within(size, 1.0 - size));
-        let angle =
-            |k: usize, random: &mut Random| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
+        let angle = |k: usize, random: &mut Dice| (k as f64 + random.within(0.05, 0.95)) * std::f64::consts::TAU / 10.0;
         let corner = |k: usize| {
             let (a, r) = (angle(k, random), size * random.within(0.55, 1.0));
             Point::new(x + r * a.cos(), y + r * a.sin())
@@ -91,7 +74,7 @@ pub struct Board {
 }
 
 impl Board {
-    pub fn random(random: &mut Random, size: usize, density: f64) -> Self {
+    pub fn random(random: &mut Dice, size: usize, density: f64) -> Self {
         Self { size, free: (0..size * size).map(|_| random.within(0.0, 1.0) >= density).collect() }
     }
 

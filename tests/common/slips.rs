@@ -1,24 +1,6 @@
 //! Texts with slips of the pen.
 
-use super::random::seed;
-
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Dice(u64);
-
-impl Dice {
-    /// The stream of this number; other ones with another `CPLAN_SEED`.
-    pub fn new(stream: u64) -> Self {
-        Self(stream ^ seed().wrapping_mul(0xD134_2543_DE82_EF95))
-    }
-
-    pub fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
-}
+use super::dice::Dice;
 
 /// What numbers become.
 const NUMBERS: [&str; 16] = [

@@ -1,7 +1,8 @@
 //! Polygons with holes and touching corners: what they cover, against counting cells and casting rays in integers.
 
+use crate::common::dice;
+use crate::common::dice::Dice;
 use crate::common::random::{times, usual};
-use crate::hostile::dice::Dice;
 use crate::lattice::{Corner, point};
 use cplan::geometry::{Convex, Orientation, Point, Polygon, RingError, orientation};
 use std::collections::{BTreeMap, BTreeSet};
@@ -138,7 +139,7 @@ fn as_written(dice: &mut Dice, ring: &[Corner]) -> Vec<Corner> {
 
 #[test]
 fn cells_are_covered_whatever_the_rings_touch() {
-    let mut dice = Dice::new(0x0051_65e1);
+    let mut dice = dice(0x0051_65e1);
     let (mut holed, mut touching) = (0, 0);
     for _ in 0..times(600) {
         let cells = blob(&mut dice);
@@ -179,7 +180,7 @@ fn cells_are_covered_whatever_the_rings_touch() {
 /// wrong side, and the cases where none of these holds are named in the other tests.
 #[test]
 fn random_rings_are_refused_or_covered() {
-    let mut dice = Dice::new(7);
+    let mut dice = dice(7);
     let mut taken = 0;
     for _ in 0..times(6000) {
         let mut ring = |most: u64| -> Vec<Corner> {

@@ -1,7 +1,8 @@
 //! Files with a slip of the pen, by the hundred: read or refused with place and help, never a panic, never a long wait.
 
+use crate::common::dice;
 use crate::common::random::times;
-use crate::common::slips::{Dice, slipped};
+use crate::common::slips::slipped;
 use cplan::input::{InputError, Overrides, Source, load_recording, scene_from};
 use std::time::{Duration, Instant};
 
@@ -47,7 +48,7 @@ fn is_helpful(error: &InputError, text: &str) {
 #[test]
 fn slips_in_worlds_and_robots_are_read_or_refused() {
     let (mut read, mut refused) = (0, 0);
-    let mut dice = Dice::new(13);
+    let mut dice = dice(13);
     for k in 0..times(1500) {
         let (urdf, world) = match k % 2 {
             0 => (ARM.to_owned(), slipped(&mut dice, WORLD)),
@@ -77,7 +78,7 @@ fn slips_in_tables_are_read_or_refused() {
     let scene = scene_from(Source::in_memory("arm.urdf", ARM), Source::in_memory("world.toml", WORLD)).unwrap();
     let table =
         "# logged\ntime;shoulder;elbow;elbow_velocity\n0;-0.9;0.5;0\n1;-0.8;0.4;0.1\n1;-0.8;0.4;0.1\n2;-0.7;0.4;0\n";
-    let mut dice = Dice::new(14);
+    let mut dice = dice(14);
     let (mut read, mut refused) = (0, 0);
     for _ in 0..times(600) {
         let table = slipped(&mut dice, table);

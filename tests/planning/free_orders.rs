@@ -1,8 +1,8 @@
 //! Groups in free order of which not every order can be done: what is placed, or not yet picked, is in the way of others.
 
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::random_tasks::replay;
-use crate::random_tasks::task::Dice;
 use assert_cmd::Command;
 use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan};
 use cplan::engine::{Effort, Method};

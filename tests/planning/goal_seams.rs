@@ -1,9 +1,9 @@
 //! Sets of goals that end at the seam of a circle, lie on it or go across: the seam is nowhere, so written another way round
 //! they are the same set, for every planner.
 
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, rr, scene, wall};
-use crate::random_worlds::world::Dice;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
@@ -21,8 +21,8 @@ fn at_seam(dice: &mut Dice) -> f64 {
     let seam = if dice.below(2) == 0 { PI } else { -PI };
     match dice.below(4) {
         0 | 1 => seam,
-        2 => seam + dice.range(-0.3, 0.3),
-        _ => dice.range(-PI, PI),
+        2 => seam + dice.within(-0.3, 0.3),
+        _ => dice.within(-PI, PI),
     }
 }
 
@@ -31,10 +31,10 @@ fn segment(dice: &mut Dice, scene: &Scene) -> Segment {
     let axes = scene.arm().topology().ranges;
     let mut from = Configuration::from_fn(|k, _| match axes[k].domain() {
         _ if axes[k].is_circle() => at_seam(dice),
-        (lower, upper) => dice.range(lower, upper),
+        (lower, upper) => dice.within(lower, upper),
     });
     let sign = if dice.below(2) == 0 { 1.0 } else { -1.0 };
-    let length = dice.range(0.2, 3.0);
+    let length = dice.within(0.2, 3.0);
     let along = [[1.0, 0.0], [0.0, 1.0], [1.0, sign]][dice.below(3) as usize];
     let mut to = from + Configuration::from(along) * length;
     for k in 0..2 {
@@ -64,7 +64,7 @@ fn in_other_words(problem: &MotionProblem, goals: Segment) -> Vec<GoalSet> {
 
 fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     let mut dice = Dice::new(seed.wrapping_mul(0x9E6C_63D0_876A_68DE));
-    let limited = JointRange::Interval { lower: -dice.range(1.0, 4.0), upper: dice.range(1.0, 4.0) };
+    let limited = JointRange::Interval { lower: -dice.within(1.0, 4.0), upper: dice.within(1.0, 4.0) };
     let axes = match dice.below(4) {
         0 => [JointRange::Circle, limited],
         1 => [limited, JointRange::Circle],
@@ -72,18 +72,18 @@ fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     };
     let count = dice.below(6);
     let piece = |dice: &mut Dice| {
-        let (r, angle) = (dice.range(0.4, 1.8), dice.range(-PI, PI));
+        let (r, angle) = (dice.within(0.4, 1.8), dice.within(-PI, PI));
         let at = Point::new(r * angle.cos(), r * angle.sin());
-        let along = dice.range(-PI, PI);
-        let end = at + Vector::new(along.cos(), along.sin()) * dice.range(0.1, 0.9);
-        if dice.below(3) == 0 { disc(at, dice.range(0.02, 0.15)) } else { wall(at, end) }
+        let along = dice.within(-PI, PI);
+        let end = at + Vector::new(along.cos(), along.sin()) * dice.within(0.1, 0.9);
+        if dice.below(3) == 0 { disc(at, dice.within(0.02, 0.15)) } else { wall(at, end) }
     };
     let pieces = (0..count).map(|_| piece(&mut dice)).collect();
     let scene = scene(rr(axes), pieces);
     let anywhere = |dice: &mut Dice| {
         Configuration::from_fn(|k, _| {
             let (lower, upper) = axes[k].domain();
-            if axes[k].is_circle() && dice.below(3) == 0 { at_seam(dice) } else { dice.range(lower, upper) }
+            if axes[k].is_circle() && dice.below(3) == 0 { at_seam(dice) } else { dice.within(lower, upper) }
         })
     };
     let start = (0..50).map(|_| anywhere(&mut dice)).find(|&q| scene.clearance(q) > 1e-3)?;

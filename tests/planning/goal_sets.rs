@@ -1,8 +1,8 @@
 //! Goals of the tip that leave a joint free, against explicit goals at many values of that joint.
 
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wall};
-use crate::random_worlds::world::Dice;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
@@ -22,10 +22,10 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
     let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
     let turns = |dice: &mut Dice| match dice.below(3) {
         0 => JointRange::Circle,
-        1 => JointRange::Interval { lower: -dice.range(1.5, 3.3), upper: dice.range(1.5, 3.3) },
+        1 => JointRange::Interval { lower: -dice.within(1.5, 3.3), upper: dice.within(1.5, 3.3) },
         _ => JointRange::Interval { lower: -4.0, upper: 4.5 },
     };
-    let stroke = |dice: &mut Dice| JointRange::Interval { lower: -dice.range(0.3, 1.0), upper: dice.range(0.3, 1.0) };
+    let stroke = |dice: &mut Dice| JointRange::Interval { lower: -dice.within(0.3, 1.0), upper: dice.within(0.3, 1.0) };
     let links = |length: f64| {
         [
             link("first", vec![rectangle(0.0, length, -0.03, 0.03)]),
@@ -37,13 +37,13 @@ fn drawn(dice: &mut Dice) -> (Arm, Point) {
         0 | 1 => {
             let joints = [joint("a", turn(dice), turns(dice)), joint("b", turn(dice), turns(dice))];
             let arm = arm(joints, links(1.0), Vector::new(1.0, 0.0), Point::origin());
-            let angle = dice.range(-1.4, 1.4);
+            let angle = dice.within(-1.4, 1.4);
             (arm, Point::new(angle.cos(), angle.sin()))
         }
         2 => {
             let joints = [joint("a", slide(FRAC_PI_2), stroke(dice)), joint("b", turn(dice), turns(dice))];
             let arm = arm(joints, links(0.4), Vector::new(0.4, 0.0), Point::origin());
-            (arm, Point::new(0.4, dice.range(-0.3, 0.3)))
+            (arm, Point::new(0.4, dice.within(-0.3, 0.3)))
         }
         // The goal on the axis of joint 1: an arm folded back, and one drawn in.
         3 => {
@@ -66,11 +66,11 @@ fn world(seed: u64) -> Option<MotionProblem> {
     let (arm, tip) = drawn(&mut dice);
     let count = 2 + dice.below(6);
     let piece = |dice: &mut Dice| {
-        let (r, angle) = (dice.range(0.25, 1.6), dice.range(-PI, PI));
+        let (r, angle) = (dice.within(0.25, 1.6), dice.within(-PI, PI));
         let at = Point::new(r * angle.cos(), r * angle.sin());
-        let along = dice.range(-PI, PI);
-        let end = at + Vector::new(along.cos(), along.sin()) * dice.range(0.1, 0.9);
-        if dice.below(3) == 0 { disc(at, dice.range(0.02, 0.15)) } else { wall(at, end) }
+        let along = dice.within(-PI, PI);
+        let end = at + Vector::new(along.cos(), along.sin()) * dice.within(0.1, 0.9);
+        if dice.below(3) == 0 { disc(at, dice.within(0.02, 0.15)) } else { wall(at, end) }
     };
     let pieces = (0..count).map(|_| piece(&mut dice)).collect();
     let scene: Scene = scene(arm, pieces);
@@ -87,7 +87,7 @@ fn anywhere(dice: &mut Dice, scene: &Scene) -> Configuration {
     let topology = scene.arm().topology();
     Configuration::from_fn(|k, _| {
         let (lower, upper) = topology.ranges[k].domain();
-        dice.range(lower, upper)
+        dice.within(lower, upper)
     })
 }
 

@@ -1,5 +1,6 @@
 //! Visibility graph and trapezoidal decomposition against brute force, flood fill and closed forms.
 
+use crate::common::dice::Dice;
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
@@ -94,7 +95,7 @@ proptest! {
 
     #[test]
     fn shortest_among_convex_polygons_equals_brute_force(seed: u64, side in 1usize..4, corners in 3usize..7) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let crowd = convex_crowd(&mut random, side, corners);
         let regions = crowd_regions(side, &crowd);
         // Between the crowd's cells, where no polygon reaches.
@@ -109,7 +110,7 @@ proptest! {
 
     #[test]
     fn shortest_in_every_metric_equals_brute_force(seed: u64, side in 1usize..4, ratio in 0.2..5.0_f64) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let crowd = convex_crowd(&mut random, side, 4);
         let regions = crowd_regions(side, &crowd);
         let window = (-0.25, side as f64 + 0.25);
@@ -130,7 +131,7 @@ proptest! {
     fn touching_obstacles_equal_brute_force(
         seed: u64, size in 2usize..6, density in 0.1..0.5, turn in prop_oneof![Just(None), (0.0..1.6_f64).prop_map(Some)],
     ) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let blocks = blocks(&mut random, size, density);
         let (sin, cos) = turn.unwrap_or(0.0).sin_cos();
         let turned = |x: f64, y: f64| Point::new(x * cos - y * sin, x * sin + y * cos);
@@ -172,7 +173,7 @@ proptest! {
     /// Against the definition: pairs of convex corners, tangent at both ends, that no side separates.
     #[test]
     fn the_whole_graph_is_that_of_the_definition(seed: u64, count in 1usize..9) {
-        let regions = star_crowd(&mut Random(seed), count);
+        let regions = star_crowd(&mut Dice::new(seed), count);
         let mut expected = bitangents(&regions);
         let mut arcs = VISIBILITY.build(&regions).arcs();
         let key = |ends: &[Configuration; 2]| ends.map(|q| (q[0], q[1]));
@@ -184,7 +185,7 @@ proptest! {
 
     #[test]
     fn boards_equal_flood_fill_and_brute_force(seed: u64, size in 2usize..7, density in 0.1..0.6) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let board = Board::random(&mut random, size, density);
         let component = board.components();
         let free: Vec<usize> = (0..board.free.len()).filter(|&k| board.free[k]).collect();
@@ -214,7 +215,7 @@ proptest! {
 
     #[test]
     fn starts_on_corners_and_sides_of_boards(seed: u64, size in 2usize..6, density in 0.1..0.5) {
-        let mut random = Random(seed);
+        let mut random = Dice::new(seed);
         let board = Board::random(&mut random, size, density);
         let map = MAPS[(random.bits() % 5) as usize];
         let regions = board.regions(map, || random.bits().is_multiple_of(2));
@@ -249,7 +250,7 @@ fn metrics(ratio: f64) -> [Metric; 3] {
 }
 
 /// Lower left corners and sizes of squares on a board, apart or touching.
-fn blocks(random: &mut Random, size: usize, density: f64) -> Vec<(usize, usize, usize)> {
+fn blocks(random: &mut Dice, size: usize, density: f64) -> Vec<(usize, usize, usize)> {
     let mut taken = vec![false; size * size];
     let mut blocks = Vec::new();
     for k in 0..size * size {

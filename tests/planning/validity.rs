@@ -1,9 +1,10 @@
 //! What the library takes cannot be made invalid: each constructor refuses what would give a false answer, and names it. A
 //! clockwise square had wrong penetrations, a problem without goals or with a start out of range was "infeasible".
 
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, link, obstacle, placed, q, rectangle, rr, wall};
-use crate::random_worlds::world::{self, Dice};
+use crate::random_worlds::world;
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::geometry::{
     Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
@@ -204,12 +205,12 @@ fn what_is_valid_is_taken() {
     for seed in seeds(300) {
         let mut dice = Dice::new(seed ^ 0x5EED);
         let count = 3 + dice.below(20);
-        let [a, b] = [0, 1].map(|_| dice.range(0.05, 2.0));
-        let shift = Vector::new(dice.range(-3.0, 3.0), dice.range(-3.0, 3.0));
-        let share = |k: u64, dice: &mut Dice| (k as f64 + dice.range(0.1, 0.9)) / count as f64;
+        let [a, b] = [0, 1].map(|_| dice.within(0.05, 2.0));
+        let shift = Vector::new(dice.within(-3.0, 3.0), dice.within(-3.0, 3.0));
+        let share = |k: u64, dice: &mut Dice| (k as f64 + dice.within(0.1, 0.9)) / count as f64;
         let angles: Vec<f64> = (0..count).map(|k| 2.0 * PI * share(k, &mut dice)).collect();
         let core: Vec<Point> = angles.iter().map(|t| Point::new(a * t.cos(), b * t.sin()) + shift).collect();
-        let radius = if dice.below(2) == 0 { 0.0 } else { dice.range(0.0, 0.5) };
+        let radius = if dice.below(2) == 0 { 0.0 } else { dice.within(0.0, 0.5) };
         let shape = Convex::new(core.clone(), radius).unwrap_or_else(|error| panic!("seed {seed}: {error} {core:?}"));
         assert_eq!((shape.core(), shape.radius()), (&core[..], radius));
         let backwards: Vec<Point> = core.iter().rev().copied().collect();

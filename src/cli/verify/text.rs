@@ -4,9 +4,9 @@ use super::findings::{EncounterFinding, Findings, LimitFinding, MomentFinding, V
 use super::task::StepFinding;
 use crate::check::Limit;
 use crate::model::Arm;
-use crate::output::{Line, configuration, counted, laid_out, value};
-use crate::output::{StepLine, step_lines};
+use crate::output::{Line, StepLine, configuration, laid_out, step_lines, value};
 use crate::space::Recording;
+use crate::text::counted;
 
 /// The findings for people.
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &Findings) -> String {

@@ -1,6 +1,7 @@
 //! The file around a view.
 
 use super::View;
+use crate::text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
@@ -33,7 +34,7 @@ pub fn page(view: &View) -> String {
 /// before the code, and its own code, which makes a `View` within `main`.
 #[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
-    let title = escaped(title);
+    let title = markup(title);
     let drawing = CODE.concat();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n{head}\
@@ -41,9 +42,4 @@ pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> 
          <style>\n{STYLE}{style}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is switched \
          off here.</noscript></main>\n{before}<script>\n{drawing}{code}</script>\n</body>\n</html>\n"
     )
-}
-
-/// Text for HTML.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -7,11 +7,11 @@ use super::least_time::least_time;
 use super::legs::{Legs, Motion, Refusal};
 use super::state::{Candidate, State};
 use super::stroke::least_rest;
-use crate::geometry::Ordered;
+use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
 use crate::model::Task;
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::BTreeSet;
 
 /// Weight of the heuristic in the weighted A* that goes straight for the end.
 const WEIGHT: f64 = 4.0;
@@ -59,9 +59,6 @@ enum Stage<'a> {
     Reached(Box<State>, Option<(Candidate<'a>, Motion)>),
 }
 
-/// By least total time; of equals the one that is farther, then the earlier found.
-type Entry = Reverse<(Ordered, Reverse<usize>, usize)>;
-
 /// A search over all IK solutions at the targets, turns of the wrist and orders that a task leaves free.
 pub(super) struct Search<'a, 'l> {
     task: &'a Task,
@@ -70,7 +67,8 @@ pub(super) struct Search<'a, 'l> {
     /// Motions planned when it began.
     planned: usize,
     nodes: Vec<Node<'a>>,
-    open: BinaryHeap<Entry>,
+    /// By least total time; of equals the one that is farther, then the earlier found.
+    open: OpenList<(Reverse<usize>, usize)>,
     closed: BTreeSet<Vec<i64>>,
     /// Weight of the heuristic: above 1 it is weighted A*.
     weight: f64,
@@ -89,7 +87,7 @@ impl<'a, 'l> Search<'a, 'l> {
             planned: legs.planned(),
             legs,
             nodes: Vec::new(),
-            open: BinaryHeap::new(),
+            open: OpenList::default(),
             closed: BTreeSet::new(),
             weight: 1.0,
             refused: Vec::new(),
@@ -104,7 +102,7 @@ impl<'a, 'l> Search<'a, 'l> {
     /// Goes on up to the limits; what is found is the fastest, if it did not [`Search::hurry`].
     pub fn run(&mut self, limits: Limits, progress: &mut dyn FnMut(&str)) -> Ending {
         let mut told = 0;
-        while let Some(Reverse((Ordered(least), _, index))) = self.open.pop() {
+        while let Some((least, (_, index))) = self.open.pop() {
             checkpoint();
             let planned = self.legs.planned() - self.planned;
             if planned >= told + NEWS {
@@ -116,7 +114,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 || (least >= limits.below && limits.below.is_finite())
             {
                 // It may be run again, with other limits.
-                self.open.push(self.entry(&self.nodes[index], index));
+                self.open(index);
                 return Ending::Spent;
             }
             let Stage::Reached(state, _) = &self.nodes[index].stage else {
@@ -146,24 +144,25 @@ impl<'a, 'l> Search<'a, 'l> {
     }
 
     fn push(&mut self, node: Node<'a>) {
-        self.open.push(self.entry(&node, self.nodes.len()));
         self.nodes.push(node);
+        self.open(self.nodes.len() - 1);
     }
 
-    fn entry(&self, node: &Node, index: usize) -> Entry {
+    /// Puts a node on the open list.
+    fn open(&mut self, index: usize) {
+        let node = &self.nodes[index];
         let (q, progress) = match &node.stage {
             Stage::Pending(candidate) => (candidate.to, candidate.progress),
             Stage::Reached(state, _) => (state.q, state.progress),
         };
         let left = self.heuristic.remaining(q, progress);
-        Reverse((Ordered(node.seconds + self.weight * left), Reverse(node.depth), index))
+        self.open.push(node.seconds + self.weight * left, (Reverse(node.depth), index));
     }
 
     /// Gives up on the fastest choice: from now on what is left counts more than what is done.
     pub fn hurry(&mut self) {
         self.weight = WEIGHT;
-        let open = std::mem::take(&mut self.open);
-        self.open = open.into_iter().map(|Reverse((_, _, index))| self.entry(&self.nodes[index], index)).collect();
+        self.open.drain().into_iter().for_each(|(_, index)| self.open(index));
     }
 
     /// Leaves off: what comes after the farthest state reached could not be done in time.
@@ -194,8 +193,7 @@ impl<'a, 'l> Search<'a, 'l> {
                 let seconds = self.nodes[parent].seconds + seconds;
                 let node = &mut self.nodes[index];
                 (node.seconds, node.stage) = (seconds, Stage::Reached(Box::new(state), Some((candidate, motion))));
-                let entry = self.entry(&self.nodes[index], index);
-                self.open.push(entry);
+                self.open(index);
             }
             Err(refusal) => self.refused.push(Refused {
                 depth: self.nodes[parent].depth,

@@ -16,9 +16,8 @@ use super::network::{Network, SIDES};
 use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
+use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::f64::consts::LN_2;
 
 /// Stands for a cell that is in no window.
@@ -47,27 +46,6 @@ const FLOOR: f64 = 1e-36;
 /// ... which leaves values from here on precise.
 const PRECISE: f64 = 1e-30;
 
-/// An accepted cell that may have neighbours yet to be accepted.
-#[derive(PartialEq)]
-struct Front {
-    log2: f64,
-    position: u32,
-}
-
-impl Eq for Front {}
-
-impl PartialOrd for Front {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Front {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.log2.total_cmp(&other.log2).then(other.position.cmp(&self.position))
-    }
-}
-
 /// The potential as far as it is known.
 pub(super) struct Peeling<'a> {
     component: &'a Component,
@@ -80,7 +58,8 @@ pub(super) struct Peeling<'a> {
     pub potential: Potential,
     /// How many positions are not known.
     unknown: usize,
-    front: BinaryHeap<Front>,
+    /// Accepted positions that may have neighbours yet to be accepted, greatest first: by the binary logarithm, negative.
+    front: OpenList<u32>,
     /// Number in the window of each position, or [`NONE`]; nothing until windows are gathered.
     number: Vec<u32>,
     depth: f64,
@@ -109,10 +88,10 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let mut potential = Potential::zero(component.len());
-        let mut front = BinaryHeap::new();
+        let mut front = OpenList::default();
         for goal in 0..component.goals {
             potential.set(goal, Scaled { mantissa: 1.0, exponent: 0 });
-            front.push(Front { log2: 0.0, position: goal as u32 });
+            front.push(0.0, goal as u32);
         }
         Self {
             component,
@@ -227,10 +206,10 @@ impl<'a> Peeling<'a> {
 
     /// The unknown cells around the greatest accepted values; nothing if there are none.
     fn gather(&mut self) -> Option<Window> {
-        while self.front.peek().is_some_and(|front| !self.is_front(front.position as usize)) {
+        while self.front.peek().is_some_and(|(_, position)| !self.is_front(*position as usize)) {
             self.front.pop();
         }
-        let &Front { log2: top, position } = self.front.peek()?;
+        let (top, &position) = self.front.peek()?;
         let exponent = self.potential.at(position as usize).exponent;
         let greatest = self.potential.at(position as usize).mantissa;
         let mut sources = Vec::new();
@@ -238,9 +217,8 @@ impl<'a> Peeling<'a> {
         let (mut beside, mut cut) = (0.0_f64, false);
         // Cells to go on from, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
-        while let Some(front) = self.front.peek() {
-            let depth = (top - front.log2) * LN_2;
-            let position = front.position;
+        while let Some((below, &position)) = self.front.peek() {
+            let depth = (below - top) * LN_2;
             let is_front = self.is_front(position as usize);
             if is_front && depth > self.depth {
                 (beside, cut) = (self.potential.at(position as usize).mantissa_at(exponent), true);
@@ -372,7 +350,8 @@ impl<'a> Peeling<'a> {
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();
-            self.front.push(Front { log2, position });
+            // Zero keeps its sign.
+            self.front.push(0.0 - log2, position);
         }
     }
 }

@@ -1,9 +1,10 @@
 //! Textbook searches over the cells of a grid, which look no farther than they must.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
+use crate::geometry::{OpenList, Ordered};
 use crate::interrupt::checkpoint;
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, VecDeque};
+use std::cmp::Reverse;
+use std::collections::VecDeque;
 use std::f64::consts::SQRT_2;
 
 /// In which order cells are expanded. All four are one algorithm with a different list of cells that wait.
@@ -173,7 +174,8 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
 enum Open {
     Queue(VecDeque<(usize, Cost)>),
     Stack(Vec<(usize, Cost)>),
-    Heap(BinaryHeap<Entry>, Ties, u64),
+    /// By estimate; of equals by [`Ties`]. With how many have been put there.
+    Least(OpenList<(Reverse<Ordered>, Reverse<u64>, usize, [u32; 2])>, Ties, u64),
 }
 
 impl Open {
@@ -181,27 +183,28 @@ impl Open {
         match order {
             Order::BreadthFirst => Self::Queue(VecDeque::new()),
             Order::DepthFirst => Self::Stack(Vec::new()),
-            Order::Dijkstra => Self::Heap(BinaryHeap::new(), Ties::First, 0),
-            Order::AStar(ties) => Self::Heap(BinaryHeap::new(), ties, 0),
+            Order::Dijkstra => Self::Least(OpenList::default(), Ties::First, 0),
+            Order::AStar(ties) => Self::Least(OpenList::default(), ties, 0),
         }
     }
 
     /// Whether cells can be labelled anew.
     fn relaxes(&self) -> bool {
-        matches!(self, Self::Heap(..))
+        matches!(self, Self::Least(..))
     }
 
     fn push(&mut self, cell: usize, cost: Cost, rest: Cost) {
         match self {
             Self::Queue(queue) => queue.push_back((cell, cost)),
             Self::Stack(stack) => stack.push((cell, cost)),
-            Self::Heap(heap, ties, count) => {
+            Self::Least(open, ties, count) => {
                 *count += 1;
                 let (farther, turn) = match ties {
                     Ties::Farthest => (cost.value(), *count),
                     Ties::First => (0.0, u64::MAX - *count),
                 };
-                heap.push(Entry { estimate: cost.and(rest).value(), farther, turn, cell, cost });
+                let tie = (Reverse(Ordered(farther)), Reverse(turn));
+                open.push(cost.and(rest).value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
             }
         }
     }
@@ -210,40 +213,9 @@ impl Open {
         match self {
             Self::Queue(queue) => queue.pop_front(),
             Self::Stack(stack) => stack.pop(),
-            Self::Heap(heap, ..) => heap.pop().map(|entry| (entry.cell, entry.cost)),
+            Self::Least(open, ..) => {
+                open.pop().map(|(_, (.., cell, [straight, diagonal]))| (cell, Cost { straight, diagonal }))
+            }
         }
     }
 }
-
-/// A cell on a heap; the greatest is the next.
-struct Entry {
-    /// The less, the sooner.
-    estimate: f64,
-    /// Of equals, the more, the sooner.
-    farther: f64,
-    /// Of equals, the more, the sooner.
-    turn: u64,
-    cell: usize,
-    cost: Cost,
-}
-
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let by_estimate = other.estimate.total_cmp(&self.estimate);
-        by_estimate.then(self.farther.total_cmp(&other.farther)).then(self.turn.cmp(&other.turn))
-    }
-}
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}

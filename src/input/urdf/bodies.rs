@@ -10,6 +10,7 @@ use crate::geometry::{Point, Vector};
 use crate::input::error::{Diagnostic, InputError};
 use crate::input::world::World;
 use crate::model::{Heights, Link, OutlineSource, Part, Plane};
+use crate::text::counted;
 use nalgebra::{Isometry3, Translation2, Vector3};
 use std::ops::Range;
 use urdf_rs::Geometry;
@@ -136,7 +137,7 @@ impl Bodies<'_> {
     }
 
     fn summary(&self, source: OutlineSource, parts: &[Part]) -> String {
-        let shapes = if parts.len() == 1 { "1 shape".to_owned() } else { format!("{} shapes", parts.len()) };
+        let shapes = counted(parts.len(), "shape");
         match source {
             OutlineSource::Collision => format!("outline from the collision geometry ({shapes})"),
             OutlineSource::Visual => {

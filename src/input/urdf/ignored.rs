@@ -5,6 +5,7 @@ use super::document::Document;
 use super::reduction::Reduction;
 use crate::input::error::quoted;
 use crate::model::{Link, OutlineSource};
+use crate::text::counted;
 
 /// Elements that are neither links nor joints.
 pub(super) fn elements(document: &Document) -> Vec<String> {
@@ -60,8 +61,8 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
         let shapes: usize =
             (0..document.robot.links.len()).filter(mine).map(|l| document.robot.links[l].visual.len()).sum();
         if shapes > 0 {
-            let noun = if shapes == 1 { "shape" } else { "shapes" };
-            ignored.push(format!("{shapes} visual {noun} of link \"{}\": it has collision geometry", link.name));
+            let shapes = counted(shapes, "visual shape");
+            ignored.push(format!("{shapes} of link \"{}\": it has collision geometry", link.name));
         }
     }
     ignored

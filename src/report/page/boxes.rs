@@ -1,8 +1,9 @@
 //! Box plots, a line a planner.
 
 use super::axis::Axis;
-use super::markup::{escaped, margin, number, shortened};
+use super::markup::{margin, number, shortened};
 use crate::report::{Measure, Spread, Study};
+use crate::text::markup;
 
 /// Width of a chart, pixels: about that of a phone, where charts are not made smaller then.
 const WIDTH: f64 = 460.0;
@@ -33,7 +34,7 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Box plots: {}\">\n",
         number(WIDTH),
         number(height),
-        escaped(measure.heading())
+        markup(measure.heading())
     );
     for (value, text) in axis.ticks() {
         let at = number(x(value));
@@ -46,11 +47,10 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
             "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
             number(left - 10.0),
             number(middle + 4.0),
-            escaped(&shortened(name))
+            markup(&shortened(name))
         );
         if let Some(spread) = Spread::of(values.iter().copied()) {
-            svg +=
-                &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, escaped(&described(name, &spread)));
+            svg += &format!("<g class=\"p{}\"><title>{}</title>", i % super::COLORS, markup(&described(name, &spread)));
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }

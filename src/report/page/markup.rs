@@ -1,24 +1,7 @@
 //! Text and numbers in HTML and SVG.
 
 use crate::report::{Align, Table};
-
-/// Text that is neither markup nor a character that XML forbids; good between tags and within quotes.
-pub fn escaped(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\'' => escaped.push_str("&#39;"),
-            '\n' | '\t' => escaped.push(' '),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => escaped.push('\u{fffd}'),
-            c => escaped.push(c),
-        }
-    }
-    escaped
-}
+use crate::text::markup;
 
 /// Characters of a planner's name that a chart has room for, at the most.
 const NAME: usize = 24;
@@ -74,11 +57,10 @@ pub fn image_source(svg: &str) -> String {
 /// A table with its first column as headings of the rows.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
-    let head =
-        table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), escaped(c.name())));
+    let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), markup(c.name())));
     let row = |cells: &Vec<Option<String>>| {
         let cell = |(k, cell): (usize, &Option<String>)| {
-            let text = escaped(cell.as_deref().unwrap_or("\u{2013}"));
+            let text = markup(cell.as_deref().unwrap_or("\u{2013}"));
             match k {
                 0 => format!("<th scope=\"row\">{text}</th>"),
                 _ => format!("<td{}>{text}</td>", class(table.columns[k].align())),
@@ -99,7 +81,6 @@ mod tests {
 
     #[test]
     fn nothing_escapes() {
-        assert_eq!(escaped("<b>&\"'\u{1}"), "&lt;b&gt;&amp;&quot;&#39;\u{fffd}");
         assert!(!image_source("<svg a=\"b\" c='#'>%\n\u{e9}</svg>").contains(['<', '>', '"', '\'', '#', '\n']));
     }
 

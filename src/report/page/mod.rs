@@ -12,7 +12,8 @@ pub use overlay::{Overlay, Spot};
 use super::measure::Measure;
 use super::study::Study;
 use super::words::words;
-use markup::{escaped, image_source, table};
+use crate::text::{counted, markup};
+use markup::{image_source, table};
 
 /// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
 const COLORS: usize = 6;
@@ -48,12 +49,12 @@ impl Page<'_> {
              <meta name=\"color-scheme\" content=\"light dark\"/>\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
              <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
-            escaped(&study.title),
-            escaped(&self.subtitle())
+            markup(&study.title),
+            markup(&self.subtitle())
         );
         for alarm in study.alarms() {
             html +=
-                &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", escaped(&alarm));
+                &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
         }
         let sentences: String = words(study).iter().map(|w| paragraph(w)).collect();
         html += &section("In words", &sentences);
@@ -67,13 +68,12 @@ impl Page<'_> {
 
     fn subtitle(&self) -> String {
         let planners = self.study.planners();
-        let problems = self.study.comparisons.len();
-        let plural = if problems == 1 { "" } else { "s" };
+        let problems = counted(self.study.comparisons.len(), "problem");
         let refused = match self.study.refused.len() {
             0 => String::new(),
             n => format!(" ({n} more not run)"),
         };
-        format!("{problems} problem{plural}{refused}, {} planners: {}", planners.len(), planners.join(", "))
+        format!("{problems}{refused}, {} planners: {}", planners.len(), planners.join(", "))
     }
 
     fn outcomes(&self) -> String {
@@ -95,7 +95,7 @@ impl Page<'_> {
             let chart = boxes::chart(self.study, measure)?;
             Some(format!(
                 "<figure class=\"card\"><figcaption>{}</figcaption>\n{chart}</figure>\n",
-                escaped(measure.heading())
+                markup(measure.heading())
             ))
         };
         let charts: String = Measure::ALL.into_iter().filter_map(chart).collect();
@@ -107,12 +107,12 @@ impl Page<'_> {
     fn ways(&self) -> String {
         let overlay = |(id, overlay): (usize, &Overlay)| {
             let note =
-                overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", escaped(n)));
-            format!("<h3>{}</h3>\n{note}{}", escaped(&overlay.title), overlay::panels(overlay, id))
+                overlay.note.as_deref().map_or_else(String::new, |n| format!("<p class=\"sub\">{}</p>\n", markup(n)));
+            format!("<h3>{}</h3>\n{note}{}", markup(&overlay.title), overlay::panels(overlay, id))
         };
         let overlays: String = self.overlays.iter().enumerate().map(overlay).collect();
         let picture = |picture: &Picture| {
-            let title = escaped(&picture.title);
+            let title = markup(&picture.title);
             format!(
                 "<figure class=\"picture\"><img alt=\"{title}: workspace and configuration space\" src=\"{}\"/></figure>\n",
                 image_source(&picture.svg)
@@ -121,7 +121,7 @@ impl Page<'_> {
         let pictures = self.pictures.iter().enumerate().map(|(i, p)| {
             // The first is open: a page of closed covers looks empty.
             if i == 0 {
-                format!("<h3>{}</h3>\n{}", escaped(&p.title), picture(p))
+                format!("<h3>{}</h3>\n{}", markup(&p.title), picture(p))
             } else {
                 folded(&p.title, &picture(p))
             }
@@ -137,7 +137,7 @@ impl Page<'_> {
             [only] => table(&only.table()),
             _ => self.study.tables().into_iter().map(|(heading, rows)| folded(&heading, &table(&rows))).collect(),
         };
-        let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", escaped(&note))).collect();
+        let notes: String = self.study.footnotes().map(|note| format!("<li>{}</li>\n", markup(&note))).collect();
         if !notes.is_empty() {
             html += &format!("<h3>Notes</h3>\n<ul class=\"notes\">\n{notes}</ul>\n");
         }
@@ -160,15 +160,15 @@ const HOW: &str = "Every run is a whole one, from the problem to a certificate o
 /// A paragraph whose first sentence, what the others bear out, stands out.
 fn paragraph(text: &str) -> String {
     match text.split_once(". ") {
-        Some((claim, figures)) => format!("<p><strong>{}.</strong> {}</p>\n", escaped(claim), escaped(figures)),
-        None => format!("<p>{}</p>\n", escaped(text)),
+        Some((claim, figures)) => format!("<p><strong>{}.</strong> {}</p>\n", markup(claim), markup(figures)),
+        None => format!("<p>{}</p>\n", markup(text)),
     }
 }
 
 fn section(heading: &str, content: &str) -> String {
-    format!("<section>\n<h2>{}</h2>\n{content}</section>\n", escaped(heading))
+    format!("<section>\n<h2>{}</h2>\n{content}</section>\n", markup(heading))
 }
 
 fn folded(heading: &str, content: &str) -> String {
-    format!("<details><summary>{}</summary>\n{content}</details>\n", escaped(heading))
+    format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
 }

@@ -1,8 +1,9 @@
 //! What became of each problem: bars, and a matrix.
 
-use super::markup::{escaped, margin, number, shortened};
+use super::markup::{margin, number, shortened};
 use crate::model::Status;
 use crate::report::{Comparison, Measure, Row, Study};
+use crate::text::markup;
 
 /// Width of the bars, pixels.
 const WIDTH: f64 = 460.0;
@@ -29,12 +30,12 @@ pub fn bars(study: &Study) -> String {
             "<text class=\"name\" x=\"{}\" y=\"{}\">{}</text>\n",
             number(from - 10.0),
             number(top + 15.0),
-            escaped(&shortened(name))
+            markup(&shortened(name))
         );
         let mut left = from;
         for (outcome, count) in Status::ALL.into_iter().zip(study.tally(i)).filter(|(_, count)| *count > 0) {
             let width = (WIDTH - from) * count as f64 / all;
-            svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", escaped(name));
+            svg += &format!("<g class=\"o-{outcome}\"><title>{}: {count} {outcome}</title>", markup(name));
             svg += &format!(
                 "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"20\"/>",
                 number(left),
@@ -76,17 +77,16 @@ fn sign(outcome: Status) -> char {
 
 /// A line a problem, a column a planner: sign and figure, and colours that add nothing to them.
 pub fn matrix(study: &Study) -> String {
-    let head: String =
-        study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", escaped(name))).collect();
+    let head: String = study.planners().iter().map(|name| format!("<th scope=\"col\">{}</th>", markup(name))).collect();
     let cell = |c: &Comparison, row: &Row| {
         let outcome = row.outcome;
         let figure = c.over_optimum(row).map_or_else(String::new, |v| format!(" {}", Measure::OverOptimum.shown(v)));
-        let title = row.reason.as_deref().map_or_else(String::new, |r| format!(" title=\"{}\"", escaped(r)));
+        let title = row.reason.as_deref().map_or_else(String::new, |r| format!(" title=\"{}\"", markup(r)));
         format!("<td class=\"o-{outcome}\"{title}><span class=\"sign\">{}</span>{figure}</td>", sign(outcome))
     };
     let line = |c: &Comparison| {
         let cells: String = c.rows.iter().map(|row| cell(c, row)).collect();
-        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", escaped(&c.problem))
+        format!("<tr><th scope=\"row\">{}</th>{cells}</tr>\n", markup(&c.problem))
     };
     let lines: String = study.comparisons.iter().map(line).collect();
     format!(

@@ -1,6 +1,7 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::{escaped, number};
+use super::markup::number;
+use crate::text::{counted, markup};
 
 /// A point `(q1, q2)`.
 pub type Spot = [f64; 2];
@@ -34,11 +35,14 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
         let whole = number(SIZE + EDGE);
-        html +=
-            &format!("<figure><figcaption>{} <small>{}</small></figcaption>\n", escaped(name), counted(paths.len()));
+        html += &format!(
+            "<figure><figcaption>{} <small>{}</small></figcaption>\n",
+            markup(name),
+            counted(paths.len(), "path")
+        );
         html += &format!(
             "<svg class=\"chart\" viewBox=\"0 0 {whole} {whole}\" role=\"img\" aria-label=\"Paths of {}\">\n",
-            escaped(name)
+            markup(name)
         );
         html += &format!("<svg x=\"{EDGE}\" y=\"0\" width=\"{SIZE}\" height=\"{SIZE}\">\n");
         html += &format!("<rect class=\"free\" width=\"{SIZE}\" height=\"{SIZE}\"/>\n");
@@ -56,19 +60,15 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         html += &format!(
             "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
             number(SIZE + 14.0),
-            escaped(&overlay.joints[0])
+            markup(&overlay.joints[0])
         );
         html += &format!(
             "<text class=\"tick\" transform=\"translate(13 {}) rotate(-90)\">{}</text>\n</svg></figure>\n",
             number(SIZE / 2.0),
-            escaped(&overlay.joints[1])
+            markup(&overlay.joints[1])
         );
     }
     html + "</div>\n"
-}
-
-fn counted(n: usize) -> String {
-    format!("{n} path{}", if n == 1 { "" } else { "s" })
 }
 
 /// The lines as one path's data; on circles with those copies that reach into the window.

@@ -2,11 +2,10 @@
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
-use crate::geometry::{Ordered, Point};
+use crate::geometry::{OpenList, Point};
 use crate::interrupt::checkpoint;
 use crate::space::{Measure, Segment};
-use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::HashMap;
 use std::f64::consts::TAU;
 
 /// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
@@ -83,7 +82,7 @@ pub(super) struct Search<'s, 'a> {
     roots: Vec<Root>,
     /// Least cost so far of the end of a portal: by slice, by its value of joint 2, and by whether joint 1 grows from there.
     least: HashMap<(i64, u64, bool), f64>,
-    open: BinaryHeap<Reverse<(Ordered, usize)>>,
+    open: OpenList<usize>,
     entries: Vec<Entry>,
 }
 
@@ -97,7 +96,7 @@ impl<'s, 'a> Search<'s, 'a> {
             range: [f64::NEG_INFINITY, f64::INFINITY],
             roots: Vec::new(),
             least: HashMap::new(),
-            open: BinaryHeap::new(),
+            open: OpenList::default(),
             entries: Vec::new(),
         }
     }
@@ -111,7 +110,7 @@ impl<'s, 'a> Search<'s, 'a> {
             self.spread(0, strip, 0.0);
         }
         let mut taken = 0;
-        while let Some(Reverse((Ordered(bound), number))) = self.open.pop() {
+        while let Some((bound, number)) = self.open.pop() {
             checkpoint();
             taken += 1;
             if taken > MOST_ENTRIES {
@@ -140,7 +139,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     fn push(&mut self, bound: f64, entry: Entry) {
         if bound < self.limit {
-            self.open.push(Reverse((Ordered(bound), self.entries.len())));
+            self.open.push(bound, self.entries.len());
             self.entries.push(entry);
         }
     }

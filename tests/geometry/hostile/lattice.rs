@@ -1,8 +1,9 @@
 //! Points and segments on integer lattices. All differences of coordinates are a few units, the unit being one in the
 //! last place of the coordinates or far above it.
 
-use super::dice::Dice;
 use super::exact::{self, Pair};
+use crate::common::dice;
+use crate::common::dice::Dice;
 use cplan::geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
 use std::cmp::Ordering;
 
@@ -65,15 +66,15 @@ fn chain(dice: &mut Dice) -> [Pair<i128>; 4] {
     let most = dice.below(51 - bits).min(20);
     let steps = 1 + dice.below(1 << most) as i64;
     let reach = 1_i64 << bits;
-    let direction = (dice.within(reach), dice.within(reach));
-    let corner = (dice.within(1 << 50), dice.within(1 << 50));
+    let direction = (dice.about_zero(reach), dice.about_zero(reach));
+    let corner = (dice.about_zero(1 << 50), dice.about_zero(1 << 50));
     [0; 4].map(|_| {
         let along = match dice.below(8) {
             0 => 0,
             1 => steps,
-            _ => dice.within(steps),
+            _ => dice.about_zero(steps),
         };
-        let nudge = if dice.below(2) == 0 { (0, 0) } else { (dice.within(1), dice.within(1)) };
+        let nudge = if dice.below(2) == 0 { (0, 0) } else { (dice.about_zero(1), dice.about_zero(1)) };
         let at = |c: i64, d: i64, n: i64| i128::from(c) + i128::from(along) * i128::from(d) + i128::from(n);
         (at(corner.0, direction.0, nudge.0), at(corner.1, direction.1, nudge.1))
     })
@@ -81,7 +82,7 @@ fn chain(dice: &mut Dice) -> [Pair<i128>; 4] {
 
 #[test]
 fn two_million_triples_along_lines() {
-    let mut dice = Dice::new(1);
+    let mut dice = dice(1);
     let mut collinear = 0;
     for round in 0..1_000_000 {
         let chain = chain(&mut dice);
@@ -99,7 +100,7 @@ fn two_million_triples_along_lines() {
 
 #[test]
 fn a_million_pairs_of_segments_along_lines() {
-    let mut dice = Dice::new(2);
+    let mut dice = dice(2);
     let mut counts = [0; 3];
     for round in 0..1_000_000 {
         let mut ends = chain(&mut dice);

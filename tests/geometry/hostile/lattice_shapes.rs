@@ -1,10 +1,11 @@
 //! Convex polygons that touch at a vertex, along a side and from inside, or miss that by a unit.
 
-use super::dice::Dice;
 use super::exact::Pair;
 use super::lattice::{PLACES, point};
 use super::shapes::{Shape, has_area};
 use crate::common::convex;
+use crate::common::dice;
+use crate::common::dice::Dice;
 use cplan::geometry::{Location, Point, point_penetration, polygon_test, segments_cross, segments_meet};
 
 type Corner = Pair<i128>;
@@ -17,7 +18,7 @@ fn shape(corners: &[Corner], unit: f64) -> Shape<i128> {
 /// Even coordinates, so that points halfway are on the lattice too.
 fn corners(dice: &mut Dice, reach: i64, at: Corner) -> Vec<Corner> {
     let count = 1 + dice.below(7);
-    let mut even = |x: i128| x + 2 * i128::from(dice.within(reach));
+    let mut even = |x: i128| x + 2 * i128::from(dice.about_zero(reach));
     (0..count).map(|_| (even(at.0), even(at.1))).collect()
 }
 
@@ -52,7 +53,7 @@ fn touching(dice: &mut Dice, first: &[Corner], reach: i64) -> Vec<Corner> {
 
 #[test]
 fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
-    let mut dice = Dice::new(3);
+    let mut dice = dice(3);
     let mut met = 0;
     for round in 0..100_000 {
         let (corner, unit) = PLACES[round % PLACES.len()];
@@ -64,11 +65,11 @@ fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
         let first = corners(&mut dice, reach, at);
         let mut second = touching(&mut dice, &first, reach);
         if dice.below(2) == 0 {
-            second = moved(&second, (i128::from(dice.within(1)), i128::from(dice.within(1))));
+            second = moved(&second, (i128::from(dice.about_zero(1)), i128::from(dice.about_zero(1))));
         }
         if dice.below(4) == 0 {
             let i = dice.below(second.len() as u64) as usize;
-            second[i].0 += i128::from(dice.within(1));
+            second[i].0 += i128::from(dice.about_zero(1));
         }
         met += usize::from(shape(&first, unit).check(&shape(&second, unit)));
     }
@@ -78,7 +79,7 @@ fn a_hundred_thousand_pairs_that_touch_or_miss_by_a_unit() {
 /// Corners in the middle of sides: the convex hull says the same.
 #[test]
 fn straight_corners_change_nothing() {
-    let mut dice = Dice::new(4);
+    let mut dice = dice(4);
     for round in 0..25_000 {
         let unit = PLACES[round % PLACES.len()].1;
         let first = corners(&mut dice, 3, (0, 0));

@@ -1,8 +1,9 @@
 //! Coordinates of all magnitudes from 1e-12 to 1e12 in one figure, against rational numbers.
 
-use super::dice::Dice;
 use super::exact::{self, Pair};
 use super::shapes::Shape;
+use crate::common::dice;
+use crate::common::dice::Dice;
 use cplan::geometry::{Orientation, Point, orientation, point_on_segment, segments_cross, segments_meet};
 use num_rational::BigRational;
 use std::cmp::Ordering;
@@ -16,19 +17,19 @@ fn exact(p: Point) -> Exact {
 
 /// Zero, or anything of magnitude 1e-`most` to 1e`most`.
 fn coordinate(dice: &mut Dice, most: i32) -> f64 {
-    let magnitude = 10_f64.powi(dice.within(most.into()) as i32);
+    let magnitude = 10_f64.powi(dice.about_zero(most.into()) as i32);
     let digits = match dice.below(4) {
         0 => 0.0,
         1 => 1.0,
         2 => dice.below(10) as f64,
-        _ => dice.below(1 << 53) as f64 / (1_u64 << 53) as f64,
+        _ => dice.below(1_u64 << 53) as f64 / (1_u64 << 53) as f64,
     };
     if dice.below(2) == 0 { digits * magnitude } else { -digits * magnitude }
 }
 
 /// Moved by up to two units in the last place; zero stays zero, whose neighbours are not of these magnitudes.
 fn nudged(dice: &mut Dice, x: f64) -> f64 {
-    let steps = dice.within(2);
+    let steps = dice.about_zero(2);
     let step = |x: f64, _| {
         if x == 0.0 {
             x
@@ -46,7 +47,7 @@ fn beside(dice: &mut Dice, a: Point, b: Point, most: i32) -> Point {
     let t = match dice.below(4) {
         0 => 0.0,
         1 => 1.0,
-        2 => dice.within(4) as f64,
+        2 => dice.about_zero(4) as f64,
         _ => coordinate(dice, 12.min(most)),
     };
     // Where the terms cancel, a coordinate can be less than all others; such a one is 0.
@@ -76,7 +77,7 @@ fn points<const N: usize>(dice: &mut Dice, most: i32) -> [Point; N] {
 
 /// Compares on as many draws of four points.
 fn attack_segments(seed: u64, draws: usize, most: i32) {
-    let mut dice = Dice::new(seed);
+    let mut dice = dice(seed);
     let mut counts = [0; 3];
     for _ in 0..draws {
         let points: [Point; 4] = points(&mut dice, most);
@@ -99,7 +100,7 @@ fn attack_segments(seed: u64, draws: usize, most: i32) {
 
 /// Compares on as many pairs of polygons.
 fn attack_shapes(seed: u64, draws: usize, most: i32) {
-    let mut dice = Dice::new(seed);
+    let mut dice = dice(seed);
     let mut met = 0;
     for _ in 0..draws {
         // Two polygons from one cloud, so that corners and sides are shared.

@@ -1,8 +1,8 @@
 //! Which lists of corners are simple polygons, and what their convex pieces are: on lattices, where corners meet sides.
 
-use super::dice::Dice;
 use super::exact::{self, Pair};
 use super::lattice::{PLACES, point};
+use crate::common::dice;
 use cplan::geometry::{Point, SimplePolygon};
 use std::cmp::Ordering;
 
@@ -40,7 +40,7 @@ fn interiors_apart(a: &[Corner], b: &[Corner]) -> bool {
 
 #[test]
 fn a_hundred_thousand_lists_of_corners() {
-    let mut dice = Dice::new(9);
+    let mut dice = dice(9);
     let mut simple = 0;
     for round in 0..100_000 {
         let (corner, unit) = PLACES[round % PLACES.len()];

@@ -1,6 +1,7 @@
 //! Every shipped world and task, and random ones.
 
 use super::{Certified, Extremes, FORMATS, Run, files, judge, root};
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use cplan::input::load_scene;
 use cplan::model::Joint;
@@ -138,7 +139,7 @@ fn what_a_controller_plays_in_random_worlds_is_certified() {
     let robot = root("robots/planar_2r.urdf");
     let (mut found, mut blended) = (0, 0);
     for seed in seeds {
-        let mut dice = Dice(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
+        let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1);
         let text = world(&mut dice);
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("world.toml");
@@ -161,19 +162,6 @@ fn what_a_controller_plays_in_random_worlds_is_certified() {
         !usual() || found * 3 > count && blended > 0,
         "{found} of {count} worlds have a path, {blended} with blends"
     );
-}
-
-/// Random numbers, the same in every run (Steele, Lea, Flood, *Fast splittable pseudorandom number generators*, 2014).
-struct Dice(u64);
-
-impl Dice {
-    fn within(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        from + (to - from) * ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 /// Discs around the arm, and limits from weak to strong.

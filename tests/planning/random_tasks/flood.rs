@@ -2,8 +2,9 @@
 //! are blocked all over part.
 
 use super::replay::World;
-use super::task::{self, Dice};
+use super::task;
 use crate::common::asked;
+use crate::common::dice::Dice;
 use crate::common::random::{seeds, times};
 use cplan::engine::{Effort, Method, Verdict, solve};
 use cplan::model::{Grip, Holding, Payload, Scene, Task};
@@ -114,7 +115,7 @@ fn payloads_are_judged_like_a_flood_fill() {
             let draw = || {
                 Configuration::from_fn(|k, _| {
                     let (lower, upper) = topology.ranges[k].domain();
-                    dice.range(lower, upper)
+                    dice.within(lower, upper)
                 })
             };
             std::iter::repeat_with(draw).take(100).find(|q| world.room([q[0], q[1]])[0] > 1e-6)

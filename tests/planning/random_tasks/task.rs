@@ -1,5 +1,6 @@
 //! Random tasks, the same for the same seed: all kinds of arms, rigid and level payloads, objects on supports.
 
+use crate::common::dice::Dice;
 use crate::common::{all_kinds, clutter, convex, disc, obstacle, placed};
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{Action, Goal, Heights, Holding, Item, Object, Shape, Step, Task, Workspace, Wrist};
@@ -7,36 +8,11 @@ use cplan::space::Configuration;
 use nalgebra::Isometry2;
 use std::f64::consts::{PI, TAU};
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Dice(u64);
-
-impl Dice {
-    pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x2545_F491_4F6C_DD1D))
-    }
-
-    pub fn range(&mut self, from: f64, to: f64) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        from + (to - from) * (((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    pub fn below(&mut self, n: usize) -> usize {
-        self.range(0.0, n as f64) as usize
-    }
-
-    pub fn chance(&mut self, share: f64) -> bool {
-        self.range(0.0, 1.0) < share
-    }
-}
-
 pub fn task(seed: u64) -> Task {
-    let mut dice = Dice::new(seed);
+    let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let kinds = all_kinds();
     let arm = kinds[dice.below(kinds.len())].clone();
-    let clearance = if dice.chance(0.2) { dice.range(0.0, 0.01) } else { 0.0 };
+    let clearance = if dice.chance(0.2) { dice.within(0.0, 0.01) } else { 0.0 };
     let mut obstacles: Vec<_> = Vec::new();
     for (i, piece) in clutter().into_iter().enumerate() {
         if dice.chance(0.4) {
@@ -51,7 +27,7 @@ pub fn task(seed: u64) -> Task {
         let mut draw = || {
             Configuration::from_fn(|k, _| {
                 let (lower, upper) = topology.ranges[k].domain();
-                dice.range(lower, upper)
+                dice.within(lower, upper)
             })
         };
         let tries: Vec<Configuration> = (0..20).map(|_| draw()).collect();
@@ -71,7 +47,7 @@ pub fn task(seed: u64) -> Task {
             heights: if dice.chance(0.3) { Heights { lower: 0.0, upper: 0.05 } } else { Heights::ALL },
             lift: if dice.chance(0.3) { 0.2 } else { 0.0 },
             holding,
-            at: Isometry2::new(at.coords, dice.range(-PI, PI)),
+            at: Isometry2::new(at.coords, dice.within(-PI, PI)),
         });
     }
     // Somewhere free among all objects.
@@ -100,19 +76,19 @@ pub fn task(seed: u64) -> Task {
             number,
             cycle: 1,
             place: String::new(),
-            speed: if dice.chance(0.2) { dice.range(0.2, 1.0) } else { 1.0 },
-            dwell: if dice.chance(0.5) { dice.range(0.0, 0.5) } else { 0.0 },
+            speed: if dice.chance(0.2) { dice.within(0.2, 1.0) } else { 1.0 },
+            dwell: if dice.chance(0.5) { dice.within(0.0, 0.5) } else { 0.0 },
         }
     };
     let mut pairs = Vec::new();
     for object in 0..count {
         let mut supports = || (0..fixed).filter(|_| dice.chance(0.2)).collect::<Vec<usize>>();
         let (from, onto) = (supports(), supports());
-        let grasp = if dice.chance(0.3) { Point::new(dice.range(-0.05, 0.05), 0.02) } else { Point::origin() };
+        let grasp = if dice.chance(0.3) { Point::new(dice.within(-0.05, 0.05), 0.02) } else { Point::origin() };
         let pick = step(Action::Pick { object, grasp, supports: from }, &mut dice);
         let at = task.arm.tip_at(anywhere(&mut dice));
         let level = task.objects[object].holding == Holding::Level;
-        let angle = (level && dice.chance(0.5)).then(|| dice.range(-TAU, TAU));
+        let angle = (level && dice.chance(0.5)).then(|| dice.within(-TAU, TAU));
         let place = step(Action::Place { at, angle, supports: onto }, &mut dice);
         pairs.push([pick, place]);
     }
@@ -135,12 +111,12 @@ pub fn task(seed: u64) -> Task {
 }
 
 fn outline(dice: &mut Dice) -> (Shape, Vec<Convex>) {
-    let size = dice.range(0.01, 0.05);
+    let size = dice.within(0.01, 0.05);
     if dice.chance(0.3) {
-        let center = Point::new(dice.range(-0.02, 0.02), 0.0);
+        let center = Point::new(dice.within(-0.02, 0.02), 0.0);
         return (Shape::Circle { center, radius: size }, vec![disc(center, size)]);
     }
-    let spot = |dice: &mut Dice| Point::from(Vector::new(dice.range(-2.0, 2.0), dice.range(-1.0, 1.0)) * size);
+    let spot = |dice: &mut Dice| Point::from(Vector::new(dice.within(-2.0, 2.0), dice.within(-1.0, 1.0)) * size);
     let corners = hull(&(0..5).map(|_| spot(dice)).collect::<Vec<_>>());
     (Shape::Polygon(corners.clone()), vec![convex(corners, 0.0)])
 }

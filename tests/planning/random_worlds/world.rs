@@ -1,6 +1,7 @@
 //! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
 
 use super::oracle::Oracle;
+use crate::common::dice::Dice;
 use crate::common::{asked, convex, disc, placed, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
@@ -13,40 +14,11 @@ use std::f64::consts::{PI, TAU};
 /// The four kinds of arms.
 pub const KINDS: [&str; 4] = ["RR", "RP", "PR", "PP"];
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-pub struct Dice(u64);
-
-impl Dice {
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    pub fn range(&mut self, from: f64, to: f64) -> f64 {
-        from + (to - from) * ((self.next() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    fn chance(&mut self, share: f64) -> bool {
-        self.range(0.0, 1.0) < share
-    }
-}
-
 /// The world of a seed, of the given kind of arm; none if the draw has no two free configurations.
 pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
     let arm = arm(&mut dice, kind);
-    let clearance = if dice.chance(0.25) { dice.range(0.0, 0.05) } else { 0.0 };
+    let clearance = if dice.chance(0.25) { dice.within(0.0, 0.05) } else { 0.0 };
     let reach = arm.reach() + 0.3;
     let count = 5 + dice.below(26);
     let mut obstacles = Vec::new();
@@ -67,24 +39,24 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
             let sign = if dice.chance(0.3) { -1.0 } else { 1.0 };
             let axis = match dice.below(4) {
                 0 | 1 => JointRange::Circle,
-                2 => JointRange::Interval { lower: dice.range(-3.0, -0.5), upper: dice.range(0.5, 3.0) },
-                _ => JointRange::Interval { lower: dice.range(-2.0 * PI, -PI), upper: dice.range(PI, 1.5 * PI) },
+                2 => JointRange::Interval { lower: dice.within(-3.0, -0.5), upper: dice.within(0.5, 3.0) },
+                _ => JointRange::Interval { lower: dice.within(-2.0 * PI, -PI), upper: dice.within(PI, 1.5 * PI) },
             };
             (JointType::Revolute { sign }, axis)
         } else {
-            let angle = if dice.chance(0.3) { dice.below(4) as f64 * PI / 2.0 } else { dice.range(-PI, PI) };
+            let angle = if dice.chance(0.3) { dice.below(4) as f64 * PI / 2.0 } else { dice.within(-PI, PI) };
             let direction = Vector::new(angle.cos(), angle.sin());
-            let axis = JointRange::Interval { lower: dice.range(-0.9, 0.1), upper: dice.range(0.3, 1.2) };
+            let axis = JointRange::Interval { lower: dice.within(-0.9, 0.1), upper: dice.within(0.3, 1.2) };
             (JointType::Prismatic { direction }, axis)
         };
         Joint { name: which.to_string(), joint_type: motion, range: axis, velocity: 1.0, acceleration: 1.0, jerk: None }
     };
     let mut letters = kind.chars();
     let joints = [letters.next().unwrap_or('R'), letters.next().unwrap_or('R')].map(&mut joint);
-    let length = dice.range(0.3, 1.0);
-    let offset = Vector::new(length, if dice.chance(0.5) { 0.0 } else { dice.range(-0.2, 0.2) });
+    let length = dice.within(0.3, 1.0);
+    let offset = Vector::new(length, if dice.chance(0.5) { 0.0 } else { dice.within(-0.2, 0.2) });
     let links = [link(dice, "first", length), link(dice, "second", length)];
-    let base = if dice.chance(0.5) { Point::origin() } else { Point::new(dice.range(-1.0, 1.0), 0.3) };
+    let base = if dice.chance(0.5) { Point::origin() } else { Point::new(dice.within(-1.0, 1.0), 0.3) };
     Arm {
         name: "random".into(),
         joints,
@@ -103,7 +75,7 @@ fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64, radius: f64) -> Convex {
 
 /// A bar, a hammer, a hook, an offset plate, a capsule, a wire, or next to nothing.
 fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
-    let width = dice.range(0.01, 0.08);
+    let width = dice.within(0.01, 0.08);
     let shapes = match dice.below(7) {
         0 | 1 => vec![rectangle(0.0, length, -width, width, 0.0)],
         2 => vec![
@@ -123,7 +95,7 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
             vec![disc(Point::new(length, 0.0), radius)]
         }
     };
-    let lower = dice.range(0.0, 0.2);
+    let lower = dice.within(0.0, 0.2);
     let parts = shapes
         .into_iter()
         .map(|shape| Part { shape, heights: Heights { lower, upper: lower + 0.1 }, body: name.into() })
@@ -133,12 +105,12 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
 
 /// One obstacle, or several that touch.
 fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
-    let (angle, radius) = (dice.range(-PI, PI), reach * dice.range(0.02, 1.0).sqrt());
+    let (angle, radius) = (dice.within(-PI, PI), reach * dice.within(0.02, 1.0).sqrt());
     let center = base + Vector::new(angle.cos(), angle.sin()) * radius;
-    let size = dice.range(0.02, 0.3);
+    let size = dice.within(0.02, 0.3);
     let polygon = |dice: &mut Dice, center: Point| {
         let n = 3 + dice.below(5);
-        let (turn, flat) = (dice.range(0.0, TAU), dice.range(0.2, 1.0));
+        let (turn, flat) = (dice.within(0.0, TAU), dice.within(0.2, 1.0));
         let corner = |k| {
             let t = turn + TAU * k as f64 / n as f64;
             center + Vector::new(size * t.cos(), size * flat * t.sin())
@@ -149,19 +121,19 @@ fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
         0..=2 => vec![polygon(dice, center)],
         3 => vec![disc(center, size / 2.0)],
         4 => {
-            let t = dice.range(0.0, TAU);
+            let t = dice.within(0.0, TAU);
             vec![wall(center, center + Vector::new(t.cos(), t.sin()) * 3.0 * size)]
         }
         5 => vec![disc(center, 0.0)],
         6 => {
             // A bent wall.
-            let mut corner = || center + Vector::new(dice.range(-size, size), dice.range(-size, size));
+            let mut corner = || center + Vector::new(dice.within(-size, size), dice.within(-size, size));
             let points: Vec<Point> = (0..4).map(|_| corner()).collect();
             points.windows(2).map(|w| wall(w[0], w[1])).collect()
         }
         7 => {
             // Two walls that leave a passage.
-            let gap = dice.range(0.0, 0.15);
+            let gap = dice.within(0.0, 0.15);
             let [x, y] = [center.x, center.y];
             vec![
                 rectangle(x, x + size, y + gap, y + gap + size, 0.0),
@@ -205,7 +177,7 @@ fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
             match dice.below(40) {
                 0 => lower,
                 1 => upper,
-                _ => dice.range(lower, upper),
+                _ => dice.within(lower, upper),
             }
         });
         if oracle.room(q) <= 1e-9 {
@@ -220,7 +192,7 @@ fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
     let mut q = found?;
     if let Some(mut far) = blocked.filter(|_| dice.chance(0.3)) {
         // Bisect towards the obstacle, to a room of 1e-2 down to 1e-6.
-        let near = 10_f64.powf(dice.range(-6.0, -2.0));
+        let near = 10_f64.powf(dice.within(-6.0, -2.0));
         for _ in 0..60 {
             let middle = (q + far) / 2.0;
             if oracle.room(middle) > near { q = middle } else { far = middle }

@@ -1,8 +1,9 @@
 //! Every diagnostic has help: files with slips of the pen, by the hundred, through the program.
 
 use super::{Done, FREE, Place, shipped};
+use crate::common::dice;
 use crate::common::random::times;
-use crate::common::slips::{Dice, slipped};
+use crate::common::slips::slipped;
 use serde_json::Value;
 
 /// What has no line because it is not there.
@@ -44,7 +45,7 @@ fn is_answered(done: &Done, text: &str) -> bool {
 /// So many slips in a text, each answered by `run`; both answers must have come up.
 fn every_slip_is_answered(stream: u64, usual: u64, text: &str, run: impl Fn(&str) -> Done) {
     assert_eq!(run(text).code, 0, "{}", run(text).stdout);
-    let mut dice = Dice::new(stream);
+    let mut dice = dice(stream);
     let errors = (0..times(usual)).filter(|_| {
         let text = slipped(&mut dice, text);
         is_answered(&run(&text), &text)

@@ -1,6 +1,7 @@
 //! How many boxes a proof takes in random worlds, through the program's own result.
 
 use super::{Place, shipped};
+use crate::common::dice::Dice;
 use crate::common::random::seeds;
 use serde_json::Value;
 use std::fmt::Write;
@@ -8,26 +9,10 @@ use std::fmt::Write;
 /// Boxes of a proof at most.
 const MOST: usize = 10_000;
 
-/// Numbers in `[0, 1)` from a seed (SplitMix64).
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-}
-
 /// A world of discs, triangles and thin walls around the arm, start and goal far apart. Walls and slim triangles are what
 /// proofs by slabs take the most boxes for.
 fn world(seed: u64) -> String {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let goal = dice.within(1.2, 2.6);
     let mut world = format!("[start]\njoints = [{:?}, 0.2]\n[goal]\njoints = [{goal:?}, -0.3]\n", -goal);
     for _ in 0..dice.within(3.0, 14.0) as usize {
@@ -35,7 +20,7 @@ fn world(seed: u64) -> String {
         let [x, y] = [distance * angle.cos(), distance * angle.sin()];
         let mut near = |by: f64| [x + dice.within(-by, by), y + dice.within(-by, by)];
         let (a, b, c) = (near(0.4), near(0.4), near(0.1));
-        let _ = match (dice.roll() * 3.0) as u32 {
+        let _ = match dice.within(0.0, 3.0) as u32 {
             0 => writeln!(
                 world,
                 "[[obstacle]]\ncircle = {{ center = [{x:?}, {y:?}], radius = {:?} }}",

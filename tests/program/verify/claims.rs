@@ -1,5 +1,6 @@
 //! Results in which one thing is false: everything that is judged is found, whatever it is changed to.
 
+use crate::common::dice::Dice;
 use crate::common::random;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -201,17 +202,17 @@ fn is_judged(pointer: &str) -> bool {
 }
 
 /// Something else in its place: a clearance is a bound, so that only more than there is is false.
-fn changed(value: &Value, pointer: &str, dice: &mut impl FnMut() -> f64) -> Value {
+fn changed(value: &Value, pointer: &str, dice: &mut Dice) -> Value {
     match value {
         Value::Bool(value) => json!(!value),
         Value::String(text) => json!(format!("{text}x")),
         Value::Number(number) if number.is_u64() && !pointer.ends_with("length") => {
-            json!(number.as_u64().unwrap() + 1 + (dice() * 3.0) as u64)
+            json!(number.as_u64().unwrap() + 1 + dice.below(3_u64))
         }
         Value::Number(number) => {
             let value = number.as_f64().unwrap();
-            let by = 10f64.powf(-3.0 * dice()) * (1.0 + value.abs());
-            let up = pointer.ends_with("clearance") || dice() < 0.5;
+            let by = 10f64.powf(dice.within(-3.0, 0.0)) * (1.0 + value.abs());
+            let up = pointer.ends_with("clearance") || dice.chance(0.5);
             json!(if up { value + by + 0.05 * f64::from(u8::from(pointer.ends_with("clearance"))) } else { value - by })
         }
         other => other.clone(),
@@ -231,16 +232,9 @@ fn any_judged_claim_that_is_changed_is_found() {
         })
         .collect();
     for seed in random::seeds(36) {
-        let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x1234_5678_9abc_def1);
-        let mut dice = || {
-            // Xorshift (Marsaglia 2003).
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let k = (dice() * cases.len() as f64) as usize;
-        let pointer = &judged[k][(dice() * judged[k].len() as f64) as usize];
+        let mut dice = Dice::new(seed);
+        let k = dice.below(cases.len());
+        let pointer = &judged[k][dice.below(judged[k].len())];
         let mut result = cases[k].result.clone();
         let place = result.pointer_mut(pointer).unwrap();
         let other = changed(place, pointer, &mut dice);

@@ -1,6 +1,8 @@
 //! Shortest paths among random disjoint polygons: cplan's triangulation and visibility graph beside polyanya's mesh. The
 //! polygons and queries are written to a file, for peers in other languages.
 
+#[path = "../../../../tests/common/dice.rs"]
+mod dice;
 #[path = "../../../../tests/common/roadmap.rs"]
 #[allow(dead_code, reason = "only the random polygons are needed here")]
 mod polygons;
@@ -11,9 +13,10 @@ use cplan::cspace::Regions;
 use cplan::geometry::Point;
 use cplan::planner::{Proposal, Planner, Query, Visibility};
 use cplan::space::Configuration;
+use dice::Dice;
 use glam::{Vec2, vec2};
 use polyanya::{Mesh, Triangulation};
-use polygons::{Random, star_crowd};
+use polygons::star_crowd;
 use serde_json::{Value, json};
 
 /// How many queries are asked of each map.
@@ -21,7 +24,7 @@ const QUERIES: usize = 32;
 
 /// Pairs of free places anywhere in the window.
 fn queries(regions: &Regions) -> Vec<[Configuration; 2]> {
-    let mut random = Random(7);
+    let mut random = Dice::new(7);
     let free = |q: &Configuration| regions.free.iter().any(|polygon| polygon.contains(Point::from(*q)));
     let mut place = || loop {
         let [x, y] = regions.window.map(|(low, high)| random.within(low, high));
@@ -69,7 +72,7 @@ fn cplan_length(
 }
 
 pub fn run(corners: usize, rounds: usize, file: &str) -> Result<Value> {
-    let regions = star_crowd(&mut Random(1), corners / 10);
+    let regions = star_crowd(&mut Dice::new(1), corners / 10);
     let queries = queries(&regions);
     let mut times = Rounds::default();
     let (mut ours, mut theirs, mut arcs) = (Vec::new(), [Vec::new(), Vec::new()], 0);
