@@ -33,7 +33,7 @@ pub enum PlanError {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refutation<'a> {
     /// Of a motion: boxes of configurations that collide separate start and goals.
-    JointType(&'a CheckedProof),
+    Motion(&'a CheckedProof),
     /// Of a task: a step that cannot be done, nor can the task in any other way.
     Step(&'a FailedStep),
 }
@@ -54,7 +54,7 @@ pub struct Plan {
 #[derive(Debug, Clone)]
 pub(crate) enum Made {
     /// A single motion.
-    JointType(Box<MotionPlan>),
+    Motion(Box<MotionPlan>),
     /// A sequence of them.
     Task(Box<TaskPlan>),
 }
@@ -88,11 +88,11 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let made = match problem.asked() {
-        Asked::JointType(motion) => {
+        Asked::Motion(motion) => {
             let plan = plan_motion(problem, motion, options, &mut clock, progress)?;
-            Made::JointType(Box::new(plan))
+            Made::Motion(Box::new(plan))
         }
-        Asked::Task(task, _) => Made::Task(Box::new(plan_steps(problem, task, options, &mut clock, progress)?)),
+        Asked::Task(asked) => Made::Task(Box::new(plan_steps(problem, &asked.0, options, &mut clock, progress)?)),
     };
     Ok(Plan { problem: problem.clone(), options: *options, made, clock })
 }
@@ -175,9 +175,9 @@ impl Plan {
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>, &str> {
         let unknown = |reason: Option<&'static str>| reason.unwrap_or_default();
         match &self.made {
-            Made::JointType(plan) => match (&plan.answer.verdict, &plan.report.trajectory) {
+            Made::Motion(plan) => match (&plan.answer.verdict, &plan.report.trajectory) {
                 (Verdict::Found(_), Some(trajectory)) => Outcome::Found(trajectory),
-                (Verdict::Infeasible(proof), _) => Outcome::Infeasible(Refutation::JointType(proof)),
+                (Verdict::Infeasible(proof), _) => Outcome::Infeasible(Refutation::Motion(proof)),
                 (Verdict::Unknown(why), _) => Outcome::Unknown(why),
                 (Verdict::Found(_), None) => Outcome::Unknown(unknown(None)),
             },
@@ -193,7 +193,7 @@ impl Plan {
     #[must_use]
     pub fn status(&self) -> Status {
         match &self.made {
-            Made::JointType(plan) => plan.answer.verdict.status(),
+            Made::Motion(plan) => plan.answer.verdict.status(),
             Made::Task(plan) => plan.answer.verdict.status(),
         }
     }
@@ -202,7 +202,7 @@ impl Plan {
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
         match &self.made {
-            Made::JointType(plan) => plan.report.trajectory.as_ref(),
+            Made::Motion(plan) => plan.report.trajectory.as_ref(),
             Made::Task(plan) => plan.report.trajectory(),
         }
     }
@@ -228,7 +228,7 @@ impl Plan {
     /// Verdict, bound, path, trace and figures of a single motion.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionPlan> {
-        if let Made::JointType(plan) = &self.made { Some(plan) } else { None }
+        if let Made::Motion(plan) = &self.made { Some(plan) } else { None }
     }
 
     /// Steps, events and figures of a task.
@@ -245,7 +245,7 @@ impl Plan {
     #[must_use]
     pub fn to_json(&self) -> String {
         match &self.made {
-            Made::JointType(plan) => plan.report.json(),
+            Made::Motion(plan) => plan.report.json(),
             Made::Task(plan) => plan.report.json(),
         }
     }

@@ -34,9 +34,9 @@ pub enum ProblemError {
 #[derive(Debug)]
 pub(crate) enum Asked {
     /// A single motion.
-    JointType(MotionProblem),
+    Motion(MotionProblem),
     /// The steps of a task. The arm, empty-handed, among obstacles and objects where they lie at first, is for pictures.
-    Task(Task, Scene),
+    Task(Box<(Task, Scene)>),
 }
 
 impl Problem {
@@ -102,21 +102,21 @@ impl Problem {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         match &*self.what {
-            Asked::JointType(motion) => motion.scene(),
-            Asked::Task(_, scene) => scene,
+            Asked::Motion(motion) => motion.scene(),
+            Asked::Task(asked) => &asked.1,
         }
     }
 
     /// The motion, if it is a single one.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
-        if let Asked::JointType(motion) = &*self.what { Some(motion) } else { None }
+        if let Asked::Motion(motion) = &*self.what { Some(motion) } else { None }
     }
 
     /// The task, if it is one.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
-        if let Asked::Task(task, _) = &*self.what { Some(task) } else { None }
+        if let Asked::Task(asked) = &*self.what { Some(&asked.0) } else { None }
     }
 
     /// How the robot was read.
@@ -138,13 +138,13 @@ impl Problem {
 
 impl From<Loaded> for Problem {
     fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(Asked::JointType(problem), robot, notes)
+        Self::read(Asked::Motion(problem), robot, notes)
     }
 }
 
 impl From<LoadedTask> for Problem {
     fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        Self::read(Asked::Task(task, scene), robot, notes)
+        Self::read(Asked::Task(Box::new((task, scene))), robot, notes)
     }
 }
 
@@ -153,6 +153,6 @@ impl From<MotionProblem> for Problem {
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(Asked::JointType(motion), robot, Vec::new())
+        Self::read(Asked::Motion(motion), robot, Vec::new())
     }
 }

@@ -61,7 +61,7 @@ impl Plan {
     /// A picture that cannot be made of pixels.
     pub fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
         match (format, self.made()) {
-            (FileFormat::Result(format), Made::JointType(plan)) => Ok(format.bytes(&plan.report)),
+            (FileFormat::Result(format), Made::Motion(plan)) => Ok(format.bytes(&plan.report)),
             (FileFormat::Result(format), Made::Task(plan)) => Ok(plan.report.bytes(format)),
             (FileFormat::Picture(format), _) => self.drawn(format).map(Some),
         }

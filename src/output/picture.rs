@@ -110,7 +110,7 @@ impl Drawn for ArmPicture<'_> {
 impl Drawn for Plan {
     fn svg(&self) -> String {
         match self.made() {
-            Made::JointType(plan) => {
+            Made::Motion(plan) => {
                 let contours = contours(plan.problem.scene());
                 with_picture(plan, &contours, draw::svg)
             }
@@ -120,7 +120,7 @@ impl Drawn for Plan {
 
     fn view(&self) -> View {
         match self.made() {
-            Made::JointType(plan) => self.view_among(&contours(plan.problem.scene())),
+            Made::Motion(plan) => self.view_among(&contours(plan.problem.scene())),
             Made::Task(_) => self.view_among(&[]),
         }
     }
@@ -148,7 +148,7 @@ impl Plan {
     pub(crate) fn view_among(&self, contours: &[CObstacle]) -> View {
         let ending = Some(self.status());
         match self.made() {
-            Made::JointType(plan) => {
+            Made::Motion(plan) => {
                 let (facts, trajectory) = (facts(plan, self.options()), plan.report.trajectory.as_ref());
                 with_picture(plan, contours, |picture| View::of_picture(picture, ending, facts, trajectory))
             }

@@ -55,7 +55,7 @@ impl Plan {
     #[must_use]
     pub(crate) fn summary_with(&self, files: &[String], after: &[(&'static str, Duration)]) -> String {
         let mut lines = match self.made() {
-            Made::JointType(plan) => motion_lines(self, plan),
+            Made::Motion(plan) => motion_lines(self, plan),
             Made::Task(plan) => task_summary::lines(self, plan),
         };
         lines.extend(files.iter().map(|file| ("file", file.clone())));

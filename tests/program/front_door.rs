@@ -91,7 +91,7 @@ fn an_outcome_is_one_of_three() {
     let Outcome::Found(motion) = found.outcome() else { panic!("shelf has a path") };
     assert!(motion.duration() > 1.0 && found.trajectory() == Some(motion));
     let closed = plan(&load("workspaces/singular_closed.toml"), &Options::default()).unwrap();
-    let Outcome::Infeasible(Refutation::JointType(proof)) = closed.outcome() else { panic!("it is closed") };
+    let Outcome::Infeasible(Refutation::Motion(proof)) = closed.outcome() else { panic!("it is closed") };
     assert!(!proof.stuck().is_empty() && closed.trajectory().is_none());
     // One attempt at eight cells shows nothing, and a wave proves nothing; the judge may.
     let coarse = Options {
@@ -182,7 +182,7 @@ fn predicates_and_differences_in_code() {
     };
     let (mut apart, mut together) = (0, 0);
     for (i, j) in (0..15).flat_map(|i| (0..15).map(move |j| (i, j))) {
-        let (x, y, half) = (0.21 * f64::from(i) - 1.45, 0.19 * f64::from(j) - 1.33, 0.1 + 0.02 * f64::from(i + j));
+        let (x, y, half) = (0.21 * f64::from(i) - 1.45, 0.19 * f64::from(j) - 1.33, 0.1037 + 0.0203 * f64::from(i + j));
         let (a, b) = (square(0.0, 0.0, 0.5), square(x, y, half));
         let depth = 0.5 + half - x.abs().max(y.abs());
         let meet = depth > 0.0;

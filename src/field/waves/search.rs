@@ -170,12 +170,15 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
     }
 }
 
+/// A cell that waits, by estimate; of equals by [`Ties`].
+type Waiting = (Reverse<Ordered>, Reverse<u64>, usize, [u32; 2]);
+
 /// The list of cells that wait to be expanded.
 enum Open {
     Queue(VecDeque<(usize, Cost)>),
     Stack(Vec<(usize, Cost)>),
-    /// By estimate; of equals by [`Ties`]. With how many have been put there.
-    Least(OpenList<(Reverse<Ordered>, Reverse<u64>, usize, [u32; 2])>, Ties, u64),
+    /// The least first. With how many have been put there.
+    Least(OpenList<Waiting>, Ties, u64),
 }
 
 impl Open {
