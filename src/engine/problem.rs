@@ -34,7 +34,7 @@ pub enum ProblemError {
 #[derive(Debug)]
 pub(crate) enum Asked {
     /// A single motion.
-    Motion(MotionProblem),
+    Motion(Box<MotionProblem>),
     /// The steps of a task. The arm, empty-handed, among obstacles and objects where they lie at first, is for pictures.
     Task(Box<(Task, Scene)>),
 }
@@ -138,7 +138,7 @@ impl Problem {
 
 impl From<Loaded> for Problem {
     fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(Asked::Motion(problem), robot, notes)
+        Self::read(Asked::Motion(Box::new(problem)), robot, notes)
     }
 }
 
@@ -153,6 +153,6 @@ impl From<MotionProblem> for Problem {
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(Asked::Motion(motion), robot, Vec::new())
+        Self::read(Asked::Motion(Box::new(motion)), robot, Vec::new())
     }
 }
