@@ -1,6 +1,6 @@
 //! Planners, paths and searches by name on the command line, so that help and shells can list them.
 
-use crate::engine::Method;
+use crate::engine::{GridSpace, Method};
 use crate::planner::{GridSearch, PathKind};
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
@@ -54,6 +54,20 @@ impl ValueEnum for GridSearch {
             GridSearch::DepthFirst => "Depth first, until the start is met: some path",
             GridSearch::Dijkstra => "Least cost first, where a diagonal move counts for 1.414 straight ones",
             GridSearch::AStar => "The same cost, led by the distance from the start",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
+    }
+}
+
+impl ValueEnum for GridSpace {
+    fn value_variants<'a>() -> &'a [Self] {
+        &GridSpace::ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            GridSpace::Rows => "By exact slices: cells that are wholly free first, then cells whose centres are",
+            GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
         };
         Some(PossibleValue::new(self.name()).help(help))
     }

@@ -2,7 +2,7 @@
 
 use super::args::number_in;
 use super::field_args::FieldArgs;
-use crate::engine::{CELLS, Criterion, LEVELS, MOST_MARGIN, Method, Options, Planner};
+use crate::engine::{CELLS, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use crate::field::Neighborhood;
 use crate::model::Preference;
 use crate::planner::{FieldPlanner, GridSearch, PathKind};
@@ -96,6 +96,10 @@ pub struct PathArgs {
     /// (planner wavefront). wave and bfs count moves; dijkstra and astar take a diagonal one for 1.414. [default: 4]
     #[arg(long, value_name = "N", value_parser = neighbors())]
     pub neighbors: Option<Neighborhood>,
+    /// How the grid's cells are decided (planners wavefront, harmonic): by exact slices, or by sampled collision checks, which
+    /// prove nothing. Paths are certified either way. [default: rows]
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub space: Option<GridSpace>,
 }
 
 /// All options of planners.
@@ -143,11 +147,14 @@ impl PlannerArgs {
             Planner::Shortest { criterion, gap, .. } | Planner::Visibility { criterion, gap, .. } => {
                 (*criterion, *gap) = (self.optimum.criterion(), self.optimum.gap);
             }
-            Planner::Wavefront { search, neighborhood, .. } => {
+            Planner::Wavefront { search, neighborhood, space, .. } => {
                 *search = self.path.search.unwrap_or(*search);
                 *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
+                *space = self.path.space.unwrap_or(*space);
             }
-            Planner::Harmonic { field, .. } => *field = chosen,
+            Planner::Harmonic { field, space, .. } => {
+                (*field, *space) = (chosen, self.path.space.unwrap_or(*space));
+            }
             Planner::Trapezoid { .. } | Planner::First | Planner::Subdivision { .. } => {}
         }
         let planner = self.effort.put_into(planner);
@@ -191,6 +198,9 @@ impl PathArgs {
         let asked = if self.search.is_some() { "--search" } else { "--neighbors" };
         if (self.search.is_some() || self.neighbors.is_some()) && planner != Method::Wavefront {
             return Err(format!("{asked} needs --planner wavefront: {planner} searches no grid from cell to cell"));
+        }
+        if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
+            return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
             return Err(format!("--path own is not for {planner}: its path is taut as it is"));

@@ -1,7 +1,9 @@
-//! The grid by collision tests: parry2d's verdict at every centre. Slow, and an oracle that shares no code with slices.
+//! The grid by collision tests: parry2d's verdict at every centre. Slow, and an oracle that shares no code with slices; for field
+//! planners the space that others plan in. All that speaks parry2d's language is here.
 
 use super::{Grid, Proves};
 use crate::geometry::{self, Convex};
+use crate::interrupt::checkpoint;
 use crate::model::Scene;
 use crate::space::Configuration;
 use parry2d_f64::math::{Pose, Rotation, Vector};
@@ -25,6 +27,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         blocked: vec![false; cells[0] * cells[1]],
     };
     for index in 0..grid.blocked.len() {
+        checkpoint();
         let q: Configuration = grid.center(index);
         let poses = scene.arm().poses(q).map(|p| pose(&p));
         grid.blocked[index] = pairs.iter().any(|(link, part, piece)| part.meets(&poses[*link], piece));

@@ -51,7 +51,7 @@ pub mod task;
 mod thinned;
 
 pub use bound::{Bound, bound, percent};
-pub use effort::Effort;
+pub use effort::{Effort, GridSpace};
 pub use ladder::solve;
 pub use method::Method;
 pub use motion_plan::MotionPlan;

@@ -2,7 +2,7 @@
 
 use super::field_report::field_report;
 use super::options::{Options, Planner};
-use super::{Answer, Bound, Verdict};
+use super::{Answer, Bound, GridSpace, Verdict};
 use crate::check::CertifiedCurve;
 use crate::model::MotionProblem;
 use crate::motion::{Optimum, Report, SearchUsed, Timed, TimingError};
@@ -58,6 +58,7 @@ impl MotionPlan {
         report.size = answer.run.size.figures().into_iter().collect();
         report.field = options.planner.field().map(|field| field_report(field, &answer));
         report.search = SearchUsed::of(&options.planner);
+        report.space = options.planner.space().and_then(GridSpace::told);
         Ok(Self { problem, answer, curve: followed, report })
     }
 }

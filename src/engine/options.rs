@@ -1,6 +1,6 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
-use super::{Effort, Method};
+use super::{Effort, GridSpace, Method};
 use crate::field::Neighborhood;
 use crate::model::{Arm, Joint, Scene};
 use crate::motion::{Drive, SHORTEST_INTERVAL};
@@ -69,6 +69,8 @@ pub enum Planner {
         search: GridSearch,
         /// Where a move can lead.
         neighborhood: Neighborhood,
+        /// How cells are decided.
+        space: GridSpace,
         /// Which path through the cells.
         path: PathKind,
         /// First number of cells along each axis; doubled where needed.
@@ -78,6 +80,8 @@ pub enum Planner {
     Harmonic {
         /// The field in place of the harmonic one; its path is the one that stands beside it here.
         field: Option<FieldPlanner>,
+        /// How cells are decided.
+        space: GridSpace,
         /// Which path: the curve along the gradient, or that one pulled taut.
         path: PathKind,
         /// First number of cells along each axis; none for 256 x 256 cells' worth of cells that are square in joint space.
@@ -103,7 +107,7 @@ impl Planner {
     /// The planner of that name, as it is if nothing else is said.
     #[must_use]
     pub fn named(method: Method) -> Self {
-        let Effort { margin, cells, gap, .. } = Effort::default();
+        let Effort { margin, cells, gap, space, .. } = Effort::default();
         let (criterion, path) = (Criterion::Euclidean, method.path_kind());
         match method {
             Method::Shortest => Planner::Shortest { criterion, gap, margin },
@@ -112,9 +116,9 @@ impl Planner {
             Method::Trapezoid => Planner::Trapezoid { path, margin },
             Method::Wavefront => {
                 let Wavefront { search, neighborhood, .. } = Wavefront::default();
-                Planner::Wavefront { search, neighborhood, path, cells }
+                Planner::Wavefront { search, neighborhood, space, path, cells }
             }
-            Method::Harmonic => Planner::Harmonic { field: None, path, cells: None },
+            Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
             Method::Subdivision => Planner::Subdivision { path },
         }
     }
@@ -167,6 +171,15 @@ impl Planner {
         }
     }
 
+    /// How the cells of its grid are decided, if it has one.
+    #[must_use]
+    pub fn space(&self) -> Option<GridSpace> {
+        match *self {
+            Planner::Wavefront { space, .. } | Planner::Harmonic { space, .. } => Some(space),
+            _ => None,
+        }
+    }
+
     /// The field that it follows, if it is not the plain harmonic one.
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
@@ -184,13 +197,13 @@ impl Planner {
                 Effort { metric: criterion.metric(arm), gap, margin, ..base }
             }
             Planner::Trapezoid { margin, .. } => Effort { margin, path, ..base },
-            Planner::Wavefront { search, neighborhood, cells, .. } => {
+            Planner::Wavefront { search, neighborhood, space, cells, .. } => {
                 let wavefront = Wavefront { search, neighborhood, ..Wavefront::default() };
-                Effort { cells, path, wavefront, ..base }
+                Effort { cells, space, path, wavefront, ..base }
             }
-            Planner::Harmonic { field, cells, .. } => match cells {
-                Some(cells) => Effort { field, path, cells, square: false, ..base },
-                None => Effort { field, path, ..base },
+            Planner::Harmonic { field, space, cells, .. } => match cells {
+                Some(cells) => Effort { field, space, path, cells, square: false, ..base },
+                None => Effort { field, space, path, ..base },
             },
             Planner::Subdivision { .. } => Effort { path, ..base },
         }

@@ -5,7 +5,7 @@ use super::motion_plan::MotionPlan;
 use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::task::{FailedStep, Manner, MessageError, TaskAnswer, TaskReport, plan as plan_task};
-use super::{Verdict, percent, solve};
+use super::{GridSpace, Verdict, percent, solve};
 use crate::check::CheckedProof;
 use crate::model::{MotionProblem, Outcome, RobotJoints, Status, Task};
 use crate::motion::{AccelerationJump, Report, SearchUsed, TimingError, Trajectory};
@@ -153,6 +153,7 @@ fn plan_steps(
     let robot = named(problem, options, report.joints()).into_owned();
     report.name_joints(&robot, &task, &answer, options.accelerations)?;
     report.search = SearchUsed::of(&options.planner);
+    report.space = options.planner.space().and_then(GridSpace::told);
     report.assumed = problem.robot().assumed.clone();
     clock.stage("report");
     if options.timings {

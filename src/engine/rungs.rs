@@ -1,11 +1,16 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
-use super::{Effort, Space};
-use crate::cspace::{Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, traced_pairs};
+use super::{Effort, GridSpace, Space};
+use crate::cspace::{
+    Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, sampled_grid, traced_pairs,
+};
 use crate::model::MotionProblem;
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
 const MOST_CELLS: usize = 2048;
+
+/// Collision checks of a sampled grid: some ten seconds' worth. Where it takes more there is no finer one.
+const MOST_CHECKS: usize = 1 << 30;
 
 /// Share of a slide's stroke that counts as reach where that is smaller, as for a gantry's slender tool.
 const STROKE: f64 = 0.1;
@@ -57,8 +62,8 @@ const MOST_OBLONG: f64 = 16.0;
 /// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
 /// the time that wholly free cells of the same passage take.
 pub(super) fn cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Grid> {
-    let n = side(effort, level)?;
-    Some(grid(problem, level, [n, n]))
+    let n = side(problem, effort, level)?;
+    Some(grid(problem, effort, level, [n, n]))
 }
 
 /// As many cells for a field, square ones if wanted.
@@ -66,11 +71,11 @@ pub(super) fn field_cells(problem: &MotionProblem, effort: &Effort, level: usize
     if !effort.square {
         return cells(problem, effort, level);
     }
-    let n = side(effort, level)? as f64;
+    let n = side(problem, effort, level)? as f64;
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
-    Some(grid(problem, level, shape))
+    Some(grid(problem, effort, level, shape))
 }
 
 /// The same with the workspace's preferences.
@@ -79,13 +84,21 @@ pub(super) fn zoned_cells(problem: &MotionProblem, effort: &Effort, level: usize
 }
 
 /// Cells along an axis, if the level is not too fine.
-fn side(effort: &Effort, level: usize) -> Option<usize> {
-    let n = effort.cells << (level / 2);
-    (level < 2 || n <= MOST_CELLS).then_some(n)
+fn side(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<usize> {
+    let (finer, checks) = match effort.space {
+        GridSpace::Rows => (level / 2, 0),
+        GridSpace::Sampled => (level, problem.scene().pairs().len()),
+    };
+    let n = effort.cells << finer;
+    (finer == 0 || n <= MOST_CELLS && n * n <= MOST_CHECKS / checks.max(1)).then_some(n)
 }
 
-fn grid(problem: &MotionProblem, level: usize, shape: [usize; 2]) -> Grid {
-    let build = if level.is_multiple_of(2) { outer_grid } else { grid_from_slices };
+fn grid(problem: &MotionProblem, effort: &Effort, level: usize, shape: [usize; 2]) -> Grid {
+    let build = match effort.space {
+        GridSpace::Sampled => sampled_grid,
+        GridSpace::Rows if level.is_multiple_of(2) => outer_grid,
+        GridSpace::Rows => grid_from_slices,
+    };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
 }
 

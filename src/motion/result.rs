@@ -73,6 +73,9 @@ pub struct Report {
     /// How the wavefront planner searched its grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchUsed>,
+    /// How the cells of the planner's grid were decided, if not by exact rows: `sampled`, which proves nothing by itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub space: Option<&'static str>,
     /// Names of the joints in the URDF, base to tip.
     pub joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
@@ -188,6 +191,7 @@ impl Report {
             length: None,
             optimum: None,
             search: None,
+            space: None,
             certified: false,
             clearance: None,
             closest: None,

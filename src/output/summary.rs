@@ -100,7 +100,9 @@ fn outcome(plan: &MotionPlan, options: &Options) -> Vec<Line> {
     let MotionPlan { problem, answer, curve, report } = plan;
     let mut lines = Vec::new();
     let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
-    lines.push(("planner", format!("{}{}: {}", answer.method, search.unwrap_or_default(), answer.run.size)));
+    let space = report.space.map(|space| format!(", {space}"));
+    let how = search.unwrap_or_default() + &space.unwrap_or_default();
+    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
     lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
     lines.extend(field(options));
     match &answer.verdict {

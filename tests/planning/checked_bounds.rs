@@ -5,7 +5,7 @@ use crate::common::{self, Benchmark, shipped_feasible};
 use crate::random_worlds::world;
 use cplan::check::{CheckedBound, LengthClaim};
 use cplan::engine::{Bound, Effort, Method, Verdict, solve};
-use cplan::model::Problem;
+use cplan::model::MotionProblem;
 use cplan::search::{Motions, claimed_length};
 use cplan::space::Metric;
 use std::time::Instant;
@@ -14,26 +14,26 @@ use std::time::Instant;
 const UNSEEN: f64 = 1e-6;
 
 /// The length of a path that is about the shortest.
-fn length(problem: &Problem, metric: Metric) -> Option<f64> {
+fn length(problem: &MotionProblem, metric: Metric) -> Option<f64> {
     let effort = Effort { metric, ..Effort::default() };
     let answer = solve(problem, Method::Shortest, &effort, &mut |_| {});
     let Bound { upper, .. } = answer.bound?;
     matches!(answer.verdict, Verdict::Found(_)).then_some(upper)
 }
 
-fn claim(problem: &Problem, metric: Metric, limit: f64) -> LengthClaim {
+fn claim(problem: &MotionProblem, metric: Metric, limit: f64) -> LengthClaim {
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let motions = Motions { scene, start, goals, clearance: scene.workspace().clearance, metric };
     claimed_length(&motions, limit, 1e-4, &[])
 }
 
-fn checked(problem: &Problem, metric: Metric, claim: &LengthClaim) -> CheckedBound {
+fn checked(problem: &MotionProblem, metric: Metric, claim: &LengthClaim) -> CheckedBound {
     let scene = problem.scene();
     claim.checked(scene, problem.start(), problem.goals(), scene.workspace().clearance, metric)
 }
 
 /// Which of these the judge sees less closed for, in words; panics where it sees more than is true.
-fn unseen(problems: impl IntoIterator<Item = (String, Problem, Metric)>) -> (usize, Vec<String>) {
+fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Metric)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
     for (name, problem, metric) in problems {
         let Some(limit) = length(&problem, metric) else { continue };
@@ -41,7 +41,7 @@ fn unseen(problems: impl IntoIterator<Item = (String, Problem, Metric)>) -> (usi
         let clock = Instant::now();
         let found = checked(&problem, metric, &claim);
         let share = 1.0 - found.length() / claim.length;
-        let words = format!("{name}: {} rows, less by {share:.1e}, {} refused", claim.rows.len(), found.refused());
+        let words = format!("{name}: {} slices, less by {share:.1e}, {} refused", claim.slices.len(), found.refused());
         println!("{words}, {:.0?}", clock.elapsed());
         count += 1;
         unseen.extend((share > UNSEEN).then_some(words));
@@ -83,7 +83,7 @@ fn false_evidence_proves_nothing() {
     assert!(claim.length > 6.42 && straight < 3.0, "{} {straight}", claim.length);
     let shifted = |by: f64| {
         let mut claim = claim.clone();
-        claim.rows.iter_mut().flat_map(|row| &mut row.walls).for_each(|wall| {
+        claim.slices.iter_mut().flat_map(|row| &mut row.walls).for_each(|wall| {
             wall.lower += by;
             wall.upper += by;
         });
@@ -94,11 +94,11 @@ fn false_evidence_proves_nothing() {
     assert!(shifted(1.0).refused() > 20 && shifted(1.0).length() < 6.0, "{:?}", shifted(1.0));
     let swapped = {
         let mut claim = claim.clone();
-        claim.rows.swap(3, 4);
+        claim.slices.swap(3, 4);
         checked(&problem, metric, &claim)
     };
     assert!(swapped.refused() > 0 && swapped.length() <= straight, "{swapped:?}");
-    let none = LengthClaim { rows: Vec::new(), ..claim.clone() };
+    let none = LengthClaim { slices: Vec::new(), ..claim.clone() };
     assert!(checked(&problem, metric, &none).length() <= straight);
     // Another scene, in which the way is open elsewhere.
     let other = common::problem(Benchmark::B);

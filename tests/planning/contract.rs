@@ -4,7 +4,7 @@
 //! intervals and circles take part; whether a path is free is judged by distances on the scene alone.
 
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
-use cplan::cspace::{Grid, Regions, ZonedGrid, outer_grid, regions};
+use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
 use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 type Plan = fn(&Scene, &Query) -> Run;
 
 /// Every planner, with every setting that changes what its paths look like.
-const PLANNERS: [(&str, Plan); 13] = [
+const PLANNERS: [(&str, Plan); 15] = [
     (Visibility::NAME, |scene, query| answered(&Visibility::default(), &polygons(scene, query), query)),
     ("visibility, weighted", |scene, query| {
         let metric = Metric::Weighted { weights: [1.0, 0.6] };
@@ -43,6 +43,10 @@ const PLANNERS: [(&str, Plan); 13] = [
         let (search, neighborhood) = (GridSearch::AStar, Neighborhood::Eight);
         answered(&Wavefront { search, neighborhood, path: PathKind::Own }, &cells(scene), query)
     }),
+    ("wavefront, sampled", |scene, query| {
+        answered(&Wavefront { path: PathKind::Own, ..Wavefront::default() }, &sampled(scene), query)
+    }),
+    ("harmonic, sampled", |scene, query| answered(&Harmonic { path: PathKind::Own }, &sampled(scene), query)),
     ("harmonic, cells", |scene, query| answered(&Harmonic { path: PathKind::Own }, &cells(scene), query)),
     ("harmonic, taut", |scene, query| answered(&Harmonic { path: PathKind::Taut }, &cells(scene), query)),
     ("oriented, relaxed", |scene, query| {
@@ -71,6 +75,12 @@ fn polygons(scene: &Scene, query: &Query) -> Regions {
 /// Cells whose slabs are narrower than the passages in the scenes here.
 fn cells(scene: &Scene) -> Grid {
     outer_grid(scene, [192, 192], 0.0)
+}
+
+/// As many cells by collision checks at their centres, among obstacles that are grown by what the arm moves within a cell.
+fn sampled(scene: &Scene) -> Grid {
+    let Proves::Outer { margin } = cells(scene).proves else { unreachable!("an outer grid") };
+    sampled_grid(scene, [192, 192], margin)
 }
 
 /// The run, which must not depend on anything but the input.

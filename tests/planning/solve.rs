@@ -1,7 +1,8 @@
 //! The benchmark problems whose answers are published, with every planner.
 
-use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene};
-use cplan::engine::{Answer, Effort, Method, Verdict, solve};
+use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene, shipped_feasible};
+use cplan::cspace::Proves;
+use cplan::engine::{Answer, Effort, GridSpace, Method, Space, Verdict, solve};
 use cplan::space::JointRange;
 
 fn answer(which: Benchmark, method: Method) -> Answer {
@@ -53,6 +54,48 @@ fn narrow_passages_are_found_by_subdivision() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
         assert!(length(which, Method::Subdivision) >= optimum - 1e-3);
     }
+}
+
+/// Grids by collision checks, which are proposals alone: what is found through them is certified, and they close nothing.
+#[test]
+fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
+    let effort = Effort { space: GridSpace::Sampled, ..Effort::default() };
+    for method in [Method::Wavefront, Method::Harmonic] {
+        for (which, optimum) in
+            [(Benchmark::A, Some(6.4229)), (Benchmark::B, Some(6.4281)), (Benchmark::Inf, None), (Benchmark::T, None)]
+        {
+            let answer = solve(&problem(which), method, &effort, &mut |_| {});
+            match (&answer.verdict, optimum) {
+                (Verdict::Found(path), Some(optimum)) => {
+                    assert!(path.clearance() > 0.0 && path.path().length() >= optimum - 1e-3, "{which:?} by {method}");
+                }
+                (Verdict::Infeasible(proof), None) => assert!(!proof.stuck().is_empty()),
+                (verdict, _) => panic!("{which:?} by {method}: {verdict:?}, {:?}", answer.history),
+            }
+            let Space::Grid(grid) = &answer.space else { panic!("{method} works on cells") };
+            assert_eq!(grid.proves, Proves::Sampled);
+        }
+    }
+}
+
+/// A cell that is free by its centre proves nothing: with a single look at coarse cells no world is said to have no way, and
+/// what is found is what the judge lets pass.
+#[test]
+fn coarse_samples_are_never_the_last_word() {
+    let effort = Effort { space: GridSpace::Sampled, cells: 16, levels: 1, ..Effort::default() };
+    let (mut found, mut unknown) = (0, 0);
+    for (name, problem) in shipped_feasible() {
+        match solve(&problem, Method::Wavefront, &effort, &mut |_| {}).verdict {
+            Verdict::Found(path) => {
+                found += 1;
+                let clearance = problem.scene().workspace().clearance;
+                assert!(path.clearance() > 0.0 && path.clearance() >= clearance, "{name}");
+            }
+            Verdict::Infeasible(_) => panic!("{name} has a way"),
+            Verdict::Unknown(_) => unknown += 1,
+        }
+    }
+    assert!(found > 0 && unknown > 0, "{found} found, {unknown} unknown");
 }
 
 #[test]

@@ -98,6 +98,7 @@ fn an_outcome_is_one_of_three() {
         planner: Planner::Wavefront {
             search: Default::default(),
             neighborhood: Default::default(),
+            space: Default::default(),
             path: cplan::planner::PathKind::Taut,
             cells: 8,
         },

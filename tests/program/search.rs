@@ -31,10 +31,34 @@ fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
 }
 
 #[test]
+fn sampled_grids_are_told_and_their_paths_certified() {
+    for planner in [
+        &["wavefront"][..],
+        &["wavefront", "--search", "astar"],
+        &["harmonic"],
+        &["harmonic", "--field", "oriented", "--epsilon", "0.1", "--direction", "0,1"],
+    ] {
+        let of = |space: &[&str]| {
+            let output = cplan(&[&["--cells", "128", "--json", "--quiet", "--planner"], planner, space].concat());
+            assert_eq!(output.status.code(), Some(0), "{planner:?} {space:?}");
+            serde_json::from_slice::<Value>(&output.stdout).expect("JSON")
+        };
+        let sampled = of(&["--space", "sampled"]);
+        assert_eq!((&sampled["space"], &sampled["certified"]), (&"sampled".into(), &true.into()));
+        assert!(sampled["clearance"].as_f64() > Some(0.0));
+        let rows = of(&["--space", "rows"]);
+        assert!(rows.get("space").is_none() && rows != sampled);
+        assert_eq!(rows, of(&[]));
+    }
+}
+
+#[test]
 fn searches_are_for_the_wavefront_and_have_their_names() {
     for (options, told) in [
         (&["--search", "astar"][..], "--search needs --planner wavefront"),
         (&["--planner", "harmonic", "--neighbors", "8"], "--neighbors needs --planner wavefront"),
+        (&["--space", "sampled"], "--space needs --planner wavefront or harmonic: shortest has no grid"),
+        (&["--planner", "harmonic", "--space", "guessed"], "[possible values: rows, sampled]"),
         (&["--planner", "wavefront", "--search", "best"], "wave, bfs, dfs, dijkstra, astar"),
         (&["--planner", "wavefront", "--neighbors", "6"], "possible values: 4, 8"),
     ] {

@@ -4,8 +4,8 @@ use crate::geometry::Point;
 use crate::space::{Configuration, JointRange, Measure, Segment, Topology};
 use std::f64::consts::TAU;
 
-/// A row with what was seen closed: gaps between walls, ascending, over one turn of a joint 2 on a circle.
-pub(super) struct HeldRow {
+/// A slice with what was seen closed: gaps between walls, ascending, over one turn of a joint 2 on a circle.
+pub(super) struct HeldSlice {
     pub q1: f64,
     gaps: Vec<Gap>,
     /// Across the strip after it.
@@ -21,8 +21,8 @@ pub(super) struct Gap {
     pub turns: [bool; 2],
 }
 
-impl HeldRow {
-    /// The row with these walls. On a circle they may lead across the seam.
+impl HeldSlice {
+    /// The slice with these walls. On a circle they may lead across the seam.
     pub fn new(topology: &Topology, q1: f64, walls: &[[f64; 2]]) -> Self {
         Self { q1, gaps: gaps(topology.ranges[1], walls), barriers: Vec::new() }
     }
@@ -34,7 +34,7 @@ impl HeldRow {
         !self.gaps.iter().any(|gap| holds(gap, value) || range.is_circle() && holds(gap, value + TAU))
     }
 
-    /// What the walls leave of goals at the row; all of them if they are elsewhere.
+    /// What the walls leave of goals at the slice; all of them if they are elsewhere.
     pub fn leaves(&self, topology: &Topology, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         if from[0] != to[0] || from[0] != self.q1 {
@@ -96,20 +96,20 @@ fn gaps(axis: JointRange, walls: &[[f64; 2]]) -> Vec<Gap> {
     gaps
 }
 
-/// A row on one turn of joint 1.
+/// A slice on one turn of joint 1.
 pub(super) struct CoverRow {
     pub q1: f64,
     /// Ascending.
     pub gaps: Vec<Gap>,
-    /// Number of the first of its gaps among those of all rows.
+    /// Number of the first of its gaps among those of all slices.
     pub first: usize,
 }
 
-/// All rows, barriers and goals that ways below a limit may come by.
+/// All slices, barriers and goals that ways below a limit may come by.
 pub(super) struct Cover {
     /// Ascending.
-    pub rows: Vec<CoverRow>,
-    /// Barriers across the strip before each row and after the last, ascending at both rows.
+    pub slices: Vec<CoverRow>,
+    /// Barriers across the strip before each slice and after the last, ascending at both slices.
     pub strips: Vec<Vec<[f64; 2]>>,
     pub goals: Vec<Segment>,
 }
@@ -124,7 +124,7 @@ pub(super) struct Cell {
 impl Cover {
     pub fn new(
         topology: &Topology,
-        rows: Vec<HeldRow>,
+        slices: Vec<HeldSlice>,
         measure: Measure,
         start: Configuration,
         goals: &[Segment],
@@ -140,19 +140,19 @@ impl Cover {
             // Walls and goals lead across a seam.
             (least - 1..=most + 1).map(|turn| turn as f64 * TAU).collect()
         };
-        let anchor = rows.first().map_or(0.0, |row| row.q1);
+        let anchor = slices.first().map_or(0.0, |slice| slice.q1);
         let by = turns(1, 0.0);
-        let count = rows.len();
+        let count = slices.len();
         let attached: Vec<Vec<[f64; 2]>> = (0..count)
             .map(|number| {
-                let next = &rows[(number + 1) % count];
+                let next = &slices[(number + 1) % count];
                 let axis = topology.ranges[1];
-                let mut barriers: Vec<[f64; 2]> = rows[number]
+                let mut barriers: Vec<[f64; 2]> = slices[number]
                     .barriers
                     .iter()
                     .copied()
                     // Ways turn at the ends of walls alone.
-                    .filter(|[before, after]| rows[number].is_closed(axis, *before) && next.is_closed(axis, *after))
+                    .filter(|[before, after]| slices[number].is_closed(axis, *before) && next.is_closed(axis, *after))
                     .flat_map(|ends| by.iter().map(move |by| ends.map(|q2| q2 + by)))
                     .collect();
                 barriers.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -162,17 +162,17 @@ impl Cover {
             })
             .collect();
         let (low, high) = (start[1] - far[1], start[1] + far[1]);
-        let mut this = Self { rows: Vec::new(), strips: vec![Vec::new()], goals: Vec::new() };
+        let mut this = Self { slices: Vec::new(), strips: vec![Vec::new()], goals: Vec::new() };
         let mut first = 0;
         for turn in turns(0, anchor) {
-            for (row, barriers) in rows.iter().zip(&attached) {
+            for (slice, barriers) in slices.iter().zip(&attached) {
                 let copies = by
                     .iter()
-                    .flat_map(|by| row.gaps.iter().map(move |gap| Gap { ends: gap.ends.map(|q2| q2 + by), ..*gap }));
+                    .flat_map(|by| slice.gaps.iter().map(move |gap| Gap { ends: gap.ends.map(|q2| q2 + by), ..*gap }));
                 let mut gaps: Vec<Gap> = copies.filter(|gap| gap.ends[0] <= high && low <= gap.ends[1]).collect();
                 gaps.dedup();
                 let count = gaps.len();
-                this.rows.push(CoverRow { q1: row.q1 + turn, gaps, first });
+                this.slices.push(CoverRow { q1: slice.q1 + turn, gaps, first });
                 this.strips.push(barriers.clone());
                 first += count;
             }
@@ -192,9 +192,11 @@ impl Cover {
         this
     }
 
-    /// The values of joint 1 at the ends of a strip, infinite beyond all rows.
+    /// The values of joint 1 at the ends of a strip, infinite beyond all slices.
     pub fn ends(&self, strip: usize) -> [f64; 2] {
-        let at = |row: Option<usize>, none: f64| row.and_then(|row| self.rows.get(row)).map_or(none, |row| row.q1);
+        let at = |slice: Option<usize>, none: f64| {
+            slice.and_then(|slice| self.slices.get(slice)).map_or(none, |slice| slice.q1)
+        };
         [at(strip.checked_sub(1), f64::NEG_INFINITY), at(Some(strip), f64::INFINITY)]
     }
 

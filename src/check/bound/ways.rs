@@ -23,22 +23,22 @@ enum Stop {
 
 /// A lower bound on the length of the ways from `start` to any of the goals: that of the shortest, or `limit`, if that is less.
 pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, limit: f64) -> f64 {
-    let places: usize = cover.rows.last().map_or(0, |row| 2 * (row.first + row.gaps.len()));
+    let places: usize = cover.slices.last().map_or(0, |slice| 2 * (slice.first + slice.gaps.len()));
     let mut costs = vec![f64::INFINITY; places];
     let mut open = OpenList::default();
     let rest = |p: Point| cover.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min);
     let start = Point::from(start);
-    let begin = cover.rows.partition_point(|row| row.q1 < start.x);
-    let is_on_row = cover.rows.get(begin).is_some_and(|row| row.q1 == start.x);
+    let begin = cover.slices.partition_point(|slice| slice.q1 < start.x);
+    let is_on_row = cover.slices.get(begin).is_some_and(|slice| slice.q1 == start.x);
     let mut next = Some((start, 0.0, begin, is_on_row));
     let mut looked = 0;
     loop {
-        if let Some((at, cost, row, is_on_row)) = next {
+        if let Some((at, cost, slice, is_on_row)) = next {
             let mut see = |seen: Seen| match seen {
                 Seen::Goal(part) => open.push(cost + part.distance(measure, at.coords), Stop::Goal),
-                Seen::End(row, gap, end) => {
-                    let to = cover.rows[row].at(gap, end);
-                    let number = 2 * (cover.rows[row].first + gap) + end;
+                Seen::End(slice, gap, end) => {
+                    let to = cover.slices[slice].at(gap, end);
+                    let number = 2 * (cover.slices[slice].first + gap) + end;
                     let longer = cost + measure.norm(to - at);
                     if longer < costs[number] {
                         costs[number] = longer;
@@ -47,7 +47,7 @@ pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, li
                 }
             };
             let reach = (limit - cost) / measure.norm(Point::new(1.0, 0.0).coords);
-            [true, false].iter().for_each(|&ahead| look(cover, at, row, is_on_row, ahead, reach, &mut see));
+            [true, false].iter().for_each(|&ahead| look(cover, at, slice, is_on_row, ahead, reach, &mut see));
         }
         let Some((bound, stop)) = open.pop() else { return limit };
         looked += 1;
@@ -56,12 +56,12 @@ pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, li
         if bound >= limit || looked > MOST_PLACES {
             return bound.min(limit);
         }
-        let row = cover.rows.partition_point(|row| 2 * (row.first + row.gaps.len()) <= number);
-        let (gap, end) = (number / 2 - cover.rows[row].first, number % 2);
-        let at = cover.rows[row].at(gap, end);
+        let slice = cover.slices.partition_point(|slice| 2 * (slice.first + slice.gaps.len()) <= number);
+        let (gap, end) = (number / 2 - cover.slices[slice].first, number % 2);
+        let at = cover.slices[slice].at(gap, end);
         // It may have been reached by a shorter way since.
         let is_stale = bound > costs[number] + rest(at);
-        next = (!is_stale).then_some((at, costs[number], row, true));
+        next = (!is_stale).then_some((at, costs[number], slice, true));
     }
 }
 
@@ -69,17 +69,25 @@ pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, li
 enum Seen {
     /// Some of the goals.
     Goal(Segment),
-    /// A row, a gap of it, and which end of that.
+    /// A slice, a gap of it, and which end of that.
     End(usize, usize, usize),
 }
 
-/// All that is seen from a place on the way to one side, up to a distance along joint 1; `row` is its row or else the next one.
-fn look(cover: &Cover, from: Point, row: usize, is_on_row: bool, ahead: bool, reach: f64, see: &mut impl FnMut(Seen)) {
-    let mut strip = if ahead && is_on_row { row + 1 } else { row };
+/// All that is seen from a place on the way to one side, up to a distance along joint 1; `slice` is its slice or else the next one.
+fn look(
+    cover: &Cover,
+    from: Point,
+    slice: usize,
+    is_on_row: bool,
+    ahead: bool,
+    reach: f64,
+    see: &mut impl FnMut(Seen),
+) {
+    let mut strip = if ahead && is_on_row { slice + 1 } else { slice };
     let far_of =
-        |strip: usize| if ahead { Some(strip).filter(|k| *k < cover.rows.len()) } else { strip.checked_sub(1) };
-    // All rows together are as wide as ways may go, or the domain is.
-    if !cover.rows.is_empty() && (strip == 0 || strip == cover.rows.len()) {
+        |strip: usize| if ahead { Some(strip).filter(|k| *k < cover.slices.len()) } else { strip.checked_sub(1) };
+    // All slices together are as wide as ways may go, or the domain is.
+    if !cover.slices.is_empty() && (strip == 0 || strip == cover.slices.len()) {
         return;
     }
     let [near, beyond] = if ahead { [0, 1] } else { [1, 0] };
@@ -94,19 +102,19 @@ fn look(cover: &Cover, from: Point, row: usize, is_on_row: bool, ahead: bool, re
         // A cell is convex: all of it is seen.
         cover.goals.iter().filter_map(|goal| cover.within(goal, strip, &cell)).for_each(|part| see(Seen::Goal(part)));
         if is_on_row {
-            ends_within(cover, row, [lower, upper], see);
+            ends_within(cover, slice, [lower, upper], see);
         }
         if let Some(far) = far_of(strip) {
-            sight.push(slopes(from, cover.rows[far].q1, [cell.lower[beyond], cell.upper[beyond]], hair));
+            sight.push(slopes(from, cover.slices[far].q1, [cell.lower[beyond], cell.upper[beyond]], hair));
         }
     }
-    while let Some(row) = far_of(strip).filter(|_| !sight.is_empty()) {
-        let q1 = cover.rows[row].q1;
+    while let Some(slice) = far_of(strip).filter(|_| !sight.is_empty()) {
+        let q1 = cover.slices[slice].q1;
         if (q1 - from.x).abs() >= reach {
             return;
         }
-        sight = through(cover, from, row, &sight, hair, see);
-        strip = if ahead { row + 1 } else { row };
+        sight = through(cover, from, slice, &sight, hair, see);
+        strip = if ahead { slice + 1 } else { slice };
         let far = far_of(strip);
         let mut after = Vec::new();
         for cell in cover.cells(strip) {
@@ -115,7 +123,7 @@ fn look(cover: &Cover, from: Point, row: usize, is_on_row: bool, ahead: bool, re
                 goals_between(cover, from, strip, &cell, part, see);
                 let left = far.and_then(|far| {
                     let ends = [cell.lower[beyond], cell.upper[beyond]];
-                    common(part, slopes(from, cover.rows[far].q1, ends, hair))
+                    common(part, slopes(from, cover.slices[far].q1, ends, hair))
                 });
                 after.extend(left);
             }
@@ -124,27 +132,27 @@ fn look(cover: &Cover, from: Point, row: usize, is_on_row: bool, ahead: bool, re
     }
 }
 
-/// The ends of gaps of a row at which ways turn, between two values of joint 2.
-fn ends_within(cover: &Cover, row: usize, [lower, upper]: [f64; 2], see: &mut impl FnMut(Seen)) {
-    let gaps = &cover.rows[row].gaps;
+/// The ends of gaps of a slice at which ways turn, between two values of joint 2.
+fn ends_within(cover: &Cover, slice: usize, [lower, upper]: [f64; 2], see: &mut impl FnMut(Seen)) {
+    let gaps = &cover.slices[slice].gaps;
     let first = gaps.partition_point(|gap| gap.ends[1] < lower);
     for (number, gap) in gaps.iter().enumerate().skip(first).take_while(|(_, gap)| gap.ends[0] <= upper) {
         for end in (0..2).filter(|&end| gap.turns[end] && lower <= gap.ends[end] && gap.ends[end] <= upper) {
-            see(Seen::End(row, number, end));
+            see(Seen::End(slice, number, end));
         }
     }
 }
 
-/// What of some lines of sight passes the gaps of a row.
+/// What of some lines of sight passes the gaps of a slice.
 fn through(
     cover: &Cover,
     from: Point,
-    row: usize,
+    slice: usize,
     sight: &[[f64; 2]],
     hair: impl Fn(f64) -> f64 + Copy,
     see: &mut impl FnMut(Seen),
 ) -> Vec<[f64; 2]> {
-    let CoverRow { q1, gaps, .. } = &cover.rows[row];
+    let CoverRow { q1, gaps, .. } = &cover.slices[slice];
     let mut left = Vec::new();
     for part in sight {
         let least = from.y + part[0] * (q1 - from.x).abs();
@@ -159,7 +167,7 @@ fn through(
             for end in (0..2).filter(|&end| gap.turns[end]) {
                 let slope = (gap.ends[end] - from.y) / (q1 - from.x).abs();
                 if part[0] <= slope && slope <= part[1] {
-                    see(Seen::End(row, number, end));
+                    see(Seen::End(slice, number, end));
                 }
             }
         }
@@ -192,7 +200,7 @@ fn goals_between(
     }
 }
 
-/// The slopes of the lines from a place to values of joint 2 at a row, and a hair beyond.
+/// The slopes of the lines from a place to values of joint 2 at a slice, and a hair beyond.
 fn slopes(from: Point, q1: f64, [lower, upper]: [f64; 2], hair: impl Fn(f64) -> f64) -> [f64; 2] {
     let across = (q1 - from.x).abs();
     [(lower - hair(lower) - from.y) / across, (upper + hair(upper) - from.y) / across]

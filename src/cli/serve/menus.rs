@@ -5,7 +5,7 @@
 
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
-use crate::engine::{Effort, Method};
+use crate::engine::{Effort, GridSpace, Method};
 use crate::field::Neighborhood;
 use crate::planner::GridSearch;
 use clap::{Arg, Command, ValueEnum};
@@ -23,7 +23,7 @@ struct Choice {
     is_for: fn(Method) -> bool,
 }
 
-const CHOICES: [Choice; 6] = [
+const CHOICES: [Choice; 7] = [
     Choice {
         name: "gap",
         label: "proven within",
@@ -58,6 +58,13 @@ const CHOICES: [Choice; 6] = [
         label: "neighbours",
         numbers: &[],
         standard: |_| Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into()),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "space",
+        label: "cells by",
+        numbers: &[],
+        standard: |_| word(&GridSpace::default()),
         is_for: |_| true,
     },
 ];
@@ -119,9 +126,9 @@ mod tests {
         let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
         let optimum = pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]);
         assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum.clone(), optimum, Vec::new()));
-        let wavefront = pairs(&[("--cells", "256"), ("--path", "taut"), ("--search", "wave"), ("--neighbors", "4")]);
-        assert_eq!(of("wavefront"), wavefront);
-        assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own")]));
+        let search = [("--search", "wave"), ("--neighbors", "4"), ("--space", "rows")];
+        assert_eq!(of("wavefront"), pairs(&[&[("--cells", "256"), ("--path", "taut")][..], &search[..]].concat()));
+        assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own"), ("--space", "rows")]));
         assert_eq!(of("subdivision"), pairs(&[("--path", "taut")]));
     }
 

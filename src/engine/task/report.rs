@@ -47,6 +47,9 @@ pub struct TaskReport {
     /// How the wavefront planner searched its grids.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchUsed>,
+    /// How the cells of the planner's grids were decided, if not by exact rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub space: Option<&'static str>,
     /// Names of the joints in the URDF, base to tip.
     joints: [String; 2],
     /// Unit of each joint's value: `rad` or `m`.
@@ -140,6 +143,7 @@ impl TaskReport {
             name: Some(task.workspace.name.clone()).filter(|name| !name.is_empty()),
             planner: planner.to_owned(),
             search: None,
+            space: None,
             joints: joints.each_ref().map(|joint| joint.name.clone()),
             units: joints.each_ref().map(Joint::unit),
             assumed: AssumedLimits::default(),

@@ -89,8 +89,8 @@ pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> 
 #[must_use]
 pub fn claimed_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> LengthClaim {
     let (length, mut ways) = bounded(motions, limit, gap, slices);
-    let (slices, goal_rows) = (ways.strips.claim(motions.scene), ways.strips.claim_at_goals(motions.goals));
-    LengthClaim { slices, goal_rows, length }
+    let (slices, goal_slices) = (ways.strips.claim(motions.scene), ways.strips.claim_at_goals(motions.goals));
+    LengthClaim { slices, goal_slices, length }
 }
 
 fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, Ways<'a>) {

@@ -166,17 +166,21 @@ fn compare_takes_rows_with_options() {
     command.arg("compare").args(shelf()).args(["--cells", "48", "--planner", "wavefront", "--json", "--quiet"]);
     let done = command
         .args(["--with", with, "--with", "harmonic --field khatib", "--with", "wavefront --search astar"])
+        .args(["--with", "wavefront --space sampled"])
         .output()
         .unwrap();
     let table: Value = serde_json::from_slice(&done.stdout).unwrap();
     let rows: Vec<&str> =
         table["planners"].as_array().unwrap().iter().map(|row| row["planner"].as_str().unwrap()).collect();
     let oriented = "harmonic --field oriented --epsilon 0.5 --direction 0,-1";
-    assert_eq!(rows, ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar"]);
+    let sampled = "wavefront --space sampled";
+    assert_eq!(rows, ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar", sampled]);
+    assert_eq!(table["planners"][4]["outcome"], "found");
     for (with, part) in [
         ("harmonic --field oriented", "needs --epsilon and --direction"),
         ("wavefront --field bvp", "needs --planner harmonic"),
         ("harmonic --search bfs", "needs --planner wavefront"),
+        ("trapezoid --space sampled", "--space needs --planner wavefront or harmonic"),
         ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: shortest, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
         ("", "not provided"),
