@@ -14,7 +14,7 @@ fn options(text: &str) -> Vec<&str> {
         text.match_indices("--").filter(|(at, _)| !text[..*at].ends_with(|c: char| c == '-' || c.is_alphanumeric()));
     let ends = |c: char| !c.is_ascii_lowercase() && c != '-';
     let found = starts.map(|(at, _)| text[at..].split(ends).next().unwrap_or_default());
-    found.filter(|option| option.starts_with(|c| c == '-') && option.trim_start_matches('-').len() > 1).collect()
+    found.filter(|option| option.starts_with('-') && option.trim_start_matches('-').len() > 1).collect()
 }
 
 #[test]
