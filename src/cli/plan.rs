@@ -33,10 +33,6 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     if args.per_step && !loaded.has_steps() {
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
-    if loaded.has_steps() && options.planner.gap().is_some() {
-        let message = "--gap is for a single motion; what is proven of a sequence of steps is part of every answer";
-        return Err(Failure::Usage(message.into()));
-    }
     let problem = Problem::of_scene(loaded, &args.query.overrides())?.read_since(begun);
     if let Some(lack) = args.options.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));

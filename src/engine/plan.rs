@@ -174,13 +174,12 @@ impl Plan {
     /// The answer: a certified motion; a proof that there is none; or why neither is known.
     #[must_use]
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>, &str> {
-        let unknown = |reason: Option<&'static str>| reason.unwrap_or_default();
         match &self.made {
             Made::Motion(plan) => match (&plan.answer.verdict, &plan.report.trajectory) {
                 (Verdict::Found(_), Some(trajectory)) => Outcome::Found(trajectory),
                 (Verdict::Infeasible(proof), _) => Outcome::Infeasible(Refutation::Motion(proof)),
                 (Verdict::Unknown(why), _) => Outcome::Unknown(why),
-                (Verdict::Found(_), None) => Outcome::Unknown(unknown(None)),
+                (Verdict::Found(_), None) => unreachable!("what is found is timed before it is a plan"),
             },
             Made::Task(plan) => match (plan.answer.verdict.status(), plan.report.trajectory(), plan.report.failed()) {
                 (Status::Found, Some(trajectory), _) => Outcome::Found(trajectory),
