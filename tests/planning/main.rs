@@ -2,7 +2,6 @@
 
 mod bound;
 mod certify;
-mod checked_bounds;
 #[path = "../common/mod.rs"]
 mod common;
 mod contract;
