@@ -1,11 +1,14 @@
-//! A* over the cells of a decomposition.
+//! A* over the cells of a decomposition, petgraph's: the one search here over a graph that is there before it begins. It takes some three
+//! times what a search over arrays did, less than a hundredth of what the cells take.
 
-use super::NONE;
 use super::decomposition::{CellPortal, Decomposition};
 use super::terminals::Terminals;
-use crate::geometry::{OpenList, Ordered, Point};
+use crate::geometry::Point;
 use crate::interrupt::checkpoint;
 use crate::space::{Measure, Metric, Segment};
+use petgraph::algo::astar;
+use petgraph::graph::{EdgeReference, NodeIndex, UnGraph};
+use petgraph::visit::EdgeRef;
 
 /// Cells to pass, with the portals between them: one less than cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,156 +23,96 @@ pub(super) struct Channel {
 /// Which portals each cell has, and what ways through them cost.
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
-    /// The portals of cell `c` are `portals[first[c]..first[c + 1]]`.
-    first: Vec<u32>,
-    portals: Vec<u32>,
+    /// Nodes are cells, edges are portals, by their numbers.
+    cells: UnGraph<Place, Option<usize>>,
     /// Centres of the cells.
     pub centers: Vec<Point>,
     /// Middles of the portals.
     pub middles: Vec<Point>,
 }
 
+/// Where a way leads to.
+#[derive(Debug, Clone, Copy)]
+enum Place {
+    /// The start, or a cell's centre.
+    At(Point),
+    /// The nearest of these goals.
+    Any(Segment),
+}
+
 impl Adjacency {
     /// Linear.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
-        let mut first = vec![0; centers.len() + 1];
-        for cell in decomposition.portals.iter().flat_map(|portal| portal.cells) {
-            first[cell + 1] += 1;
+        let mut cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
+        for &center in &centers {
+            cells.add_node(Place::At(center));
         }
-        for k in 1..first.len() {
-            first[k] += first[k - 1];
-        }
-        let mut place = first.clone();
-        let mut portals = vec![0; 2 * decomposition.portals.len()];
-        for (portal, number) in decomposition.portals.iter().zip(0..) {
-            for cell in portal.cells {
-                portals[place[cell] as usize] = number;
-                place[cell] += 1;
-            }
+        for (number, portal) in decomposition.portals.iter().enumerate() {
+            let [left, right] = portal.cells.map(NodeIndex::new);
+            cells.add_edge(left, right, Some(number));
         }
         let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
-        Self { first, portals, centers, middles }
+        Self { cells, centers, middles }
     }
 
     /// The cheapest channel from the start, given the cells that contain it, to any goal: passing from a cell to the
     /// next costs the way from the one's centre over the portal's middle to the other's, with the start and the nearest goal for
     /// the centres of the end cells. `O(n log n)` for `n` cells.
     pub fn channel(&self, portals: &[CellPortal], terminals: &Terminals, start_cells: &[usize]) -> Option<Channel> {
-        let goal_cells = &terminals.parts;
-        let mut search = Search {
-            adjacency: self,
-            portals,
-            terminals,
-            nodes: vec![Node { cost: f64::INFINITY, ..Node::START }; self.centers.len() + goal_cells.len()],
-            is_goal: vec![false; self.centers.len()],
-            open: OpenList::default(),
-        };
-        goal_cells.iter().for_each(|&(cell, _)| search.is_goal[cell as usize] = true);
+        // Beside the cells that hold them the ends are nodes of their own, with the same portals.
+        let mut graph = self.cells.clone();
+        let start = graph.add_node(Place::At(terminals.start));
         for &cell in start_cells {
-            search.leave(cell, terminals.start, Node { cell: cell as u32, ..Node::START });
+            for portal in self.cells.edges(NodeIndex::new(cell)) {
+                graph.add_edge(start, portal.target(), *portal.weight());
+            }
         }
-        while let Some((_, (node, Ordered(cost)))) = search.open.pop() {
+        let is_left = |cell: NodeIndex| start_cells.contains(&cell.index());
+        for &(cell, goals) in &terminals.parts {
+            let (cell, goal) = (NodeIndex::new(cell as usize), graph.add_node(Place::Any(goals)));
+            for portal in self.cells.edges(cell) {
+                graph.add_edge(portal.target(), goal, *portal.weight());
+                if is_left(portal.target()) {
+                    graph.add_edge(start, goal, *portal.weight());
+                }
+            }
+            if is_left(cell) {
+                graph.add_edge(start, goal, None);
+            }
+        }
+        let cost = |[from, to]: [NodeIndex; 2], portal: Option<usize>| {
+            let from = match graph[from] {
+                Place::At(point) => point,
+                Place::Any(goals) => goals.corners()[0],
+            };
+            let last = portal.map_or(from, |portal| self.middles[portal]);
+            let to = match graph[to] {
+                Place::At(point) => point,
+                Place::Any(goals) => Point::from(goals.nearest(Measure::from(Metric::Euclidean), last.coords)),
+            };
+            (last - from).norm() + (to - last).norm()
+        };
+        let ahead = |node: NodeIndex| match graph[node] {
+            Place::At(point) => terminals.straight_distance(point),
+            Place::Any(_) => 0.0,
+        };
+        let passing = |portal: EdgeReference<'_, Option<usize>>| {
             checkpoint();
-            if cost > search.nodes[node as usize].cost {
-                continue;
-            }
-            if let Some(goal) = (node as usize).checked_sub(self.centers.len()) {
-                return Some(search.channel(node, goal_cells[goal].1));
-            }
-            let from = Node { before: node, portal: NONE, cost, cell: node };
-            search.leave(node as usize, self.centers[node as usize], from);
-        }
-        None
-    }
-}
-
-/// How a cell, or a goal in a cell, is reached.
-#[derive(Debug, Clone, Copy)]
-struct Node {
-    cost: f64,
-    /// The cell before, `NONE` from the start.
-    before: u32,
-    /// The portal passed, `NONE` from the start to a goal in its cell.
-    portal: u32,
-    /// The cell left.
-    cell: u32,
-}
-
-impl Node {
-    const START: Self = Self { cost: 0.0, before: NONE, portal: NONE, cell: NONE };
-}
-
-struct Search<'a> {
-    adjacency: &'a Adjacency,
-    portals: &'a [CellPortal],
-    terminals: &'a Terminals,
-    nodes: Vec<Node>,
-    is_goal: Vec<bool>,
-    /// Nodes (those beyond the cells are goals) and their costs when they were put there, by estimate.
-    open: OpenList<(u32, Ordered)>,
-}
-
-impl Search<'_> {
-    /// Reaches what lies in a cell, which is left from `at`, and beyond its portals.
-    fn leave(&mut self, cell: usize, at: Point, from: Node) {
-        let Adjacency { first, portals, centers, middles } = self.adjacency;
-        if from.before == NONE {
-            self.reach_goals(cell, from, at, |goal| (goal - at).norm());
-        }
-        for &portal in &portals[first[cell] as usize..first[cell + 1] as usize] {
-            let [left, right] = self.portals[portal as usize].cells;
-            let other = if left == cell { right } else { left };
-            let middle = middles[portal as usize];
-            let way = |to: Point| (middle - at).norm() + (to - middle).norm();
-            let through = Node { portal, ..from };
-            self.reach(other, centers[other], Node { cost: from.cost + way(centers[other]), ..through });
-            self.reach_goals(other, through, middle, way);
-        }
-    }
-
-    /// Reaches the goals in a cell, of each the nearest to `last`.
-    fn reach_goals(&mut self, cell: usize, from: Node, last: Point, way: impl Fn(Point) -> f64) {
-        if self.is_goal[cell] {
-            let parts = &self.terminals.parts;
-            let first = parts.partition_point(|part| (part.0 as usize) < cell);
-            let here = parts.iter().enumerate().skip(first).take_while(|(_, part)| part.0 as usize == cell);
-            for (k, (_, goals)) in here {
-                let goal = Point::from(goals.nearest(Measure::from(Metric::Euclidean), last.coords));
-                self.reach(self.adjacency.centers.len() + k, goal, Node { cost: from.cost + way(goal), ..from });
-            }
-        }
-    }
-
-    fn reach(&mut self, node: usize, at: Point, by: Node) {
-        if by.cost < self.nodes[node].cost {
-            self.nodes[node] = by;
-            let estimate = by.cost + self.terminals.straight_distance(at);
-            self.open.push(estimate, (node as u32, Ordered(by.cost)));
-        }
-    }
-
-    /// The way to a goal, backwards.
-    fn channel(&self, last: u32, goals: Segment) -> Channel {
-        let last = self.nodes[last as usize];
-        let goal_cell = if last.portal == NONE { last.cell } else { self.beyond(last.portal, last.cell) };
-        let (mut cells, mut portals) = (vec![goal_cell as usize], Vec::new());
-        let mut node = last;
-        while node.portal != NONE {
-            portals.push(node.portal as usize);
-            cells.push(node.cell as usize);
-            if node.before == NONE {
-                break;
-            }
-            node = self.nodes[node.before as usize];
+            cost([portal.source(), portal.target()], *portal.weight())
+        };
+        let (_, places) = astar(&graph, start, |node| node > start, passing, ahead)?;
+        let cheapest = |pair: &[NodeIndex]| {
+            let between = graph.edges_connecting(pair[0], pair[1]).map(|portal| *portal.weight());
+            between.min_by(|&a, &b| cost([pair[0], pair[1]], a).total_cmp(&cost([pair[0], pair[1]], b))).flatten()
+        };
+        let passed: Vec<usize> = places.windows(2).filter_map(cheapest).collect();
+        let (last, goals) = terminals.parts[places[places.len() - 1].index() - start.index() - 1];
+        let mut cells = vec![last as usize];
+        for &portal in passed.iter().rev() {
+            let [left, right] = portals[portal].cells;
+            cells.push(if left == cells[cells.len() - 1] { right } else { left });
         }
         cells.reverse();
-        portals.reverse();
-        Channel { start: self.terminals.start, goals, cells, portals }
-    }
-
-    /// The other cell of a portal.
-    fn beyond(&self, portal: u32, cell: u32) -> u32 {
-        let [left, right] = self.portals[portal as usize].cells;
-        (if left == cell as usize { right } else { left }) as u32
+        Some(Channel { start: terminals.start, goals, cells, portals: passed })
     }
 }

@@ -1,4 +1,6 @@
 //! Shortest paths through triangulated free space.
+//!
+//! No search for petgraph, which asks a node for all its arcs at once: here arcs wait on the open list before they are known.
 
 use super::NONE;
 use super::mesh::{Beyond, Bound, Cone, Crossing, Mesh, Tangency};

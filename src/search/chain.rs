@@ -1,4 +1,7 @@
 //! Chains of adjacent boxes.
+//!
+//! Own searches, not petgraph's: boxes are split between one search and the next, so that there is no graph to keep; where
+//! free boxes cost nothing a queue with two ends does for a heap; and what a way costs depends on where it has entered a box.
 
 use super::boxes::portal;
 use crate::check::Cell;

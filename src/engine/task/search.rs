@@ -1,4 +1,7 @@
 //! The search for the fastest sequence of motions.
+//!
+//! No search for petgraph, which asks what an arc costs before it is put on the open list: here that is to plan a motion, and
+//! most need none.
 
 use super::answer::Leg;
 use super::heuristic::Heuristic;

@@ -1,4 +1,7 @@
 //! Textbook searches over the cells of a grid, which look no farther than they must.
+//!
+//! Own ones, not petgraph's: numbers of cells expanded, ties and exact costs are what they are there to show, and cells are
+//! places in arrays where petgraph keeps a hash table. The tests compare their costs with petgraph's.
 
 use super::{FreeCells, Neighborhood, UNREACHED};
 use crate::geometry::{OpenList, Ordered};

@@ -1,4 +1,6 @@
 //! The shortest way past what is closed in strips and at the slices between them.
+//!
+//! No search for petgraph: nodes come up with what can be seen from them, and it ends at a bound as well as at a goal.
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
