@@ -6,8 +6,8 @@
 //! - [`certify`] judges a path, by bisection ([`Deviation`] says how far shapes can come together), and alone makes a
 //!   [`CertifiedPath`]; [`blend`] cuts its corners by parabolas, each as large as is certified within the clearance: a
 //!   [`CertifiedCurve`] is the straight path, its blends, and the least distance along all of both.
-//! - [`recheck()`] judges a proof that there is no path: it joins what the stuck boxes leave by petgraph's union-find.
-//! - [`collision_check()`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
+//! - [`Disconnection::checked`] judges a proof that there is no path: it joins what the stuck boxes leave by petgraph's union-find.
+//! - [`check_collision`] judges anyone's recorded motion between its samples, [`limits_kept`] its limits, [`ends_kept`] whether
 //!   it leads from start to goal.
 //! - [`replay()`] does a recorded task again: it puts the recorded steps beside the task's (`order`), follows where the
 //!   objects are and what is carried from the recorded configurations (`state`), and judges each motion in the scene of

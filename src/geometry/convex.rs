@@ -42,7 +42,7 @@ pub enum ConvexError {
 /// clearance to keep are one case: growing by a distance only adds to the radius, exactly.
 ///
 /// The core is counter-clockwise and has no repeated corners. Within a scene what may be come nearer to than the clearance has a
-/// negative radius, see [`Convex::receding`].
+/// negative radius, see `receding`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Convex {
     core: Vec<Point>,

@@ -10,7 +10,12 @@ mod summary;
 mod task_summary;
 
 pub use file::{FileFormat, SaveError};
+#[cfg(feature = "serve")]
+pub(crate) use picture::status;
 pub use picture::{Drawn, PictureFormat, PictureFormatError};
-pub(crate) use picture::{contours, status, title_of};
+#[cfg(feature = "program")]
+pub(crate) use picture::{contours, title_of};
+#[cfg(feature = "program")]
 pub(crate) use step_lines::{StepLine, step_lines};
+#[cfg(feature = "program")]
 pub(crate) use summary::{Line, configuration, laid_out, range, value};

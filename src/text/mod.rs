@@ -6,7 +6,9 @@ mod plain;
 
 pub use columns::Columns;
 pub use markup::markup;
-pub use plain::{plain, plain_json, plain_line};
+#[cfg(feature = "program")]
+pub use plain::plain_json;
+pub use plain::{plain, plain_line};
 
 /// A number of things: `1 obstacle`, `3 obstacles`.
 #[must_use]

@@ -1,7 +1,6 @@
 //! Names as they may be shown.
 
 use std::borrow::Cow;
-use std::fmt::Write;
 
 /// Whether a character does something to a terminal, or to the text around it, rather than being seen: controls, and those
 /// that change the direction of writing or break lines (Unicode 16, 23.2; UAX 9).
@@ -35,8 +34,10 @@ pub fn plain_line(text: &str) -> Cow<'_, str> {
 }
 
 /// JSON with all that acts as escapes of JSON's: it reads as the same.
+#[cfg(any(feature = "program", test))]
 #[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
+    use std::fmt::Write;
     let escape = |shown: &mut String, c: char| {
         // None of them is beyond the first plane; writing to a string cannot fail.
         let _ = write!(shown, "\\u{:04x}", u32::from(c));
