@@ -166,7 +166,7 @@ fn compare_takes_rows_with_options() {
     command.arg("compare").args(shelf()).args(["--cells", "48", "--planner", "wavefront", "--json", "--quiet"]);
     let done = command
         .args(["--with", with, "--with", "harmonic --field khatib", "--with", "wavefront --search astar"])
-        .args(["--with", "wavefront --space sampled"])
+        .args(["--with", "wavefront --space sampled", "--with", "wavefront --cells 64"])
         .output()
         .unwrap();
     let table: Value = serde_json::from_slice(&done.stdout).unwrap();
@@ -174,8 +174,14 @@ fn compare_takes_rows_with_options() {
         table["planners"].as_array().unwrap().iter().map(|row| row["planner"].as_str().unwrap()).collect();
     let oriented = "harmonic --field oriented --epsilon 0.5 --direction 0,-1";
     let sampled = "wavefront --space sampled";
-    assert_eq!(rows, ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar", sampled]);
+    assert_eq!(
+        rows,
+        ["wavefront", oriented, "harmonic --field khatib", "wavefront --search astar", sampled, "wavefront --cells 64"]
+    );
     assert_eq!(table["planners"][4]["outcome"], "found");
+    // What a row says of itself goes before what is said of all: more than 48 x 48 cells were looked at.
+    let cells = |row: usize| table["planners"][row]["size"]["cells"].as_u64().unwrap();
+    assert!(cells(0) <= 48 * 48 && cells(5) > 48 * 48, "{} {}", cells(0), cells(5));
     for (with, part) in [
         ("harmonic --field oriented", "needs --epsilon and --direction"),
         ("wavefront --field bvp", "needs --planner harmonic"),
