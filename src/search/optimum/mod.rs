@@ -13,7 +13,7 @@ use crate::geometry::{Ordered, Point};
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology};
 use closed::MOST_PAIRS;
-use refine::{Allowed, passed};
+use refine::{Allowed, Fine, passed};
 use search::{Search, Way};
 use std::f64::consts::TAU;
 use strips::Strips;
@@ -162,6 +162,8 @@ struct Ways<'a> {
     near: f64,
     /// Greatest coordinate of start and goals.
     largest: f64,
+    /// One and the same is allowed whenever strips are refined.
+    fine: Fine,
 }
 
 impl<'a> Ways<'a> {
@@ -178,9 +180,10 @@ impl<'a> Ways<'a> {
         let straight = |goals: &Segment| goals.distance(measure, start.coords);
         goals.retain(|copy| straight(copy) < limit);
         let nearest = goals.iter().map(straight).fold(limit, f64::min);
-        let near = f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit);
+        // Who knows where slices are needed knows about how long the shortest is.
+        let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
-        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest }
+        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: Fine::new() }
     }
 
     /// The length of the shortest way past what is known to be closed, and its corners; without corners if none is as short as
@@ -206,8 +209,7 @@ impl<'a> Ways<'a> {
         if self.strips.count() == 0 || self.strips.are_too_many() {
             return false;
         }
-        let Motions { scene, clearance, .. } = self.motions;
-        let passed = passed(scene, &self.vicinity, clearance, &mut self.strips, corners, self.measure, allowed);
+        let passed = passed(&self.motions, &self.vicinity, &mut self.strips, corners, allowed, &mut self.fine);
         !passed.is_empty() && self.strips.cut(&passed)
     }
 
@@ -226,6 +228,7 @@ impl<'a> Ways<'a> {
         let is_new = self.strips.add(near.into_iter().take(NEAREST).map(|(_, pair)| pair).collect());
         if is_new {
             self.vicinity = Vicinity::of(scene, self.strips.pairs().into());
+            self.fine.clear();
         }
         is_new
     }

@@ -1,5 +1,6 @@
 //! Where a shortest way passes what is closed: there strips are too wide.
 
+use super::Motions;
 use super::strips::Strips;
 use crate::check::Vicinity;
 use crate::check::{Deviation, Posture};
@@ -7,7 +8,7 @@ use crate::geometry::{Point, Vector, separation};
 use crate::model::{Pair, Scene};
 use crate::search::slab::OUTWARD;
 use crate::space::Measure;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
 
 /// Distance of the configurations, radians or metres, at which ways are looked at for what is thinner than a strip.
@@ -99,17 +100,22 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
     cuts
 }
 
+/// Straight pieces of ways within a strip that are known to pass nothing by more than is allowed: their ends, and the strip's. Most
+/// of a way is where the last one was.
+pub(super) type Fine = HashSet<[u64; 6]>;
+
 /// Where to cut strips: those in which a way passes what is closed by more than is allowed, by their index. What is overlooked
-/// makes no bound wrong, only lower.
+/// makes no bound wrong, only lower. What is `fine` is not looked at.
 pub(super) fn passed(
-    scene: &Scene,
+    motions: &Motions,
     vicinity: &Vicinity,
-    clearance: f64,
     strips: &mut Strips,
     corners: &[Point],
-    measure: Measure,
     allowed: Allowed,
+    fine: &mut Fine,
 ) -> Vec<(usize, Vec<f64>)> {
+    let Motions { scene, clearance, metric, .. } = *motions;
+    let measure = Measure::from(metric);
     // What lies beside a way along a slice is not known well enough.
     let mut passed = BTreeMap::new();
     let finest = match allowed {
@@ -119,6 +125,11 @@ pub(super) fn passed(
     let crossings = crossings(strips, corners, finest, &mut passed);
     for crossing in &crossings {
         let Crossing { index, turns, ends: [left, right], middle } = *crossing;
+        let [from, to] = strips.ends(index);
+        let known = [left.x, left.y, right.x, right.y, from, to].map(f64::to_bits);
+        if fine.contains(&known) {
+            continue;
+        }
         // Halfway through the strip first: this is where the next slice will be.
         let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
         let detour = |by: f64| {
@@ -138,6 +149,8 @@ pub(super) fn passed(
             passed.entry(index).or_insert(cuts);
         } else if matches!(allowed, Allowed::Detour(worth) if least().is_some_and(|least| least > worth)) {
             passed.entry(index).or_default();
+        } else {
+            fine.insert(known);
         }
     }
     passed.into_iter().collect()
@@ -172,23 +185,32 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     let posture = Posture::new(scene, middle.coords);
     let along = Deviation::Along(way / 2.0);
     let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
-    // How much deeper than allowed.
-    let beyond = |pair: Pair, share: f64| {
+    let too_near = |pair: Pair, share: f64| {
         let part = scene.part(pair).at(&scene.arm().pose(pair.link, (ends[0] + way * share).coords));
-        let depth = match allowed {
-            Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
-            Allowed::Depth(depth) => depth,
-        };
-        least - depth - separation(&part, scene.piece(pair)).distance
+        least - separation(&part, scene.piece(pair)).distance
     };
+    let depth = |share: f64| match allowed {
+        Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
+        Allowed::Depth(depth) => depth,
+    };
+    // How much deeper than allowed.
+    let beyond = |pair: Pair, share: f64| too_near(pair, share) - depth(share);
     let mut deepest: Option<(f64, Pair, usize)> = None;
     let looked_at: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
+            // As far as nothing moves so far that it could be too near, there is no need to look.
+            let speed = 2.0 * posture.farthest_motion(pair, along);
+            let mut next = 0.0;
             for (k, &share) in shares.iter().enumerate() {
-                let by = beyond(pair, share);
+                if share < next {
+                    continue;
+                }
+                let near = too_near(pair, share);
+                let by = near - depth(share);
                 if by > deepest.map_or(0.0, |(by, ..)| by) {
                     deepest = Some((by, pair, k));
                 }
+                next = share - near.min(0.0) / speed;
             }
         }
         Ok(())

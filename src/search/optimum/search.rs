@@ -9,6 +9,7 @@ use crate::interrupt::checkpoint;
 use crate::space::{Measure, Segment};
 use std::collections::HashMap;
 use std::f64::consts::TAU;
+use std::hash::{BuildHasherDefault, Hasher};
 
 /// Entries that are taken from the open list before the search ends with what it knows: a thousand times what a question
 /// takes as a rule, and half a second. Along an arc they grow with the square of the slices.
@@ -27,6 +28,29 @@ pub(super) enum Way {
     Shortest(f64, Vec<Point>),
     /// None is shorter than this.
     NoneBelow(f64),
+}
+
+/// Mixes two numbers in a few operations: what is hashed comes from the search itself.
+#[derive(Default)]
+struct Mixed(u64);
+
+impl Hasher for Mixed {
+    fn finish(&self) -> u64 {
+        self.0 ^ (self.0 >> 32)
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+    }
+
+    fn write_i64(&mut self, number: i64) {
+        self.write_u64(number as u64);
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        // About the golden section of 2^64, odd (Knuth).
+        self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
 }
 
 /// A place where ways turn, or begin.
@@ -83,9 +107,11 @@ pub(super) struct Search<'s, 'a> {
     range: [f64; 2],
     roots: Vec<Root>,
     /// Least cost so far of the end of a portal: by slice, by its value of joint 2, and by whether joint 1 grows from there.
-    least: HashMap<(i64, u64, bool), f64>,
+    least: HashMap<(i64, u64), f64, BuildHasherDefault<Mixed>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
+    /// Lists of portals that are not in use.
+    spare: Vec<Vec<Portal>>,
 }
 
 impl<'s, 'a> Search<'s, 'a> {
@@ -97,9 +123,10 @@ impl<'s, 'a> Search<'s, 'a> {
             limit,
             range: [f64::NEG_INFINITY, f64::INFINITY],
             roots: Vec::new(),
-            least: HashMap::new(),
+            least: HashMap::default(),
             open: OpenList::default(),
             entries: Vec::new(),
+            spare: Vec::new(),
         }
     }
 
@@ -178,31 +205,40 @@ impl<'s, 'a> Search<'s, 'a> {
     fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
         let Root { at: before, cost, .. } = self.roots[from as usize];
         let cost = cost + self.measure.norm(at - before);
-        let least = |ahead: bool| self.least.get(&(slice, at.y.to_bits(), ahead)).copied().unwrap_or(f64::INFINITY);
+        let key = |ahead: bool| (2 * slice + i64::from(ahead), at.y.to_bits());
+        let least = |ahead: bool| self.least.get(&key(ahead)).copied().unwrap_or(f64::INFINITY);
         if cost >= least(ahead) * (1.0 - TIED) || cost > least(!ahead) * (1.0 + TIED) {
             return None;
         }
-        self.least.insert((slice, at.y.to_bits(), ahead), cost);
+        self.least.insert(key(ahead), cost);
         self.roots.push(Root { at, cost, before: Some(from) });
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// The portals of a slice, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go.
+    /// The portals of a slice, with all their copies, that a range of joint 2 meets, as far as ways shorter than the limit go. The list
+    /// goes back to the spare ones.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
+        let mut portals = self.spare.pop().unwrap_or_default();
+        portals.clear();
         if !self.strips.is_inner(slice) {
-            return Vec::new();
+            return portals;
         }
         let round = self.strips.topology().ranges[1].is_circle();
-        let mut portals = Vec::new();
         for gap in self.strips.portals(slice) {
-            let (first, last) = if round && gap.lower.is_finite() {
-                (((lower - gap.upper) / TAU).ceil(), ((upper - gap.lower) / TAU).floor())
-            } else {
-                (0.0, 0.0)
-            };
-            let copies = (first as i64..=last as i64).map(|turns| gap.turned(turns as f64));
-            portals.extend(copies.filter(|portal| portal.lower <= upper && lower <= portal.upper));
+            if !round || gap.lower.is_infinite() {
+                if gap.lower <= upper && lower <= gap.upper {
+                    portals.push(*gap);
+                }
+                continue;
+            }
+            let (first, last) = (((lower - gap.upper) / TAU).ceil(), ((upper - gap.lower) / TAU).floor());
+            for turns in first as i64..=last as i64 {
+                let portal = gap.turned(turns as f64);
+                if portal.lower <= upper && lower <= portal.upper {
+                    portals.push(portal);
+                }
+            }
         }
         portals
     }
@@ -238,11 +274,12 @@ impl<'s, 'a> Search<'s, 'a> {
             let portals = self.portals(slice, range);
             if self.strips.q1(slice) == at.x {
                 self.along(root, slice, !ahead, &portals, parent);
-                continue;
+            } else {
+                for portal in &portals {
+                    self.push_cone(root, slice, ahead, portal, range, parent);
+                }
             }
-            for portal in portals {
-                self.push_cone(root, slice, ahead, &portal, range, parent);
-            }
+            self.spare.push(portals);
         }
     }
 
@@ -304,20 +341,23 @@ impl<'s, 'a> Search<'s, 'a> {
             let [low, high] = [seen.lower, seen.upper].map(|y| from.y + (y - from.y) * stretch);
             let [under, over] = hair.map(|hair| hair * stretch);
             let [bottom, top] = cell.at(beyond);
-            for portal in self.portals(far, [bottom, top]) {
-                self.push_cone(root, far, ahead, &portal, [bottom.max(low - under), top.min(high + over)], bound);
+            let portals = self.portals(far, [bottom, top]);
+            for portal in &portals {
+                self.push_cone(root, far, ahead, portal, [bottom.max(low - under), top.min(high + over)], bound);
                 if let Some(below) = below.filter(|_| portal.lower < low + under) {
-                    self.push_cone(below, far, ahead, &portal, [bottom, top.min(low + under)], bound);
+                    self.push_cone(below, far, ahead, portal, [bottom, top.min(low + under)], bound);
                 }
                 if let Some(above) = above.filter(|_| portal.upper > high - over) {
-                    self.push_cone(above, far, ahead, &portal, [bottom.max(high - over), top], bound);
+                    self.push_cone(above, far, ahead, portal, [bottom.max(high - over), top], bound);
                 }
             }
+            self.spare.push(portals);
         }
         if below.or(above).is_some() {
             let portals = self.portals(slice, cell.at(near));
             let (lower, higher): (Vec<Portal>, Vec<Portal>) =
-                portals.into_iter().partition(|portal| portal.upper < seen.upper);
+                portals.iter().partition(|portal| portal.upper < seen.upper);
+            self.spare.push(portals);
             for (root, portals) in [(below, lower), (above, higher)] {
                 if let Some(root) = root {
                     self.along(root, slice, ahead, &portals, bound);
