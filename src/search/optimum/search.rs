@@ -356,7 +356,7 @@ impl<'s, 'a> Search<'s, 'a> {
         if below.or(above).is_some() {
             let portals = self.portals(slice, cell.at(near));
             let (lower, higher): (Vec<Portal>, Vec<Portal>) =
-                portals.iter().partition(|portal| portal.upper < seen.upper);
+                portals.iter().copied().partition(|portal| portal.upper < seen.upper);
             self.spare.push(portals);
             for (root, portals) in [(below, lower), (above, higher)] {
                 if let Some(root) = root {

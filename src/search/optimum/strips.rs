@@ -328,8 +328,8 @@ impl<'a> Strips<'a> {
         self.strips[index].barriers = Some(barriers);
     }
 
-    /// A line between two walls of a pair along which it is proven to be too near: between their middles, or else where both hold
-    /// the same value.
+    /// A line between two walls of a pair along which it is proven to be too near: where both hold the same value, or else between
+    /// their middles. Level ones do not cross where walls part and meet.
     fn barrier(&self, slices: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
         let circle = self.topology.ranges[1].is_circle();
         let middle = |wall: &Wall| f64::midpoint(wall.lower, wall.upper);
@@ -341,7 +341,7 @@ impl<'a> Strips<'a> {
             let [from, to] = [0, 1].map(|side| Configuration::new(slices[side], ends[side]));
             self.closed.all_along(left.pair, from, to)
         };
-        let barrier = [Some(slanted), level].into_iter().flatten().find(proven)?;
+        let barrier = [level, Some(slanted)].into_iter().flatten().find(proven)?;
         let back = self.topology.ranges[1].wrap(barrier[0]) - barrier[0];
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }

@@ -62,7 +62,8 @@ fn obstacle() -> impl Strategy<Value = Convex> {
     })
 }
 
-/// A pair whose walls part and meet within a strip: level barriers through them all once closed the way.
+/// A pair whose walls part and meet within a strip: level barriers through them all closed the way once, as they brought out that
+/// the elbow, in the link all along, counted as in the obstacle.
 #[test]
 fn walls_that_part_and_meet_close_no_way() {
     for gap in [1e-2, 1e-4] {
