@@ -23,7 +23,7 @@ fn answers(c: &mut Criterion) {
         });
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         group.bench_function(format!("{which:?}: the search alone"), |b| {
-            b.iter(|| slab_connectivity(black_box(scene), start, goals, 0.0, 10_000));
+            b.iter(|| slab_connectivity(black_box(scene), start, goals, 0.0, 10_000, 10_000));
         });
     }
     group.finish();

@@ -19,9 +19,12 @@ const MORE_EVALUATIONS: usize = 200_000;
 /// does to a share.
 const FINEST: f64 = 1.0 / (1u64 << 40) as f64;
 
-/// Configurations, evenly spread over the pieces, at which every pair is looked at beforehand: they show how near the
-/// motion comes, and so how fine it pays to look.
+/// Configurations, evenly spread over the pieces, that are looked at beforehand: they show how near the motion comes, and so
+/// how fine it pays to look.
 const LOOKS: usize = 1024;
+
+/// A single configuration.
+const STILL: Deviation = Deviation::Box([0.0; 2]);
 
 /// A moment of a recorded motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -162,7 +165,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Every pair at places all over the motion.
+    /// Places all over the motion.
     fn look_around(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(LOOKS), LOOKS.div_ceil(count));
@@ -172,9 +175,15 @@ impl Search<'_> {
         self.look((count - 1, 1.0));
     }
 
+    /// Every pair at a place, but for those that discs around both show to be neither in contact nor nearer than any before.
     fn look(&mut self, place: Place) {
-        for contact in self.scene.separations(self.pieces[place.0].at(place.1)) {
-            self.see(place, contact);
+        let posture = Posture::new(self.scene, self.pieces[place.0].at(place.1));
+        for &pair in self.scene.pairs() {
+            let seen = self.least.map_or(f64::INFINITY, |e| e.contact.separation.distance);
+            let apart = posture.apart(pair, STILL);
+            if apart <= 0.0 || apart < self.required || apart < seen {
+                self.see(place, Contact { pair, separation: posture.here(pair) });
+            }
         }
     }
 
@@ -255,7 +264,7 @@ impl Search<'_> {
             let at = self.pieces[place.0].at(place.1);
             let posture = Posture::new(self.scene, at);
             for &pair in pairs {
-                let separation = posture.bound(pair, Deviation::Box([0.0; 2])).here;
+                let separation = posture.here(pair);
                 let contact = Contact { pair, separation };
                 self.see(place, contact);
                 if nearest.is_none_or(|n| separation.distance < n.contact.separation.distance) {

@@ -77,6 +77,11 @@ impl<'a> Posture<'a> {
         Self { scene, q, poses, elbow: poses[0] * Point::from(scene.arm().offset) }
     }
 
+    /// Distance of a pair here.
+    pub(crate) fn here(&self, pair: Pair) -> Separation {
+        separation(&self.scene.part(pair).at(&self.poses[pair.link]), self.scene.piece(pair))
+    }
+
     /// Distance of a pair here and a lower bound on it over `deviation`.
     #[must_use]
     pub fn bound(&self, pair: Pair, deviation: Deviation) -> Bounded {

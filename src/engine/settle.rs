@@ -11,9 +11,12 @@ use crate::search::{Connectivity, connectivity, slab_connectivity};
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 const SLABS: usize = 10_000;
 
-/// A proof by slabs of more boxes than this is large: boxes that are halved need fewer, as where obstacles overlap little all
+/// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
-const LARGE_PROOF: usize = 10_000;
+pub(super) const LARGE_PROOF: usize = 10_000;
+
+/// Boxes of a proof at most, where no smaller one is found.
+const LARGEST_PROOF: usize = 200_000;
 
 /// Boxes that are looked at for a smaller proof than slabs have, at least: the most that any of some thousand random proofs
 /// took, twice.
@@ -73,35 +76,17 @@ fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) 
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
-    match slab_connectivity(scene, start, goals, clearance, limits.slabs) {
-        Connectivity::Disconnected(proof) if proof.stuck().len() > LARGE_PROOF => {
-            small(problem, proof.of_pairs(in_truth), || by_boxes(limits.for_smaller))
-        }
+    let by_slabs = |most: usize| slab_connectivity(scene, start, goals, clearance, limits.slabs, most);
+    match by_slabs(LARGE_PROOF) {
         // There is none, but slabs take no end of boxes to state it.
-        Connectivity::Undecided { closed: true, .. } => by_boxes(limits.for_smaller),
+        Connectivity::Undecided { closed: true, .. } => match by_boxes(limits.for_smaller) {
+            Verdict::Unknown(_) => judged(problem, in_truth, by_slabs(LARGEST_PROOF)),
+            known => known,
+        },
         answer => match judged(problem, in_truth, answer) {
             Verdict::Unknown(_) => by_boxes(limits.boxes),
             known => known,
         },
-    }
-}
-
-/// A large proof by slabs with fewer boxes: the largest of its own, or what `by_boxes` takes.
-fn small(problem: &MotionProblem, proof: Disconnection, by_boxes: impl Fn() -> Verdict) -> Verdict {
-    let proof = match proof.slimmed(LARGE_PROOF, |proof| held(problem, proof)) {
-        Ok(smaller) => return Verdict::Infeasible(smaller),
-        Err(proof) => proof,
-    };
-    let other = by_boxes();
-    if matches!(&other, Verdict::Infeasible(other) if other.stuck().len() <= LARGE_PROOF) {
-        return other;
-    }
-    match (checked(problem, proof), other) {
-        (Some(proof), Verdict::Infeasible(other)) if other.stuck().len() < proof.stuck().len() => {
-            Verdict::Infeasible(other)
-        }
-        (Some(proof), _) => Verdict::Infeasible(proof),
-        (None, other) => other,
     }
 }
 
@@ -122,7 +107,7 @@ fn judged(problem: &MotionProblem, in_truth: &dyn Fn(Pair) -> Pair, answer: Conn
 
 /// The proof with no more boxes than it takes, if it passes the independent check.
 pub(super) fn checked(problem: &MotionProblem, proof: Disconnection) -> Option<CheckedProof> {
-    proof.slimmed(usize::MAX, |some| held(problem, some)).ok()
+    proof.slimmed(|some| held(problem, some))
 }
 
 /// The proof, if it passes the independent check.

@@ -90,7 +90,7 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
 /// While there are fewer boxes a search costs little beside what it spares: only the boxes of one chain are halved before
 /// the next. With more, all chains with the fewest mixed boxes are refined at once, or else a way that is closed along a
 /// curve which boxes cannot prove would take a search for every few boxes along it: quadratic time.
-const ONE_BY_ONE: usize = 5000;
+const ONE_BY_ONE: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {
     loop {

@@ -69,7 +69,7 @@ struct Slabs<'a> {
 }
 
 /// Decides whether a motion that keeps more than zero and at least `clearance` from every obstacle leads from `start`
-/// to one of `goals`, with at most `max_slabs` slabs of joint 1.
+/// to one of `goals`, with at most `max_slabs` slabs of joint 1 and a proof of at most some `max_boxes` boxes.
 ///
 /// The same question as [`super::connectivity`], mostly answered in a small part of the time: a slab decides all of
 /// `q2` at once, in `O(m log m)` for `m` contacts. Undecided where shapes without any inner disc (segments) meet such
@@ -81,6 +81,7 @@ pub fn slab_connectivity(
     goals: &GoalSet,
     clearance: f64,
     max_slabs: usize,
+    max_boxes: usize,
 ) -> Connectivity {
     let mut slabs = Slabs::new(scene, clearance);
     // A joint that cannot move leaves no area to cut.
@@ -94,7 +95,7 @@ pub fn slab_connectivity(
         let Some(from) = slabs.locate(start) else { return undecided(false) };
         let connection = |finest| fewest_mixed(&slabs, from, &ends, finest);
         let Some(chain) = connection(false).or_else(|| connection(true)) else {
-            let proof = slabs.disconnection(start, goals);
+            let proof = slabs.disconnection(start, goals, max_boxes);
             return proof.map_or_else(|| undecided(true), Connectivity::Disconnected);
         };
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {

@@ -9,21 +9,13 @@ const SMALL: usize = 256;
 const CLOSE: usize = 8;
 
 impl Disconnection {
-    /// A proof of no more boxes than `most`, about the fewest of the largest, by their extent in `q2`, that still are one:
-    /// `check` says whether some are. What slabs tell apart in thousands of boxes, where an obstacle's edge is grazed, a wall
+    /// The proof with about the fewest of its largest boxes, by their extent in `q2`, that still are one; `check` says whether some
+    /// are, and if all are not there is none. What slabs tell apart in thousands of boxes, where an obstacle's edge is grazed, a wall
     /// through its middle tells as well in some dozens.
     ///
     /// More boxes separate no less, so doubling and halving find how many it takes. `O(log n)` questions.
-    ///
-    /// # Errors
-    /// The claim itself if so many of the largest do not hold.
-    pub(crate) fn slimmed(
-        self,
-        most: usize,
-        check: impl Fn(Self) -> Option<CheckedProof>,
-    ) -> Result<CheckedProof, Self> {
+    pub(crate) fn slimmed(self, check: impl Fn(Self) -> Option<CheckedProof>) -> Option<CheckedProof> {
         let count = self.stuck().len();
-        let most = most.min(count);
         let height = |b: &StuckBox| b.cell.upper[1] - b.cell.lower[1];
         let mut largest: Vec<usize> = (0..count).collect();
         largest.sort_by(|&a, &b| height(&self.stuck()[b]).total_cmp(&height(&self.stuck()[a])).then(a.cmp(&b)));
@@ -32,12 +24,12 @@ impl Disconnection {
             chosen.sort_unstable();
             check(Self::new(chosen.into_iter().map(|k| self.stuck()[k].clone()).collect()))
         };
-        let (mut too_few, mut enough) = (0, SMALL.min(most));
+        let (mut too_few, mut enough) = (0, SMALL.min(count));
         let mut proof = loop {
             match some(enough) {
                 Some(proof) => break proof,
-                None if enough == most => return Err(self),
-                None => (too_few, enough) = (enough, (2 * enough).min(most)),
+                None if enough == count => return None,
+                None => (too_few, enough) = (enough, (2 * enough).min(count)),
             }
         };
         while count > SMALL && enough - too_few > enough / CLOSE + 1 {
@@ -47,6 +39,6 @@ impl Disconnection {
                 None => too_few = middle,
             }
         }
-        Ok(proof)
+        Some(proof)
     }
 }

@@ -102,7 +102,7 @@ fn tried(problem: &MotionProblem) -> Vec<Configuration> {
 #[test]
 fn a_set_of_goals_is_reached_if_any_of_it_is() {
     let (mut worlds, mut infeasible, mut slid) = (0, 0, 0);
-    for seed in seeds(120) {
+    for seed in seeds(80) {
         let Some(problem) = world(seed) else { continue };
         worlds += 1;
         let (scene, start) = (problem.scene(), problem.start());
@@ -111,7 +111,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             .into_iter()
             .map(|goal| {
                 let goals = goal.into();
-                (goal, slab_connectivity(scene, start, &goals, 0.0, 4_000))
+                (goal, slab_connectivity(scene, start, &goals, 0.0, 4_000, 200_000))
             })
             .collect();
         let connected: Vec<Configuration> = each
@@ -119,7 +119,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             .filter(|(_, answer)| matches!(answer, Connectivity::Connected(_)))
             .map(|(goal, _)| *goal)
             .collect();
-        let whole = slab_connectivity(scene, start, problem.goals(), 0.0, 4_000);
+        let whole = slab_connectivity(scene, start, problem.goals(), 0.0, 4_000, 200_000);
         let boxes = connectivity(scene, start, problem.goals(), 0.0, 20_000);
         for answer in [&whole, &boxes] {
             match answer {
@@ -172,7 +172,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
             Verdict::Unknown(reason) => assert!(connected.is_empty(), "seed {seed}: {reason}"),
         }
     }
-    assert!(!usual() || worlds >= 60 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
+    assert!(!usual() || worlds >= 40 && slid > worlds / 4, "{worlds} worlds, {slid} with paths, {infeasible} proofs");
 }
 
 /// The tip is to return to the base, an arm folded back: the first level's polygons leave no way to the left, where an obstacle is

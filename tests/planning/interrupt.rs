@@ -86,7 +86,7 @@ fn proofs_and_tasks_stop_too() {
         setter.join().unwrap();
         result == Err::<(), _>(Interrupted::Set)
     };
-    assert!(stopped(&mut || drop(slab_connectivity(scene, start, goals, 0.0, usize::MAX))));
+    assert!(stopped(&mut || drop(slab_connectivity(scene, start, goals, 0.0, usize::MAX, usize::MAX))));
     assert!(stopped(&mut || drop(connectivity(scene, start, goals, 0.0, usize::MAX))));
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));

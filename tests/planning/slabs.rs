@@ -22,7 +22,7 @@ const BOXES: usize = 200_000;
 /// Checks an answer by what shares no code with the slabs: paths by the judge of motions, proofs by the check of boxes,
 /// both against configurations sampled on them. Says which answer it was.
 fn check(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64) -> Option<bool> {
-    match slab_connectivity(scene, start, goals, clearance, SLABS) {
+    match slab_connectivity(scene, start, goals, clearance, SLABS, BOXES) {
         Connectivity::Connected(channel) => {
             let path = channel.path();
             let topology = scene.arm().topology();

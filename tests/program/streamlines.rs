@@ -170,7 +170,7 @@ fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
         assert_eq!(own["path_kind"], "own");
         let path = waypoints(&own);
         let end = path[path.len() - 1];
-        let oracle = Oracle::new(problem.scene(), Configuration::new(end[0], end[1]), 160.0);
+        let oracle = Oracle::new(problem.scene(), Configuration::new(end[0], end[1]), 120.0);
         let median = oracle.median_angle(&path);
         assert!(median <= 5.0, "{world}: {median} degrees off the gradient");
         let relaxed = planned(robot, &shipped(world), "--relaxation sor --levels 1");

@@ -5,6 +5,7 @@ use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
 use crate::check::{CertifiedPath, CheckedProof, WristTurn, certify, wrist_turn};
+use crate::engine::settle::LARGE_PROOF;
 use crate::engine::{Effort, Verdict, solve};
 use crate::geometry::Pose;
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
@@ -313,7 +314,7 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
         return Way::Straight(path);
     }
     let goal = to.into();
-    match slab_connectivity(scene, from, &goal, clearance, SLABS) {
+    match slab_connectivity(scene, from, &goal, clearance, SLABS, LARGE_PROOF) {
         Connectivity::Disconnected(proof) => {
             proof.checked(scene, from, &goal, clearance).map_or(Way::Open, |proof| Way::Barred(Refusal::barred(proof)))
         }

@@ -7,9 +7,6 @@ use crate::interrupt::checkpoint;
 use crate::search::chain::{Mosaic, ends};
 use crate::space::{Configuration, GoalSet, Segment};
 
-/// Boxes of a proof at most: with more it is no use to anybody.
-const MOST_BOXES: usize = 200_000;
-
 impl Slabs<'_> {
     /// What free and mixed spans connect with any of the places, as one flag a span.
     fn reached(&self, places: &GoalSet) -> Vec<bool> {
@@ -27,10 +24,16 @@ impl Slabs<'_> {
     }
 
     /// The proof that start and goals are not connected, which no open span denies: the stuck boxes around what can be
-    /// reached from the start, or from the goals, whichever are fewer. None if boxes do not bear it out.
-    pub(super) fn disconnection(&mut self, start: Configuration, goals: &GoalSet) -> Option<Disconnection> {
-        let here = self.around(&start.into());
-        let there = self.around(goals);
+    /// reached from the start, or from the goals, whichever are fewer. None if boxes do not bear it out, or no fewer than
+    /// `most` of them.
+    pub(super) fn disconnection(
+        &mut self,
+        start: Configuration,
+        goals: &GoalSet,
+        most: usize,
+    ) -> Option<Disconnection> {
+        let here = self.around(&start.into(), most);
+        let there = self.around(goals, most);
         let boxes = match (here, there) {
             (Some(a), Some(b)) => Some(if b.len() < a.len() { b } else { a }),
             (a, b) => a.or(b),
@@ -38,8 +41,9 @@ impl Slabs<'_> {
         boxes.map(Disconnection::new)
     }
 
-    /// The stuck boxes beside what can be reached from the places, and those that hold places themselves.
-    fn around(&mut self, places: &GoalSet) -> Option<Vec<StuckBox>> {
+    /// The stuck boxes beside what can be reached from the places, and those that hold places themselves; none if there are more
+    /// than `most`.
+    fn around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<StuckBox>> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
         let mut boxes = Vec::new();
@@ -78,9 +82,7 @@ impl Slabs<'_> {
             merged.retain(touches);
             for (pair, interval) in &self.verdicts.inner {
                 let needed = merged.iter().any(|m| m[0] <= interval[0] && interval[1] <= m[1]);
-                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes)
-                    || boxes.len() > MOST_BOXES
-                {
+                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes) || boxes.len() > most {
                     return None;
                 }
             }
