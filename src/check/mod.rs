@@ -17,6 +17,7 @@
 //! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
 
 mod blends;
+mod bound;
 mod cell;
 mod claims;
 mod deviation;
@@ -30,6 +31,7 @@ mod vicinity;
 mod wrist;
 
 pub use blends::{CertifiedCurve, blend};
+pub use bound::{Barrier, CheckedBound, LengthClaim, Slice, Wall};
 pub use cell::Cell;
 pub use claims::{FalseClaim, claims_kept, step_claims_kept, task_claims_kept};
 pub use collision::{CollisionCheck, Encounter, Moment, check_collision};

@@ -79,7 +79,7 @@ pub enum Command {
     Check(CheckArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
     Inspect(InspectArgs),
-    /// Check a proof that there is no path, with code that shares nothing with the search that made it.
+    /// Check a proof that there is no path, or a bound on the shortest, with code that shares nothing with the search that made it.
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
     Verify(VerifyArgs),
@@ -266,12 +266,14 @@ pub struct InspectArgs {
 Examples:
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --output bound.json
+  cplan recheck robots/planar_2r.urdf workspaces/shelf.toml --proof bound.json
 
-Exit codes: 0 the proof holds, 1 it does not, or bad input or I/O, 2 wrong command line.")]
+Exit codes: 0 the proof or bound holds, 1 it does not, or bad input or I/O, 2 wrong command line.")]
 pub struct RecheckArgs {
     #[command(flatten)]
     pub files: Files,
-    /// A result of the main job with a proof: .json.
+    /// A result of the main job, with the proof that there is no path or a bound on the shortest (`optimum`): .json.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub proof: PathBuf,
     #[command(flatten)]

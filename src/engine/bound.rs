@@ -1,7 +1,8 @@
 //! How far a path is from the optimum, at the most.
 
+use crate::check::CheckedBound;
 use crate::model::MotionProblem;
-use crate::search::{Motions, least_length};
+use crate::search::{Motions, claimed_length, least_length};
 use crate::space::{Metric, Path};
 
 /// A path's length and a proven lower bound on that of every other.
@@ -37,6 +38,23 @@ pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> 
     let upper = metric.length(path);
     Bound { metric, lower: least_length(&motions(problem, metric), upper, gap, &[]), upper }
 }
+
+/// What the judge sees of a bound that was stated: the search finds anew what closes shorter ways, and [`crate::check::LengthClaim`]
+/// is looked at by what shares no code with it. Tenths of a second.
+#[must_use]
+pub fn checked_bound(problem: &MotionProblem, stated: &Bound) -> CheckedBound {
+    let motions = motions(problem, stated.metric);
+    let gap = (stated.gap() * FINER).clamp(LEAST_GAP, 1.0);
+    let claim = claimed_length(&motions, stated.upper.max(stated.lower), gap, &[]);
+    claim.checked(motions.scene, motions.start, motions.goals, motions.clearance, motions.metric)
+}
+
+/// Share of the stated gap that the evidence may leave open: it is found in another way than the bound was, from fewer slices that
+/// are known beforehand.
+const FINER: f64 = 0.05;
+
+/// The least gap that evidence is looked for.
+const LEAST_GAP: f64 = 1e-9;
 
 /// All motions that answer a problem.
 pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> Motions<'_> {

@@ -50,7 +50,7 @@ mod subdivision;
 pub mod task;
 mod thinned;
 
-pub use bound::{Bound, bound, percent};
+pub use bound::{Bound, bound, checked_bound, percent};
 pub use effort::{Effort, GridSpace};
 pub use ladder::solve;
 pub use method::Method;

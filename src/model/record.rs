@@ -1,6 +1,6 @@
 //! What a record says of a motion or a task besides its samples.
 
-use crate::space::Configuration;
+use crate::space::{Configuration, Metric};
 use std::ops::RangeInclusive;
 
 /// A turn of the wrist as a record has it, while the arm stands still.
@@ -76,6 +76,19 @@ pub struct OptimumClaim {
     pub lower_bound: f64,
     /// `length / lower_bound - 1`; none where the bound is 0.
     pub gap: Option<f64>,
+}
+
+impl OptimumClaim {
+    /// How lengths are measured, for an arm with these top speeds; none if the metric has no such name.
+    #[must_use]
+    pub fn metric(&self, speeds: [f64; 2]) -> Option<Metric> {
+        match (self.metric.as_str(), self.weights) {
+            ("euclidean", _) => Some(Metric::Euclidean),
+            ("weighted", Some(weights)) => Some(Metric::Weighted { weights }),
+            ("time", _) => Some(Metric::Time { speeds }),
+            _ => None,
+        }
+    }
 }
 
 /// What is said of a task.

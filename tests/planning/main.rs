@@ -2,6 +2,7 @@
 
 mod bound;
 mod certify;
+mod checked_bounds;
 #[path = "../common/mod.rs"]
 mod common;
 mod contract;

@@ -10,7 +10,7 @@ pub use steps::{step_claims_kept, task_claims_kept};
 use super::collision::{CollisionCheck, check_collision};
 use super::motion::{Rejection, certify};
 use crate::model::{Arm, BlendsClaim, Claims, OptimumClaim, Scene};
-use crate::space::{Configuration, Metric, Path, Recording};
+use crate::space::{Configuration, Path, Recording};
 use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
@@ -205,13 +205,7 @@ impl Ledger {
     fn optimum(&mut self, scene: &Scene, path: &[Configuration], claim: Option<&OptimumClaim>) {
         let Some(claim) = claim.filter(|_| !path.is_empty()) else { return };
         let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
-        let metric = match (claim.metric.as_str(), claim.weights) {
-            ("euclidean", _) => Some(Metric::Euclidean),
-            ("weighted", Some(weights)) => Some(Metric::Weighted { weights }),
-            ("time", _) => Some(Metric::Time { speeds }),
-            _ => None,
-        };
-        match metric {
+        match claim.metric(speeds) {
             Some(metric) => {
                 let length = metric.length(&Path::new(path.to_vec()));
                 self.number("optimum.length", Some(claim.length), length, AGAIN * (1.0 + length));

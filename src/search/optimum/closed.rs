@@ -131,6 +131,13 @@ impl<'a> Closed<'a> {
         walls
     }
 
+    /// The pairs by their numbers.
+    pub fn by_number(&self) -> Vec<Pair> {
+        let mut pairs: Vec<(usize, Pair)> = self.numbers.iter().map(|(pair, number)| (*number, *pair)).collect();
+        pairs.sort_unstable();
+        pairs.into_iter().map(|(_, pair)| pair).collect()
+    }
+
     /// The number of a pair; none if it is not looked at.
     pub fn number(&self, pair: Pair) -> Option<usize> {
         self.numbers.get(&pair).copied()

@@ -1,5 +1,6 @@
 //! How short a motion may be at best: a proven lower bound.
 
+mod claim;
 mod closed;
 mod portals;
 mod jumps;
@@ -7,8 +8,7 @@ mod refine;
 mod search;
 mod strips;
 
-use crate::check::Vicinity;
-use crate::check::{CertifiedPath, Rejection, certify};
+use crate::check::{CertifiedPath, LengthClaim, Rejection, Vicinity, certify};
 use crate::geometry::{Ordered, Point};
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology};
@@ -82,6 +82,18 @@ pub struct Motions<'a> {
 /// without area make no walls, which makes the bound lower.
 #[must_use]
 pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> f64 {
+    bounded(motions, limit, gap, slices).0
+}
+
+/// The same with what closes shorter ways, for [`LengthClaim::checked`].
+#[must_use]
+pub fn claimed_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> LengthClaim {
+    let (length, mut ways) = bounded(motions, limit, gap, slices);
+    let (slices, goal_slices) = (ways.strips.claim(motions.scene), ways.strips.claim_at_goals(motions.goals));
+    LengthClaim { slices, goal_slices, length }
+}
+
+fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, Ways<'a>) {
     let mut ways = Ways::new(*motions, limit, slices);
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
@@ -93,7 +105,7 @@ pub fn least_length(motions: &Motions, limit: f64, gap: f64, slices: &[f64]) -> 
             break;
         }
     }
-    ways.rounded(best.min(limit))
+    (ways.rounded(best.min(limit)), ways)
 }
 
 /// About the shortest of the `motions`, shorter than `limit`, certified. It keeps `kept` metres more than the clearance where

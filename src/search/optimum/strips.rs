@@ -55,17 +55,17 @@ impl Cell {
     }
 }
 
-struct Strip {
-    from: f64,
-    to: f64,
+pub(super) struct Strip {
+    pub(super) from: f64,
+    pub(super) to: f64,
     /// Closed by link 1.
-    closed: bool,
-    /// Ascending at both slices; once asked for.
-    barriers: Option<Vec<Barrier>>,
+    pub(super) closed: bool,
+    /// Ascending at both slices, each with the number of its pair; once asked for.
+    pub(super) barriers: Option<Vec<(Barrier, usize)>>,
     /// What is closed at its middle; once asked for.
     middle: Option<Vec<Wall>>,
     /// What is closed at the slice at `from`, and what that leaves; once asked for.
-    walls: Option<Vec<Wall>>,
+    pub(super) walls: Option<Vec<Wall>>,
     portals: Option<Vec<Portal>>,
 }
 
@@ -80,9 +80,9 @@ impl Strip {
 pub(super) struct Strips<'a> {
     topology: Topology,
     pub(super) closed: Closed<'a>,
-    strips: Vec<Strip>,
+    pub(super) strips: Vec<Strip>,
     /// What is closed at the end of the domain of a joint 1 with limits.
-    last: Vec<Wall>,
+    pub(super) last: Vec<Wall>,
 }
 
 impl<'a> Strips<'a> {
@@ -211,17 +211,17 @@ impl<'a> Strips<'a> {
         let (Some(first), Some(last)) = (barriers.first(), barriers.last()) else {
             return (!strip.closed).then_some(whole);
         };
-        let at = |barrier: &Barrier| barrier[0] + (barrier[1] - barrier[0]) * share;
+        let at = |(barrier, _): &(Barrier, usize)| barrier[0] + (barrier[1] - barrier[0]) * share;
         let round = self.topology.ranges[1].is_circle();
         let turns = if round { ((q2 - at(first)) / TAU).floor() } else { 0.0 };
         let value = q2 - turns * TAU;
         let after = barriers.partition_point(|barrier| at(barrier) <= value);
-        let below = after.checked_sub(1).map(|below| barriers[below]);
-        let above = barriers.get(after).copied();
+        let below = after.checked_sub(1).map(|below| barriers[below].0);
+        let above = barriers.get(after).map(|above| above.0);
         let cell = if round {
             Cell {
-                lower: below.unwrap_or_else(|| last.map(|q2| q2 - TAU)),
-                upper: above.unwrap_or_else(|| first.map(|q2| q2 + TAU)),
+                lower: below.unwrap_or_else(|| last.0.map(|q2| q2 - TAU)),
+                upper: above.unwrap_or_else(|| first.0.map(|q2| q2 + TAU)),
             }
         } else {
             Cell { lower: below.unwrap_or(whole.lower), upper: above.unwrap_or(whole.upper) }
@@ -242,7 +242,7 @@ impl<'a> Strips<'a> {
             }
             for (strip, side) in [(before, 1), (after, 0)] {
                 let barriers = self.strips[strip].barriers.iter().flatten();
-                closed.extend(barriers.map(|barrier| [axis.wrap(barrier[side]); 2]));
+                closed.extend(barriers.map(|(barrier, _)| [axis.wrap(barrier[side]); 2]));
             }
             merge_in_place(&mut closed);
             let is_closed = self.strips[before].closed || self.strips[after].closed;
@@ -312,13 +312,13 @@ impl<'a> Strips<'a> {
             };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
             for (left, right) in some(of_the_same_pairs(&before, &after)) {
-                barriers.extend(self.barrier([from, to], left, right));
+                barriers.extend(self.barrier([from, to], left, right).map(|barrier| (barrier, left.pair)));
             }
-            barriers.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+            barriers.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
             // Those that cross others are left out: cells are to be convex.
-            barriers.dedup_by(|next, kept| next[0] <= kept[0] || next[1] <= kept[1]);
+            barriers.dedup_by(|(next, _), (kept, _)| next[0] <= kept[0] || next[1] <= kept[1]);
             if self.topology.ranges[1].is_circle() {
-                while let [first, .., last] = barriers.as_slice()
+                while let [(first, _), .., (last, _)] = barriers.as_slice()
                     && (0..2).any(|side| last[side] >= first[side] + TAU)
                 {
                     barriers.pop();

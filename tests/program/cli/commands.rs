@@ -195,6 +195,35 @@ fn compare_lists_every_planner() {
 }
 
 #[test]
+fn recheck_accepts_true_bounds_and_no_others() {
+    let place = Place::new();
+    let worlds = [
+        ("planar_2r", "shelf", "--metric weighted --weights 1,0.4"),
+        ("gantry", "annulus_open", ""),
+        ("polar", "thin_wall_open", "--metric time"),
+    ];
+    for (robot, world, options) in worlds {
+        let files = [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")].map(|file| shipped(&file));
+        let mut made = place.run(&files, &format!("{options} --json --output made.json")).json();
+        let recheck = [&["recheck".to_owned()], &files[..]].concat();
+        let holds = place.run(&recheck, "--proof made.json");
+        assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
+        // More than is true; no length at all; not of this world.
+        let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
+        for (wrong, said) in [(lower * (1.0 + 2e-4), "are no bounds"), (lower * 1.01, "not seen to hold")] {
+            made["optimum"]["lower_bound"] = wrong.into();
+            place.write("wrong.json", made.to_string());
+            place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", said]);
+            made["optimum"]["length"] = (lower * 1.02).into();
+        }
+    }
+    let shelf = [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")];
+    place.run(&shelf, "--quiet --output shelf.json");
+    let elsewhere = ["recheck".into(), shelf[0].clone(), shipped("workspaces/two_branches.toml")];
+    place.run(&elsewhere, "--proof shelf.json").refused(1, &["not seen to hold"]);
+}
+
+#[test]
 fn recheck_accepts_true_proofs_and_no_others() {
     let place = Place::new();
     let [urdf, closed, open] =
@@ -215,7 +244,7 @@ fn recheck_accepts_true_proofs_and_no_others() {
     place.write("lesser.json", lesser.to_string());
     judge(&closed, "lesser.json").refused(1, &["do not separate"]);
     place.write("none.json", r#"{"status": "found"}"#);
-    judge(&closed, "none.json").refused(1, &["holds no proof"]);
+    judge(&closed, "none.json").refused(1, &["holds no proof", "no bound"]);
     judge(&closed, "absent.json").refused(1, &["absent.json"]);
     place.run(&["recheck", &urdf, &closed], "").refused(2, &["--proof"]);
 }
