@@ -102,6 +102,7 @@ impl PlanArgs {
             joints: self.message.joints.into(),
             accelerations: self.message.accelerations,
             timings: self.timings,
+            ..Options::default()
         })
     }
 }

@@ -108,6 +108,14 @@ pub struct Stages {
     pub bound: Duration,
 }
 
+impl Stages {
+    /// All of them.
+    #[must_use]
+    pub fn total(&self) -> Duration {
+        self.build + self.query + self.certify + self.prove + self.bound
+    }
+}
+
 impl Add for Stages {
     type Output = Self;
 

@@ -258,6 +258,8 @@ pub struct Options {
     pub planner: Planner,
     /// Attempts, each finer than the one before, from 1 to 12.
     pub levels: usize,
+    /// Whether planners that optimise bound the optimum from below; if not, the gap is aimed at without proof.
+    pub bounded: bool,
     /// How to drive along the path.
     pub drive: Drive,
     /// Greatest jerk of each joint in place of its own, rad/s3 or m/s3; none for a joint without a limit.
@@ -276,6 +278,7 @@ impl Default for Options {
         Self {
             planner: Planner::named(Method::Shortest),
             levels: Effort::default().levels,
+            bounded: true,
             drive: Drive::default(),
             jerk: None,
             joints: NamedJoints::All,
@@ -288,7 +291,7 @@ impl Default for Options {
 impl Options {
     /// How single motions are to be planned in a scene.
     pub(crate) fn effort(&self, scene: &Scene) -> Effort {
-        self.planner.effort(scene.arm(), self.levels)
+        Effort { bounded: self.bounded, ..self.planner.effort(scene.arm(), self.levels) }
     }
 
     /// Puts the limits that are given here in place of the joints' own.

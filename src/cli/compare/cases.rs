@@ -4,7 +4,7 @@ use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
 use crate::input::{self, DiagnosticKind, Overrides, Refused, Suite};
-use crate::model::{Joint, MotionProblem};
+use crate::model::MotionProblem;
 use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
@@ -83,12 +83,9 @@ impl Cases {
         }
         let mut name = suite.name.clone();
         let overrides = args.query.overrides();
-        let (mut bases, refused) =
+        let (bases, refused) =
             if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
         let mut refused: Vec<Refusal> = refused.iter().map(refusal).collect();
-        for (_, problem) in &mut bases {
-            Joint::override_jerks(problem.joints_mut(), args.motion.jerk());
-        }
         if let [(_, only)] = &bases[..]
             && args.suite.is_none()
         {

@@ -20,7 +20,7 @@ use super::failure::Failure;
 use super::memory::MemoryMeter;
 use super::sinks::{self, Sink};
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
-use crate::engine::{Method, Planner};
+use crate::engine::{Method, Options, Planner};
 use crate::motion::write_whole_set;
 use crate::report::{Comparison, Page, Refusal, Study};
 use cases::{Case, Cases};
@@ -51,10 +51,10 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     let progress = Progress::new(total, args.is_single(), args.quiet);
     let jobs = usize::from(args.jobs);
     let meter = runner::meter(meter, jobs, args.quiet);
-    let runner = Runner { entries: &entries, motion: &args.motion, jobs, meter, progress: &progress };
+    let runner = Runner { entries: &entries, jobs, meter, progress: &progress };
     let started = started::now();
     let mut done = runner.run(&cases).map_err(|(name, error)| match error {
-        error if args.is_single() => Failure::Trajectory(error),
+        error if args.is_single() => Failure::Plan(error),
         error => Failure::Option(format!("{name}: {error}")),
     })?;
     let study = Study {
@@ -103,7 +103,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
         let planner = args.effort.put_into(Planner::named(method));
-        Entry { label: method.to_string(), planner, levels: args.effort.levels() }
+        Entry { label: method.to_string(), options: options(args, planner, args.effort.levels()) }
     });
     let plain: Vec<Entry> = plain.collect();
     let of = |case: &Case| {
@@ -114,11 +114,17 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
             }
             let (planner, levels) = variant.over(&args.effort);
-            entries.push(Entry { label: variant.label.clone(), planner, levels });
+            entries.push(Entry { label: variant.label.clone(), options: options(args, planner, levels) });
         }
         Ok(entries)
     };
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
+}
+
+/// How a planner is run; bounds are measured by themselves, for all planners alike.
+fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
+    let (drive, jerk) = (args.motion.drive(), args.motion.jerk());
+    Options { planner, levels, bounded: false, drive, jerk, ..Options::default() }
 }
 
 /// All that there is to write.

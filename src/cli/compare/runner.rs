@@ -3,12 +3,9 @@
 use super::cases::{Case, Cases};
 use super::progress::Progress;
 use crate::cli::memory::MemoryMeter;
-use crate::cli::motion::MotionArgs;
 use crate::cli::sinks;
-use crate::engine::{Effort, Planner, Verdict, bound, solve};
-use crate::model::MotionProblem;
-use crate::model::Status;
-use crate::motion::{Timed, TimingError};
+use crate::engine::{MotionPlan, Options, PlanError, Problem, Verdict, bound, plan, plan_with};
+use crate::model::{MotionProblem, Status};
 use crate::planner::PathKind;
 use crate::report::{Comparison, Family, OtherPath, Row};
 use crate::space::{Metric, Path};
@@ -21,17 +18,8 @@ use std::time::{Duration, Instant};
 pub struct Entry {
     /// Stands for the planner in tables.
     pub label: String,
-    /// The planner.
-    pub planner: Planner,
-    /// Its attempts.
-    pub levels: usize,
-}
-
-impl Entry {
-    /// How hard it tries; bounds are measured by themselves, for all planners alike.
-    fn effort(&self, problem: &MotionProblem) -> Effort {
-        Effort { bounded: false, ..self.planner.effort(problem.scene().arm(), self.levels) }
-    }
+    /// The planner, and how it is run.
+    pub options: Options,
 }
 
 /// What is there when all is done.
@@ -48,8 +36,6 @@ pub struct Compared {
 pub struct Runner<'a> {
     /// For each world its planners, the same number for all.
     pub entries: &'a [Vec<Entry>],
-    /// How to drive along paths.
-    pub motion: &'a MotionArgs,
     /// Runs at the same time.
     pub jobs: usize,
     /// What counts bytes, for one run at a time only.
@@ -59,10 +45,7 @@ pub struct Runner<'a> {
 }
 
 /// A run's row, and its path.
-type Ran = Result<(Row, Option<Path>), TimingError>;
-
-/// Boxes of the run before all others.
-const WARMING: usize = 1000;
+type Ran = Result<(Row, Option<Path>), PlanError>;
 
 /// A bound that is no farther below the shortest path found, as a share of it, is good enough.
 const BOUND_GAP: f64 = 1e-4;
@@ -72,7 +55,7 @@ impl Runner<'_> {
     ///
     /// # Errors
     /// Motions that cannot be timed as asked, the first of them in that order.
-    pub fn run(&self, cases: &Cases) -> Result<Compared, (String, TimingError)> {
+    pub fn run(&self, cases: &Cases) -> Result<Compared, (String, PlanError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
         // Each problem begins with another planner: the first one pays for what the others find in the caches.
@@ -135,74 +118,71 @@ impl Runner<'_> {
     /// One run, measured. A coarse one goes before the very first, which would else pay for loading the program.
     fn one(&self, case: &Case, entry: &Entry, is_first: bool) -> Ran {
         self.progress.begin(&case.name, &entry.label);
-        let problem = case.problem();
-        let (method, effort) = (entry.planner.method(), entry.effort(&problem));
+        let problem = Problem::from(case.problem().into_owned());
+        let options = &entry.options;
         if is_first {
-            let _ = solve(&problem, method, &Effort { levels: 1, boxes: WARMING, ..effort }, &mut |_| {});
+            plan(&problem, &Options { levels: 1, ..*options })?;
         }
         let mut said = |text: &str| self.progress.say(text);
-        let mut work = || {
-            let clock = Instant::now();
-            let answer = solve(&problem, method, &effort, &mut said);
-            (answer, clock.elapsed())
-        };
-        let ((answer, elapsed), memory) = match self.meter {
+        let mut work = || plan_with(&problem, options, &mut said);
+        let (made, memory) = match self.meter {
             Some(meter) => {
-                let (done, bytes) = meter.measure(work);
-                (done, Some(bytes))
+                let (made, bytes) = meter.measure(work);
+                (made?, Some(bytes))
             }
-            None => (work(), None),
+            None => (work()?, None),
         };
-        let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
-        let stages = answer.stages;
-        let mut row = Row {
-            size: Some(answer.run.size),
-            build: seconds(stages.build),
-            query: seconds(stages.query),
-            certify: seconds(stages.certify),
-            prove: seconds(stages.prove),
-            total: seconds(elapsed),
-            memory,
-            note: answer.run.note,
-            path_kind: entry.planner.path_kind(),
-            ..Row::new(entry.label.clone(), Family::from(method), Status::Unknown)
-        };
+        let mut row = Row::new(entry.label.clone(), Family::from(options.planner.method()), Status::Unknown);
         let mut path = None;
-        match answer.verdict {
-            Verdict::Found(certified) => {
-                let Timed { curve, trajectory } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
-                row.outcome = Status::Found;
-                row.length = Some(certified.path().length());
-                row.pieces = Some(certified.path().segments().count());
-                row.clearance = Some(curve.clearance()).filter(|c| c.is_finite());
-                row.duration = Some(trajectory.duration());
-                row.other_path = self.other_path(&problem, entry)?;
-                path = Some(certified.path().clone());
+        if let Some(MotionPlan { answer, curve, report, .. }) = made.motion() {
+            let stages = answer.stages;
+            let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
+            row = Row {
+                size: Some(answer.run.size),
+                build: seconds(stages.build),
+                query: seconds(stages.query),
+                certify: seconds(stages.certify),
+                prove: seconds(stages.prove),
+                total: seconds(stages.total()),
+                memory,
+                note: answer.run.note.clone(),
+                path_kind: options.planner.path_kind(),
+                outcome: answer.verdict.status(),
+                ..row
+            };
+            match &answer.verdict {
+                Verdict::Found(certified) => {
+                    row.length = Some(certified.path().length());
+                    row.pieces = Some(certified.path().segments().count());
+                    row.clearance = curve.as_ref().map(|curve| curve.clearance()).filter(|c| c.is_finite());
+                    row.duration = report.trajectory.as_ref().map(|trajectory| trajectory.duration());
+                    row.other_path = other_path(&problem, options)?;
+                    path = Some(certified.path().clone());
+                }
+                Verdict::Infeasible(_) => {}
+                Verdict::Unknown(reason) => row.reason = Some(reason.clone()),
             }
-            Verdict::Infeasible(_) => row.outcome = Status::Infeasible,
-            Verdict::Unknown(reason) => row.reason = Some(reason),
         }
         self.progress.done();
         Ok((row, path))
     }
+}
 
-    /// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
-    fn other_path(&self, problem: &MotionProblem, entry: &Entry) -> Result<Option<OtherPath>, TimingError> {
-        let method = entry.planner.method();
-        if !method.has_own_path() {
-            return Ok(None);
-        }
-        let kind = if entry.planner.path_kind() == PathKind::Own { PathKind::Taut } else { PathKind::Own };
-        let effort = Effort { path: Some(kind), ..entry.effort(problem) };
-        let Verdict::Found(certified) = solve(problem, method, &effort, &mut |_| {}).verdict else {
-            return Ok(None);
-        };
-        let Timed { curve, .. } = self.motion.drive().along(problem.scene(), &certified, 1.0)?;
-        Ok(Some(OtherPath {
-            length: certified.path().length(),
-            clearance: Some(curve.clearance()).filter(|c| c.is_finite()),
-        }))
+/// The planner's path of the other kind, if it has one; whoever is measured does not wait for it.
+fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
+    if !options.planner.method().has_own_path() {
+        return Ok(None);
     }
+    let kind = if options.planner.path_kind() == PathKind::Own { PathKind::Taut } else { PathKind::Own };
+    let made = plan(problem, &Options { planner: options.planner.with_path(kind), ..*options })?;
+    let found = made.motion().and_then(|plan| match (&plan.answer.verdict, &plan.curve) {
+        (Verdict::Found(certified), Some(curve)) => Some((certified, curve)),
+        _ => None,
+    });
+    Ok(found.map(|(certified, curve)| OtherPath {
+        length: certified.path().length(),
+        clearance: Some(curve.clearance()).filter(|c| c.is_finite()),
+    }))
 }
 
 /// What no motion is shorter than; none without a path.
