@@ -1,23 +1,16 @@
 //! The whole run in one process: from the files of an arm with five obstacles to the file of a certified trajectory.
 
-use cplan::check::blend;
-use cplan::engine::{Effort, Method, Verdict, solve};
-use cplan::input::{self, Overrides};
-use cplan::motion::{Limits, Report, Timed, time, write_whole};
+use cplan::engine::Method;
+use cplan::{Options, Problem, Status, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::path::Path;
 
 /// What `cplan URDF WORLD --output FILE` does.
-fn run(urdf: &Path, world: &Path, output: &Path, method: Method) -> usize {
-    let problem = input::load(urdf, world, &Overrides::default()).expect("a shipped workspace").problem;
-    let joints = &problem.scene().arm().joints;
-    let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
-    let Verdict::Found(certified) = &answer.verdict else { panic!("{method} found no path") };
-    let curve = blend(problem.scene(), certified, f64::INFINITY, problem.scene().workspace().clearance);
-    let Timed { curve, trajectory } = time(curve, &Limits::from(joints), 0.01).expect("limits that allow motion");
-    let json = Report::found(method.name(), joints, &curve, trajectory).json();
-    write_whole(output, json.as_bytes()).expect("a folder to write into");
-    json.len()
+fn run(urdf: &Path, world: &Path, output: &Path, options: &Options) {
+    let problem = Problem::load(urdf, world).expect("a shipped workspace");
+    let plan = plan(&problem, options).expect("options that make sense");
+    assert_eq!(plan.status(), Status::Found);
+    plan.save(output).expect("a folder to write into");
 }
 
 fn whole_run(c: &mut Criterion) {
@@ -28,7 +21,7 @@ fn whole_run(c: &mut Criterion) {
     let mut group = c.benchmark_group("files to certified trajectory, five obstacles");
     group.sample_size(20);
     for method in Method::ALL {
-        group.bench_function(method.name(), |b| b.iter(|| run(&urdf, &world, &output, method)));
+        group.bench_function(method.name(), |b| b.iter(|| run(&urdf, &world, &output, &method.into())));
     }
     group.finish();
 }

@@ -5,8 +5,9 @@ mod common;
 
 use common::{Benchmark, benchmark, problem, w20};
 use cplan::cspace::bitmap;
-use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Verdict, decide};
 use cplan::search::slab_connectivity;
+use cplan::{Options, Problem, plan};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -33,10 +34,10 @@ fn answers(c: &mut Criterion) {
 fn optima(c: &mut Criterion) {
     let mut group = c.benchmark_group("shortest");
     for which in [Benchmark::A, Benchmark::B] {
-        let problem = problem(which);
-        let shortest = || solve(black_box(&problem), Method::Shortest, &Effort::default(), &mut |_| {});
-        let gap = shortest().bound.expect("both have a path").gap();
-        group.bench_function(format!("{which:?}: proven within {gap:.1e}"), |b| b.iter(shortest));
+        let problem = Problem::from(problem(which));
+        let shortest = || plan(black_box(&problem), &Options::default()).expect("the defaults make sense");
+        let gap = shortest().motion().and_then(|plan| plan.answer.bound).expect("both have a path").gap();
+        group.bench_function(format!("{which:?}: timed, proven within {gap:.1e}"), |b| b.iter(shortest));
     }
     group.finish();
 }

@@ -4,9 +4,8 @@
 //! cargo run --release --example compare_planners -- robots/planar_2r.urdf workspaces/shelf.toml
 //! ```
 
-use cplan::engine::{Effort, Method, Verdict, solve};
-use cplan::input::{self, Overrides};
-use cplan::motion::{Limits, time};
+use cplan::engine::Method;
+use cplan::{Options, Outcome, Problem, Refutation, plan};
 use std::error::Error;
 use std::path::PathBuf;
 
@@ -14,27 +13,25 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1).map(PathBuf::from);
     let urdf = args.next().unwrap_or_else(|| "robots/planar_2r.urdf".into());
     let world = args.next().unwrap_or_else(|| "workspaces/shelf.toml".into());
-    let problem = input::load(&urdf, &world, &Overrides::default())?.problem;
+    let problem = Problem::load(urdf, world)?;
 
     for method in Method::ALL {
-        let answer = solve(&problem, method, &Effort::default(), &mut |text| eprintln!("{text}"));
-        match &answer.verdict {
-            Verdict::Found(certified) => {
-                let limits = Limits::from(&problem.scene().arm().joints);
-                let trajectory = time(certified.clone(), &limits, 0.01)?.trajectory;
+        let plan = plan(&problem, &Options::from(method))?;
+        match plan.outcome() {
+            Outcome::Found(trajectory) => {
+                let report = plan.report().ok_or("the world has steps: these are for pick_and_place")?;
                 println!(
-                    "{method:<11} length {:.4}, proven clearance {:.4} m, motion {:.2} s; built in {:.1?}, asked in {:.1?}",
-                    certified.path().length(),
-                    certified.clearance(),
+                    "{method:<11} length {:.4}, proven clearance {:.4} m, motion {:.2} s",
+                    report.length.unwrap_or_default(),
+                    report.clearance.unwrap_or(f64::INFINITY),
                     trajectory.duration(),
-                    answer.stages.build,
-                    answer.stages.query,
                 );
             }
-            Verdict::Infeasible(proof) => {
+            Outcome::Infeasible(Refutation::Motion(proof)) => {
                 println!("{method:<11} no path: {} stuck boxes separate start and goal", proof.stuck().len());
             }
-            Verdict::Unknown(why) => println!("{method:<11} unknown: {why}"),
+            Outcome::Infeasible(Refutation::Step(step)) => println!("{method:<11} step {} cannot be done", step.step),
+            Outcome::Unknown(why) => println!("{method:<11} unknown: {why}"),
         }
     }
     Ok(())

@@ -4,10 +4,9 @@
 //! cargo run --release --example pick_and_place -- robots/scara.urdf workspaces/tasks/table_mission.toml
 //! ```
 
-use cplan::engine::task::{Event, Manner, Sequence, TaskVerdict, plan};
-use cplan::engine::{Effort, Method};
-use cplan::input::{self, Overrides};
-use cplan::motion::Drive;
+use cplan::engine::TaskPlan;
+use cplan::engine::task::{Event, TaskVerdict};
+use cplan::{Options, Problem, plan};
 use std::error::Error;
 use std::path::PathBuf;
 
@@ -15,11 +14,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1).map(PathBuf::from);
     let urdf = args.next().unwrap_or_else(|| "robots/scara.urdf".into());
     let world = args.next().unwrap_or_else(|| "workspaces/tasks/table_mission.toml".into());
-    let task = input::load_scene(&urdf, &world)?.task(&Overrides::default())?.task;
+    let problem = Problem::load(urdf, world)?;
 
     // IK solutions, grips and turns of the wrist are chosen together, for the least time of the whole.
-    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() };
-    let answer = plan(&task, &manner, &mut |text| eprintln!("{text}"));
+    let plan = plan(&problem, &Options::default())?;
+    let TaskPlan { task, answer, .. } = plan.task().ok_or("the world has no steps")?;
 
     // Of a task that cannot be done: the steps before the one that fails.
     for leg in &answer.legs {
@@ -39,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     match &answer.verdict {
         TaskVerdict::Found(()) => {
             // All motions as one trajectory, with the arm standing still where steps end.
-            if let Some(Sequence { trajectory, .. }) = Sequence::of(&answer.legs) {
+            if let Some(trajectory) = plan.trajectory() {
                 println!("{} samples, {:.3} s in all", trajectory.time.len(), trajectory.duration());
             }
             println!("no sequence of motions takes less than {:.3} s: proven", answer.lower_bound);

@@ -8,9 +8,9 @@ mod files;
 mod shipped;
 
 use cplan::input::{LoadedScene, Overrides, load, load_scene};
-use cplan::engine::{Effort, Method};
-use cplan::engine::task::{Manner, TaskReport, plan};
-use cplan::motion::Drive;
+use cplan::Options;
+use cplan::engine::Method;
+use cplan::engine::task::{TaskReport, plan};
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
@@ -31,9 +31,8 @@ fn task(scene: LoadedScene) {
     if task.steps().count() > MOST_STEPS {
         return;
     }
-    let effort = Effort { levels: 1, cells: 16, boxes: 200, ..Effort::default() };
-    let manner = Manner { method: Method::Visibility, effort, drive: Drive::default() };
-    let answer = plan(&task, &manner, &mut |_| {});
+    let options = Options { levels: 1, boxes: 200, ..Method::Visibility.into() };
+    let answer = plan(&task, &options, &mut |_| {});
     assert!(answer.impossible().is_none() || !answer.impossible().unwrap().reasons.is_empty(), "no reason");
     assert!(!TaskReport::new("visibility", &task, &answer).json().is_empty());
 }

@@ -69,6 +69,26 @@ pub struct Bounded {
     pub least: f64,
 }
 
+/// A bound on the second derivative of the motion of points, per squared parameter of the deviation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Curvature {
+    /// It grows with the distance from here, ...
+    center: Point,
+    /// ... and this, ...
+    shift: f64,
+    /// ... times the square of this, ...
+    factor: f64,
+    /// ... from this.
+    constant: f64,
+}
+
+impl Curvature {
+    /// That of a point.
+    pub fn of(&self, p: Point) -> f64 {
+        ((p - self.center).norm() + self.shift) * self.factor * self.factor + self.constant
+    }
+}
+
 impl<'a> Posture<'a> {
     /// The arm of `scene` at `q`.
     #[must_use]
@@ -147,10 +167,11 @@ impl<'a> Posture<'a> {
     ) -> f64 {
         let line = piece.core().iter().map(|p| n.dot(&p.coords)).fold(f64::INFINITY, f64::min);
         let mut least = f64::INFINITY;
+        let curvature = self.curvature_in_plane(pair.link, deviation);
         for (x, a) in part.core().iter().zip(local.core()) {
             let gap = line - n.dot(&x.coords);
             let toward = deviation.linear(self.rates(pair.link, *x, n));
-            least = least.min(gap - toward - self.curvature_in_plane(pair.link, *a, deviation) / 2.0);
+            least = least.min(gap - toward - curvature.of(*a) / 2.0);
         }
         least
     }
@@ -160,10 +181,11 @@ impl<'a> Posture<'a> {
     fn least_in_link(&self, pair: Pair, part: &Convex, piece: &Convex, n: Vector, deviation: Deviation) -> f64 {
         let line = part.core().iter().map(|p| n.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
         let mut least = f64::INFINITY;
+        let curvature = self.curvature_in_link(pair.link, deviation);
         for p in piece.core() {
             let gap = n.dot(&p.coords) - line;
             let toward = deviation.linear(self.rates(pair.link, *p, n));
-            least = least.min(gap - toward - self.curvature_in_link(pair.link, *p, deviation) / 2.0);
+            least = least.min(gap - toward - curvature.of(*p) / 2.0);
         }
         least
     }
@@ -183,37 +205,43 @@ impl<'a> Posture<'a> {
         [first, second]
     }
 
-    /// Bound on `|x''|` of the link's point `a` (link frame) in the plane, per squared parameter of the deviation.
-    pub(crate) fn curvature_in_plane(&self, link: usize, a: Point, deviation: Deviation) -> f64 {
+    /// Of points of the link (link frame) in the plane.
+    pub(crate) fn curvature_in_plane(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
-        let turn = turn_of_link_2(arm, deviation);
+        let none = Curvature { center: Point::origin(), shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
-            (0, Revolute { .. }, _) => a.coords.norm() * d1 * d1,
-            (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 * d1 + a.coords.norm() * turn * turn,
-            (_, Revolute { .. }, Prismatic { direction }) => {
-                let radius = (arm.offset + direction * self.q[1] + a.coords).norm() + d2;
-                radius * d1 * d1 + 2.0 * d1 * d2
+            (0, Revolute { .. }, _) => Curvature { factor: d1, ..none },
+            (_, Revolute { .. }, Revolute { .. }) => {
+                Curvature { factor: turn_of_link_2(arm, deviation), constant: arm.offset.norm() * d1 * d1, ..none }
             }
-            (1, Prismatic { .. }, Revolute { .. }) => a.coords.norm() * d2 * d2,
-            _ => 0.0,
+            (_, Revolute { .. }, Prismatic { direction }) => {
+                let center = Point::from(-(arm.offset + direction * self.q[1]));
+                Curvature { center, shift: d2, factor: d1, constant: 2.0 * d1 * d2 }
+            }
+            (1, Prismatic { .. }, Revolute { .. }) => Curvature { factor: d2, ..none },
+            _ => none,
         }
     }
 
-    /// Bound on `|y''|` of the plane's point `p` seen from the link, per squared parameter of the deviation.
-    pub(crate) fn curvature_in_link(&self, link: usize, p: Point, deviation: Deviation) -> f64 {
+    /// Of points of the plane, as seen from the link.
+    pub(crate) fn curvature_in_link(&self, link: usize, deviation: Deviation) -> Curvature {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
         let [d1, d2] = deviation.each();
-        let turn = turn_of_link_2(arm, deviation);
-        let from_base = (p - arm.base).norm();
+        let about_base = Curvature { center: arm.base, shift: 0.0, factor: 0.0, constant: 0.0 };
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
-            (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => from_base * d1 * d1,
+            (0, Revolute { .. }, _) | (_, Revolute { .. }, Prismatic { .. }) => Curvature { factor: d1, ..about_base },
             // y = R(-phi) (p - base) - R(-q2) offset
-            (_, Revolute { .. }, Revolute { .. }) => from_base * turn * turn + arm.offset.norm() * d2 * d2,
-            (1, Prismatic { .. }, Revolute { .. }) => ((p - self.elbow).norm() + d1) * d2 * d2 + 2.0 * d1 * d2,
-            _ => 0.0,
+            (_, Revolute { .. }, Revolute { .. }) => {
+                let constant = arm.offset.norm() * d2 * d2;
+                Curvature { factor: turn_of_link_2(arm, deviation), constant, ..about_base }
+            }
+            (1, Prismatic { .. }, Revolute { .. }) => {
+                Curvature { center: self.elbow, shift: d1, factor: d2, constant: 2.0 * d1 * d2 }
+            }
+            _ => about_base,
         }
     }
 

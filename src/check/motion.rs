@@ -110,7 +110,7 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
         vicinity.near(&posture, here, search.seen(), |pair| {
             // What is farther off than the nearest so far is of no interest.
             if posture.apart(pair, here) < search.seen() {
-                search.see(q, Contact { pair, separation: posture.bound(pair, here).here })?;
+                search.see(q, Contact { pair, separation: posture.here(pair) })?;
             }
             Ok(())
         })?;

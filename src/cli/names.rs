@@ -13,7 +13,7 @@ impl ValueEnum for Method {
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
             Method::Shortest => {
-                "The shortest path, from exact rows, with a proven bound on the optimum; or a proof that there is none"
+                "The shortest path, from exact slices, with a proven bound on the optimum; or a proof that there is none"
             }
             Method::First => {
                 "The first certified path that is found, or a proof that there is none: the quickest answer"

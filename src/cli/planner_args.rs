@@ -28,19 +28,9 @@ pub struct EffortArgs {
 
 impl EffortArgs {
     /// A planner with what of these options is its.
-    pub fn put_into(&self, mut planner: Planner) -> Planner {
-        let (given, share) = (self.cells.map(|cells| cells as usize), self.margin);
-        match &mut planner {
-            Planner::Shortest { margin, .. }
-            | Planner::Visibility { margin, .. }
-            | Planner::Trapezoid { margin, .. } => {
-                *margin = share.unwrap_or(*margin);
-            }
-            Planner::Wavefront { cells, .. } => *cells = given.unwrap_or(*cells),
-            Planner::Harmonic { cells, .. } => *cells = given.or(*cells),
-            Planner::First | Planner::Subdivision { .. } => {}
-        }
-        planner
+    pub fn put_into(&self, planner: Planner) -> Planner {
+        let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
+        self.cells.map_or(planner, |n| planner.with_cells(n as usize))
     }
 
     /// Attempts.
@@ -142,22 +132,18 @@ impl PlannerArgs {
         Ok(self.put_into(Planner::named(method), field))
     }
 
-    fn put_into(&self, mut planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
+    fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
+        let mut planner = self.effort.put_into(planner).with_criterion(self.optimum.criterion());
         match &mut planner {
-            Planner::Shortest { criterion, gap, .. } | Planner::Visibility { criterion, gap, .. } => {
-                (*criterion, *gap) = (self.optimum.criterion(), self.optimum.gap);
-            }
-            Planner::Wavefront { search, neighborhood, space, .. } => {
+            Planner::Wavefront { search, neighborhood, .. } => {
                 *search = self.path.search.unwrap_or(*search);
                 *neighborhood = self.path.neighbors.unwrap_or(*neighborhood);
-                *space = self.path.space.unwrap_or(*space);
             }
-            Planner::Harmonic { field, space, .. } => {
-                (*field, *space) = (chosen, self.path.space.unwrap_or(*space));
-            }
-            Planner::Trapezoid { .. } | Planner::First | Planner::Subdivision { .. } => {}
+            Planner::Harmonic { field, .. } => *field = chosen,
+            _ => {}
         }
-        let planner = self.effort.put_into(planner);
+        let planner = self.optimum.gap.map_or(planner, |share| planner.with_gap(share));
+        let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
     }
 

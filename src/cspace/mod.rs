@@ -29,7 +29,7 @@ mod zones;
 pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
-pub use regions::{CObstacle, Polygon, Regions, c_obstacles, regions, traced_pairs};
+pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regions, traced_pairs};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_slices, outer_grid};
 pub use slices::{Forbidden, Slice, Slices};
@@ -46,6 +46,11 @@ pub enum Proves {
         /// The greatest growth of an obstacle, metres.
         margin: f64,
     },
+    /// Obstacles are shrunk by at most `margin` metres of workspace motion: blocked is blocked; free proves nothing.
+    Inner {
+        /// The greatest loss of an obstacle, metres.
+        margin: f64,
+    },
     /// Looked at in places only: neither proves anything.
     Sampled,
 }
@@ -55,6 +60,7 @@ impl std::fmt::Display for Proves {
         match self {
             Proves::Exact => write!(f, "exact"),
             Proves::Outer { margin } => write!(f, "outer, obstacles grown by up to {margin:.2e} m"),
+            Proves::Inner { margin } => write!(f, "inner, obstacles shrunk by up to {margin:.2e} m"),
             Proves::Sampled => write!(f, "sampled"),
         }
     }

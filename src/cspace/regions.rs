@@ -7,7 +7,7 @@ use super::union::free_space;
 use super::{Proves, translation};
 use crate::geometry::{Hits, Point, cross};
 use crate::interrupt::checkpoint;
-use crate::model::{Joint, Scene};
+use crate::model::{Joint, Pair, Scene};
 use crate::space::{Configuration, JointRange, Topology};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
@@ -120,6 +120,28 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     assert!(margin > 0.0, "a margin for the flattening of curves");
     let obstacles = c_obstacles(scene, KEPT * margin, (1.0 - KEPT) * margin);
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
+}
+
+/// Free space of a gantry, over the limits of its slides, with obstacles shrunk by at most `margin` metres: all that keeps the
+/// scene's clearance is within, and what is nearer by more than `margin` is not.
+///
+/// None for other arms, where link 1 can meet something, and where shapes are too thin to be shrunk: walls without thickness
+/// whose tool is a point. Vertices grow like `1 / sqrt(margin)`.
+#[must_use]
+pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
+    let map = translation::joint_map(scene.arm())?;
+    let level = scene.workspace().clearance;
+    let contour = |pair: &Pair| {
+        checkpoint();
+        if pair.link == 0 {
+            return None;
+        }
+        let (part, piece) = (scene.part(*pair), scene.piece(*pair));
+        let contour = translation::inner_contour(scene.arm(), &map, part, piece, level, margin)?;
+        Some(CObstacle { obstacle: pair.obstacle, link: pair.link, contour })
+    };
+    let obstacles: Option<Vec<CObstacle>> = scene.pairs().iter().map(contour).collect();
+    Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
 }
 
 /// The limits of interval axes, and `periods` turns to either side of `center` on circles.

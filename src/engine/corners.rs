@@ -17,12 +17,12 @@ const FARTHEST: f64 = 8.0;
 /// `path` with fewer corners, longer by at most `budget`; certified. None if no corner can be spared.
 ///
 /// The pieces that cost least go first: `O(n log n)` for `n` corners, and a certificate.
-pub(super) fn fewer_corners(scene: &Scene, path: &CertifiedPath, metric: Metric, budget: f64) -> Option<CertifiedPath> {
+pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: f64) -> Option<CertifiedPath> {
     let topology = scene.arm().topology();
     let mut too_near = Vec::new();
     for _ in 0..TRIES {
-        let fewer = drawn_out(&topology, path.path().waypoints(), metric, budget, &too_near);
-        if fewer.len() == path.path().waypoints().len() {
+        let fewer = drawn_out(&topology, path.waypoints(), metric, budget, &too_near);
+        if fewer.len() == path.waypoints().len() {
             return None;
         }
         match certify(scene, Path::new(fewer), scene.workspace().clearance) {

@@ -1,15 +1,15 @@
 //! The first answer: a certified path, or a proof, by slabs alone.
 
 use super::settle::decide;
-use super::{Answer, Effort, Method, Space, Stages, Verdict};
+use super::{Answer, Method, Options, Space, Stages, Verdict};
 use crate::model::MotionProblem;
 use crate::planner::{PathKind, Proposal, Run, Size, Trace};
 use std::time::Instant;
 
 /// Answers `problem` by [`decide`].
-pub(super) fn solve(problem: &MotionProblem, effort: &Effort) -> Answer {
+pub(super) fn solve(problem: &MotionProblem, options: &Options) -> Answer {
     let clock = Instant::now();
-    let verdict = decide(problem, effort.boxes);
+    let verdict = decide(problem, options.boxes);
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
     answer(Method::First, verdict, stages)
 }

@@ -2,12 +2,12 @@
 
 use super::admission::{Admit, Ends};
 use super::bound::{Bound, bound, percent};
-use super::rungs::{Builder, Described, cells, field_cells, polygons, zoned_cells};
+use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
 use super::settle::decide;
-use super::{Answer, Effort, Method, Space, Stages, Verdict, first, shortest, subdivision};
+use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::check::{CertifiedPath, Rejection, certify};
 use crate::model::{MotionProblem, Scene};
-use crate::planner::{FieldPlanner, Harmonic, Planner, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::planner::{FieldPlanner, Harmonic, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
 use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
@@ -25,61 +25,62 @@ const WIDE: f64 = 0.05;
 /// The last level for that, four times finer each: it shows passages down to a five-thousandth of the arm's reach.
 const LAST_LOOK: usize = 2;
 
-/// Answers `problem` with `method`. `progress` hears about attempts that failed.
+/// Answers `problem` with the options' planner. `progress` hears about attempts that failed.
 #[must_use]
-pub fn solve(problem: &MotionProblem, method: Method, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
-    let path = effort.path.unwrap_or(method.path_kind());
-    match method {
-        Method::Shortest => shortest::solve(problem, effort, progress),
-        Method::First => first::solve(problem, effort),
-        Method::Visibility => climb_polygons(problem, method, effort, progress),
-        Method::Trapezoid => climb(problem, method, effort, progress, &Trapezoid { path }, polygons),
-        Method::Wavefront => climb(problem, method, effort, progress, &Wavefront { path, ..effort.wavefront }, cells),
-        Method::Harmonic => match effort.field {
-            Some(field) => climb(problem, method, effort, progress, &FieldPlanner { path, ..field }, zoned_cells),
-            None => climb(problem, method, effort, progress, &Harmonic { path }, field_cells),
-        },
-        Method::Subdivision => subdivision::solve(problem, effort, progress),
+pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    match options.planner {
+        Planner::Shortest { .. } => shortest::solve(problem, options, progress),
+        Planner::First => first::solve(problem, options),
+        Planner::Visibility { .. } => climb_polygons(problem, options, progress),
+        Planner::Trapezoid { path, margin } => {
+            climb(problem, options, progress, &Trapezoid { path }, |level| polygons(problem, margin, level))
+        }
+        Planner::Wavefront { search, neighborhood, space, path, cells: n } => {
+            let planner = Wavefront { search, neighborhood, path };
+            climb(problem, options, progress, &planner, |level| cells(problem, space, n, level))
+        }
+        Planner::Harmonic { field: None, space, path, cells } => {
+            climb(problem, options, progress, &Harmonic { path }, |level| field_cells(problem, space, cells, level))
+        }
+        Planner::Harmonic { field: Some(field), space, path, cells } => {
+            let planner = FieldPlanner { path, ..field };
+            climb(problem, options, progress, &planner, |level| zoned_cells(problem, space, cells, level))
+        }
+        Planner::Subdivision { .. } => subdivision::solve(problem, options, progress),
     }
 }
 
-/// By a visibility graph, on behalf of `method`.
-pub(super) fn climb_polygons(
-    problem: &MotionProblem,
-    method: Method,
-    effort: &Effort,
-    progress: &mut dyn FnMut(&str),
-) -> Answer {
-    climb(problem, method, effort, progress, &Visibility { metric: effort.metric }, polygons)
+/// By a visibility graph, of which the planner has the margin.
+pub(super) fn climb_polygons(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
+    let (metric, margin) = (options.planner.metric(problem.scene().arm()), options.planner.margin());
+    climb(problem, options, progress, &Visibility { metric }, |level| polygons(problem, margin, level))
 }
 
 /// Level after level, until a path is good enough or a proof is found.
-fn climb<P: Planner>(
+fn climb<P: crate::planner::Planner>(
     problem: &MotionProblem,
-    method: Method,
-    effort: &Effort,
+    options: &Options,
     progress: &mut dyn FnMut(&str),
     planner: &P,
-    build: Builder<P::Space>,
+    build: impl Fn(usize) -> Option<P::Space>,
 ) -> Answer
 where
     P::Space: Into<Space> + Described + Admit,
 {
-    let mut climb = Climb { problem, method, effort, level: 0, stages: Stages::default(), path: None, bound: None };
+    let (method, metric) = (options.planner.method(), options.planner.metric(problem.scene().arm()));
+    let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None, bound: None };
     let mut history = Vec::new();
     let mut last: Option<(Run, P::Space)> = None;
     let mut known = None;
-    for level in 0..effort.levels.max(1) {
+    for level in 0..options.levels.max(1) {
         let clock = Instant::now();
-        let Some(space) = build(problem, effort, level) else { break };
+        let Some(space) = build(level) else { break };
         let map = planner.build(&space);
         climb.stages.build += clock.elapsed();
         let clock = Instant::now();
         let ends = Ends::new(problem, &space);
         let run = match method {
-            _ if method.optimises() => {
-                shortest_of_all(&ends, effort.metric, |query| planner.query(&space, &map, query))
-            }
+            _ if method.optimises() => shortest_of_all(&ends, metric, |query| planner.query(&space, &map, query)),
             _ => planner.query(&space, &map, &ends.query),
         };
         climb.stages.query += clock.elapsed();
@@ -90,7 +91,7 @@ where
         progress(&format!("{method}: {failure}"));
         history.push(failure);
         if level == 0 && climb.path.is_none() {
-            known = settle(problem, effort.boxes.min(FIRST_BOXES), &mut climb.stages);
+            known = settle(problem, options.boxes.min(FIRST_BOXES), &mut climb.stages);
             if let Some(Verdict::Infeasible(_)) = known {
                 break;
             }
@@ -99,7 +100,7 @@ where
     let path = climb.path.take();
     if path.is_none() && known.is_none() {
         progress(&format!("{method}: looking for a proof that there is no path"));
-        known = settle(problem, effort.boxes, &mut climb.stages);
+        known = settle(problem, options.boxes, &mut climb.stages);
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
@@ -113,7 +114,7 @@ where
         }
         (None, _) => (Verdict::Unknown(unknown()), None),
     };
-    let (kind, bound) = (effort.path.unwrap_or(method.path_kind()), climb.bound);
+    let (kind, bound) = (options.planner.path_kind(), climb.bound);
     let stages = climb.stages;
     Answer { method, verdict, path: kind, witness, bound, history, run, space: space.into(), stages }
 }
@@ -121,8 +122,8 @@ where
 /// What is known on the way up the ladder.
 struct Climb<'a> {
     problem: &'a MotionProblem,
-    method: Method,
-    effort: &'a Effort,
+    options: &'a Options,
+    metric: Metric,
     level: usize,
     stages: Stages,
     /// The best certified path so far.
@@ -154,7 +155,7 @@ impl Climb<'_> {
 
     /// `failure`, unless there is a path and no gap that is still to be closed: the one asked for, or else a wide one.
     fn unless_content(&self, failure: String) -> Option<String> {
-        let gap = self.effort.gap.or((self.level < LAST_LOOK).then_some(WIDE));
+        let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
         let wants_more = self.bound.zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }
@@ -171,12 +172,12 @@ impl Climb<'_> {
 
     /// Keeps a path if it is the best so far, and bounds it where the method is after the optimum.
     fn keep(&mut self, path: CertifiedPath) {
-        if !self.effort.bounded || !self.method.optimises() {
+        if !self.options.bounded || !self.options.planner.method().optimises() {
             self.path = Some(path);
             return;
         }
         let clock = Instant::now();
-        let (metric, gap) = (self.effort.metric, self.effort.gap);
+        let (metric, gap) = (self.metric, self.options.planner.gap());
         let upper = metric.length(path.path());
         // What no motion is below does not depend on the path: once is enough.
         let found = self.bound.map_or_else(

@@ -25,18 +25,20 @@
 //!
 //! The planner `shortest`, the default, is the search that bounds the optimum, twice. Slabs give a first path, which says
 //! how far to look; among obstacles that are grown by a hair the way keeps off the true ones and is certified; the same
-//! rows among the true ones give the bound. What is left of the gap is spent on fewer corners (`corners`), which makes
-//! motions faster. Polygons and graphs are built where that fails only: then the visibility graph has its turn on behalf
-//! of `shortest`. The planner `visibility` itself climbs to finer margins until both ends of the interval meet; without
+//! slices among the true ones give the bound. What is left of the gap is spent on fewer corners (`corners`), which makes
+//! motions faster. Of gantries, whose C-obstacles are polygons, a visibility graph past polygons grown by a little has the
+//! path, and one past polygons shrunk by a hair the bound: milliseconds where strips take seconds, as in a long spiral.
+//! Otherwise polygons and graphs are built where the search fails only: then the visibility graph has its turn on behalf of
+//! `shortest`. The planner `visibility` itself climbs to finer margins until both ends of the interval meet; without
 //! `--gap` two levels at the most, where the interval is wider than 5 %.
 
 mod admission;
 mod bound;
 mod clock;
 mod corners;
-mod effort;
 mod field_report;
 mod first;
+mod grid_space;
 mod ladder;
 mod method;
 mod motion_plan;
@@ -51,10 +53,11 @@ pub mod task;
 mod thinned;
 
 pub use bound::{Bound, bound, checked_bound, percent};
-pub use effort::{Effort, GridSpace};
+pub use grid_space::GridSpace;
 pub use ladder::solve;
 pub use method::Method;
 pub use motion_plan::MotionPlan;
+pub(crate) use options::FIRST_CELLS;
 pub use options::{CELLS, Criterion, LEVELS, MOST_MARGIN, NamedJoints, Options, Planner};
 pub(crate) use plan::Made;
 pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};

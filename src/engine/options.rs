@@ -1,8 +1,8 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
-use super::{Effort, GridSpace, Method};
+use super::{GridSpace, Method};
 use crate::field::Neighborhood;
-use crate::model::{Arm, Joint, Scene};
+use crate::model::{Arm, Joint};
 use crate::motion::{Drive, SHORTEST_INTERVAL};
 use crate::planner::{FieldPlanner, GridSearch, PathKind, Wavefront};
 use crate::space::Metric;
@@ -35,14 +35,14 @@ impl Criterion {
 /// A planner with what it can be told. [`Planner::named`] has the defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Planner {
-    /// The shortest path, from exact rows, with a proven bound on the optimum.
+    /// The shortest path, from exact slices, with a proven bound on the optimum.
     Shortest {
         /// What makes a path short.
         criterion: Criterion,
         /// Refine until the path is proven to be longer than the optimum by no more than this share of it; none for 1e-4. A
         /// larger one leaves room in which motions are faster.
         gap: Option<f64>,
-        /// As of [`Planner::Visibility`], whose graph has its turn where rows do not tell.
+        /// As of [`Planner::Visibility`], whose graph has its turn where slices do not tell.
         margin: f64,
     },
     /// The first certified path that is found.
@@ -97,6 +97,12 @@ pub enum Planner {
 /// Shares of the arm's reach that a margin can be: more than 0, at most this.
 pub const MOST_MARGIN: f64 = 0.1;
 
+/// The first margin.
+const MARGIN: f64 = 1e-3;
+
+/// The first number of cells along an axis.
+pub(crate) const FIRST_CELLS: usize = 256;
+
 /// Numbers of cells along an axis to begin with.
 pub const CELLS: RangeInclusive<usize> = 8..=2048;
 
@@ -107,8 +113,8 @@ impl Planner {
     /// The planner of that name, as it is if nothing else is said.
     #[must_use]
     pub fn named(method: Method) -> Self {
-        let Effort { margin, cells, gap, space, .. } = Effort::default();
-        let (criterion, path) = (Criterion::Euclidean, method.path_kind());
+        let (criterion, gap, margin) = (Criterion::Euclidean, None, MARGIN);
+        let (path, space) = (method.path_kind(), GridSpace::default());
         match method {
             Method::Shortest => Planner::Shortest { criterion, gap, margin },
             Method::First => Planner::First,
@@ -116,7 +122,7 @@ impl Planner {
             Method::Trapezoid => Planner::Trapezoid { path, margin },
             Method::Wavefront => {
                 let Wavefront { search, neighborhood, .. } = Wavefront::default();
-                Planner::Wavefront { search, neighborhood, space, path, cells }
+                Planner::Wavefront { search, neighborhood, space, path, cells: FIRST_CELLS }
             }
             Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
             Method::Subdivision => Planner::Subdivision { path },
@@ -162,6 +168,75 @@ impl Planner {
         self
     }
 
+    /// The same planner, for which this makes a path short, if it optimises.
+    #[must_use]
+    pub fn with_criterion(mut self, shortest: Criterion) -> Self {
+        if let Planner::Shortest { criterion, .. } | Planner::Visibility { criterion, .. } = &mut self {
+            *criterion = shortest;
+        }
+        self
+    }
+
+    /// The same planner, asked for this gap, if it optimises.
+    #[must_use]
+    pub fn with_gap(mut self, share: f64) -> Self {
+        if let Planner::Shortest { gap, .. } | Planner::Visibility { gap, .. } = &mut self {
+            *gap = Some(share);
+        }
+        self
+    }
+
+    /// The same planner with this first margin, if it has one.
+    #[must_use]
+    pub fn with_margin(mut self, share: f64) -> Self {
+        if let Planner::Shortest { margin, .. }
+        | Planner::Visibility { margin, .. }
+        | Planner::Trapezoid { margin, .. } = &mut self
+        {
+            *margin = share;
+        }
+        self
+    }
+
+    /// The same planner with this first number of cells along each axis, if it has cells.
+    #[must_use]
+    pub fn with_cells(mut self, n: usize) -> Self {
+        match &mut self {
+            Planner::Wavefront { cells, .. } => *cells = n,
+            Planner::Harmonic { cells, .. } => *cells = Some(n),
+            _ => {}
+        }
+        self
+    }
+
+    /// The same planner with cells decided like this, if it has cells.
+    #[must_use]
+    pub fn with_space(mut self, by: GridSpace) -> Self {
+        if let Planner::Wavefront { space, .. } | Planner::Harmonic { space, .. } = &mut self {
+            *space = by;
+        }
+        self
+    }
+
+    /// The first margin of its polygons, if it has any.
+    pub(crate) fn margin(&self) -> f64 {
+        match *self {
+            Planner::Shortest { margin, .. }
+            | Planner::Visibility { margin, .. }
+            | Planner::Trapezoid { margin, .. } => margin,
+            _ => MARGIN,
+        }
+    }
+
+    /// How it measures paths of an arm.
+    #[must_use]
+    pub fn metric(&self, arm: &Arm) -> Metric {
+        match *self {
+            Planner::Shortest { criterion, .. } | Planner::Visibility { criterion, .. } => criterion.metric(arm),
+            _ => Metric::Euclidean,
+        }
+    }
+
     /// What it is after: the gap asked for, of planners that optimise.
     #[must_use]
     pub fn gap(&self) -> Option<f64> {
@@ -184,29 +259,6 @@ impl Planner {
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         if let Planner::Harmonic { field, .. } = self { field.as_ref() } else { None }
-    }
-
-    /// How it is to be run for an arm, with so many attempts.
-    #[must_use]
-    pub fn effort(&self, arm: &Arm, levels: usize) -> Effort {
-        let base = Effort { levels, ..Effort::default() };
-        let path = Some(self.path_kind()).filter(|_| self.method().has_own_path());
-        match *self {
-            Planner::First => base,
-            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin } => {
-                Effort { metric: criterion.metric(arm), gap, margin, ..base }
-            }
-            Planner::Trapezoid { margin, .. } => Effort { margin, path, ..base },
-            Planner::Wavefront { search, neighborhood, space, cells, .. } => {
-                let wavefront = Wavefront { search, neighborhood, ..Wavefront::default() };
-                Effort { cells, space, path, wavefront, ..base }
-            }
-            Planner::Harmonic { field, space, cells, .. } => match cells {
-                Some(cells) => Effort { field, space, path, cells, square: false, ..base },
-                None => Effort { field, space, path, ..base },
-            },
-            Planner::Subdivision { .. } => Effort { path, ..base },
-        }
     }
 
     /// What of it makes no sense, by name.
@@ -256,8 +308,11 @@ pub enum NamedJoints {
 pub struct Options {
     /// Which planner, with options of its own.
     pub planner: Planner,
-    /// Attempts, each finer than the one before, from 1 to 12.
+    /// Attempts, from 1 to 12, each finer than the one before: a quarter of the margin; cells that are wholly free, then as
+    /// many that are free at their centres, then twice as many along each axis; sampled ones twice as many each time.
     pub levels: usize,
+    /// Boxes for a proof that there is no path, and for planning by subdivision.
+    pub boxes: usize,
     /// Whether planners that optimise bound the optimum from below; if not, the gap is aimed at without proof.
     pub bounded: bool,
     /// How to drive along the path.
@@ -277,7 +332,8 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             planner: Planner::named(Method::Shortest),
-            levels: Effort::default().levels,
+            levels: 6,
+            boxes: 200_000,
             bounded: true,
             drive: Drive::default(),
             jerk: None,
@@ -288,12 +344,20 @@ impl Default for Options {
     }
 }
 
-impl Options {
-    /// How single motions are to be planned in a scene.
-    pub(crate) fn effort(&self, scene: &Scene) -> Effort {
-        Effort { bounded: self.bounded, ..self.planner.effort(scene.arm(), self.levels) }
+impl From<Planner> for Options {
+    fn from(planner: Planner) -> Self {
+        Self { planner, ..Self::default() }
     }
+}
 
+impl From<Method> for Options {
+    /// The planner of that name, as it is if nothing else is said.
+    fn from(method: Method) -> Self {
+        Planner::named(method).into()
+    }
+}
+
+impl Options {
     /// Puts the limits that are given here in place of the joints' own.
     pub(crate) fn override_limits(&self, joints: &mut [Joint; 2]) {
         Joint::override_jerks(joints, self.jerk);

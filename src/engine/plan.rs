@@ -4,7 +4,7 @@ use super::clock::Clock;
 use super::motion_plan::MotionPlan;
 use super::options::Options;
 use super::problem::{Asked, Problem};
-use super::task::{FailedStep, Manner, MessageError, TaskAnswer, TaskReport, plan as plan_task};
+use super::task::{FailedStep, MessageError, TaskAnswer, TaskReport, plan as plan_task};
 use super::{GridSpace, Verdict, percent, solve};
 use crate::check::CheckedProof;
 use crate::model::{MotionProblem, Outcome, RobotJoints, Status, Task};
@@ -108,8 +108,7 @@ fn plan_motion(
     if options.jerk.is_some() {
         options.override_limits(asked.to_mut().joints_mut());
     }
-    let effort = options.effort(asked.scene());
-    let answer = solve(&asked, options.planner.method(), &effort, progress);
+    let answer = solve(&asked, options, progress);
     clock.solved(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, options.planner.gap())
         && bound.gap() > gap
@@ -119,7 +118,7 @@ fn plan_motion(
              smaller --margin may do",
             percent(gap),
             percent(bound.gap()),
-            effort.levels
+            options.levels
         ));
     }
     let mut plan = MotionPlan::timed(asked.into_owned(), answer, options)?;
@@ -145,11 +144,9 @@ fn plan_steps(
 ) -> Result<TaskPlan, PlanError> {
     let mut task = task.clone();
     options.override_limits(&mut task.arm.joints);
-    let effort = options.effort(problem.scene());
-    let method = options.planner.method();
-    let answer = plan_task(&task, &Manner { method, effort, drive: options.drive }, progress);
+    let answer = plan_task(&task, options, progress);
     clock.stage("plan");
-    let mut report = TaskReport::new(method.name(), &task, &answer);
+    let mut report = TaskReport::new(options.planner.method().name(), &task, &answer);
     let robot = named(problem, options, report.joints()).into_owned();
     report.name_joints(&robot, &task, &answer, options.accelerations)?;
     report.search = SearchUsed::of(&options.planner);

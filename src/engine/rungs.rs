@@ -1,10 +1,11 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
-use super::{Effort, GridSpace, Space};
+use super::options::FIRST_CELLS;
+use super::{GridSpace, Space};
 use crate::cspace::{
     Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, sampled_grid, traced_pairs,
 };
-use crate::model::MotionProblem;
+use crate::model::{Arm, MotionProblem};
 
 /// Grids end here: 2048 x 2048 cells, beyond which fields take minutes.
 const MOST_CELLS: usize = 2048;
@@ -18,9 +19,6 @@ const STROKE: f64 = 0.1;
 /// Turns of the universal cover to plan in, on either side of the start.
 const PERIODS: usize = 1;
 
-/// Builds the space of one level; none when there is no finer one.
-pub(super) type Builder<S> = fn(&MotionProblem, &Effort, usize) -> Option<S>;
-
 /// Pairs of shapes that polygons are made of on the first level: a second's worth, or two. With more, the margin is greater,
 /// ...
 const FIRST_PAIRS: usize = 6144;
@@ -31,11 +29,12 @@ const WIDER: (f64, usize) = (2.0, 6);
 /// Pairs of shapes on finer levels. With more there is no such level.
 const MOST_PAIRS: usize = 16_384;
 
-/// Polygons grown by the level's margin, a quarter of that of the level before.
-pub(super) fn polygons(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Regions> {
+/// Polygons grown by the level's margin, a quarter of that of the level before, of which the first is a share of the arm's
+/// reach; none when there is no finer level.
+pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
-    let (mut margin, (factor, times)) = (margin(problem, effort, level), WIDER);
+    let (mut margin, (factor, times)) = (margin(problem, first, level), WIDER);
     for _ in 0..times {
         let first = margin * 4_f64.powi(level as i32);
         if few(first, FIRST_PAIRS) {
@@ -47,11 +46,14 @@ pub(super) fn polygons(problem: &MotionProblem, effort: &Effort, level: usize) -
 }
 
 /// The level's margin, metres.
-fn margin(problem: &MotionProblem, effort: &Effort, level: usize) -> f64 {
-    let arm = problem.scene().arm();
+fn margin(problem: &MotionProblem, first: f64, level: usize) -> f64 {
+    first * extent(problem.scene().arm()) * 0.25_f64.powi(level as i32)
+}
+
+/// What margins are shares of: the arm's reach, or so much of a slide's stroke.
+pub(super) fn extent(arm: &Arm) -> f64 {
     let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
-    let scale = strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max);
-    effort.margin * scale * 0.25_f64.powi(level as i32)
+    strokes.map(|stroke| STROKE * stroke).fold(arm.reach(), f64::max)
 }
 
 /// Ratio of the axes' ranges up to which a field's cells are square. Beyond, the finer axis would get too few.
@@ -61,40 +63,51 @@ const MOST_OBLONG: f64 = 16.0;
 /// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
 /// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
 /// the time that wholly free cells of the same passage take.
-pub(super) fn cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Grid> {
-    let n = side(problem, effort, level)?;
-    Some(grid(problem, effort, level, [n, n]))
+pub(super) fn cells(problem: &MotionProblem, space: GridSpace, first: usize, level: usize) -> Option<Grid> {
+    let n = side(problem, space, first, level)?;
+    Some(grid(problem, space, level, [n, n]))
 }
 
-/// As many cells for a field, square ones if wanted.
-pub(super) fn field_cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<Grid> {
-    if !effort.square {
-        return cells(problem, effort, level);
+/// As many cells for a field; where no number is given square ones in joint space, where a radian is as long as a metre: then
+/// its equation is that of the configuration space, not of its picture on a grid.
+pub(super) fn field_cells(
+    problem: &MotionProblem,
+    space: GridSpace,
+    first: Option<usize>,
+    level: usize,
+) -> Option<Grid> {
+    if let Some(first) = first {
+        return cells(problem, space, first, level);
     }
-    let n = side(problem, effort, level)? as f64;
+    let n = side(problem, space, FIRST_CELLS, level)? as f64;
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
-    Some(grid(problem, effort, level, shape))
+    Some(grid(problem, space, level, shape))
 }
 
 /// The same with the workspace's preferences.
-pub(super) fn zoned_cells(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<ZonedGrid> {
-    field_cells(problem, effort, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
+pub(super) fn zoned_cells(
+    problem: &MotionProblem,
+    space: GridSpace,
+    first: Option<usize>,
+    level: usize,
+) -> Option<ZonedGrid> {
+    field_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
 /// Cells along an axis, if the level is not too fine.
-fn side(problem: &MotionProblem, effort: &Effort, level: usize) -> Option<usize> {
-    let (finer, checks) = match effort.space {
+fn side(problem: &MotionProblem, space: GridSpace, first: usize, level: usize) -> Option<usize> {
+    let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
-    let n = effort.cells << finer;
+    let n = first << finer;
     (finer == 0 || n <= MOST_CELLS && n * n <= MOST_CHECKS / checks.max(1)).then_some(n)
 }
 
-fn grid(problem: &MotionProblem, effort: &Effort, level: usize, shape: [usize; 2]) -> Grid {
-    let build = match effort.space {
+fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 2]) -> Grid {
+    let build = match space {
         GridSpace::Sampled => sampled_grid,
         GridSpace::Rows if level.is_multiple_of(2) => outer_grid,
         GridSpace::Rows => grid_from_slices,

@@ -2,7 +2,7 @@
 
 use super::ladder::explain;
 use super::settle::checked;
-use super::{Answer, Effort, Method, Space, Stages, Verdict};
+use super::{Answer, Method, Options, Space, Stages, Verdict};
 use crate::check::CertifiedPath;
 use crate::check::{Rejection, certify};
 use crate::geometry::Point;
@@ -13,22 +13,22 @@ use crate::space::{Configuration, Path};
 use std::time::Instant;
 
 /// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
-/// [`Effort::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
-pub(super) fn solve(problem: &MotionProblem, effort: &Effort, progress: &mut dyn FnMut(&str)) -> Answer {
+/// [`Options::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.
+pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
     let mut stages = Stages::default();
     let clock = Instant::now();
-    let exploration = explore(scene, problem.start(), problem.goals(), clearance, effort.boxes);
+    let exploration = explore(scene, problem.start(), problem.goals(), clearance, options.boxes);
     let size = Size::Graph { nodes: exploration.boxes.len(), edges: exploration.adjacencies };
     let trace = trace(&exploration);
     stages.query = clock.elapsed();
     let clock = Instant::now();
     let (outcome, verdict) = match exploration.answer {
         Connectivity::Connected(channel) => {
-            let certified = match effort.path {
-                Some(PathKind::Own) => certify(scene, channel.path(), clearance),
-                Some(PathKind::Taut) | None => certified(problem, &channel),
+            let certified = match options.planner.path_kind() {
+                PathKind::Own => certify(scene, channel.path(), clearance),
+                PathKind::Taut => certified(problem, &channel),
             };
             stages.certify = clock.elapsed();
             match certified {
@@ -58,7 +58,7 @@ pub(super) fn solve(problem: &MotionProblem, effort: &Effort, progress: &mut dyn
     Answer {
         method: Method::Subdivision,
         verdict,
-        path: effort.path.unwrap_or(Method::Subdivision.path_kind()),
+        path: options.planner.path_kind(),
         witness: None,
         bound: None,
         history: Vec::new(),

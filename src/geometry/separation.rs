@@ -38,14 +38,14 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
         (Some(x), Some(y)) => Some(if x.distance >= y.distance { x } else { y }),
         (x, y) => x.or(y),
     };
-    let Some(face) = face else { return nearest_features(a, b) };
-    let error = ROUNDING * a.iter().chain(b).map(|p| p.coords.amax()).fold(0.0, f64::max);
+    let error = ROUNDING * largest(a).max(largest(b));
+    let Some(face) = face else { return nearest_features(a, b, error) };
     if face.distance < -error {
         return face;
     }
     // Disjoint, or touching up to rounding. Cores that lie apart on one line (as two walls in a row do) are separated by
     // no side normal; only their distance tells them from cores that touch, whose distance is within `error` of 0.
-    let nearest = nearest_features(a, b);
+    let nearest = nearest_features(a, b, error);
     if nearest.distance > 4.0 * error {
         nearest
     } else if cores_meet(a, b) {
@@ -55,60 +55,94 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     }
 }
 
+/// The largest coordinate, whatever its sign.
+fn largest(points: &[Point]) -> f64 {
+    points.iter().fold(0.0, |largest: f64, p| largest.max(p.x.abs()).max(p.y.abs()))
+}
+
 /// The side normal of `a` along which `b` is farthest outside (least deep inside), if `a` has a side.
 fn best_face(a: &[Point], b: &[Point]) -> Option<Separation> {
     let mut best: Option<Separation> = None;
-    let n = a.len();
-    if n < 2 {
-        return None;
-    }
-    for i in 0..n {
-        let (p, q) = (a[i], a[(i + 1) % n]);
+    for (p, q) in sides(a) {
         let Some(normal) = (-perpendicular(q - p)).try_normalize(0.0) else { continue };
-        let distance = b.iter().map(|v| normal.dot(&(v - p))).fold(f64::INFINITY, f64::min);
-        if best.is_none_or(|s| distance > s.distance) {
+        let least = best.map_or(f64::NEG_INFINITY, |best| best.distance);
+        let mut distance = f64::INFINITY;
+        for v in b {
+            let outside = normal.dot(&(v - p));
+            if outside < distance {
+                distance = outside;
+                // What is no better than the best so far need not be known.
+                if distance <= least {
+                    break;
+                }
+            }
+        }
+        if distance > least {
             best = Some(Separation { distance, direction: normal });
         }
     }
     best
 }
 
-/// Least distance between the boundaries of two cores.
-fn nearest_features(a: &[Point], b: &[Point]) -> Separation {
+/// The sides of a core, from corner to corner; none of a single corner, both ways of two.
+fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
+    let closing = (core.len() > 1).then(|| (core[core.len() - 1], core[0]));
+    core.windows(2).map(|ends| (ends[0], ends[1])).chain(closing)
+}
+
+/// Least distance between the boundaries of two cores that are disjoint, or meet by no more than `error`.
+fn nearest_features(a: &[Point], b: &[Point], error: f64) -> Separation {
     let mut best = Separation { distance: f64::INFINITY, direction: Vector::x() };
-    let mut consider = |offset: Vector| {
-        let squared = offset.norm_squared();
-        if squared < best.distance {
-            best = Separation { distance: squared, direction: offset };
-        }
-    };
-    for_each_vertex_side(b, a, &mut consider);
-    for_each_vertex_side(a, b, |offset| consider(-offset));
+    nearest_to_sides(b, a, error, 1.0, &mut best);
+    nearest_to_sides(a, b, error, -1.0, &mut best);
     let distance = best.distance.sqrt();
     // Only points that coincide have no direction; any will do for them.
     let direction = if distance > 0.0 { best.direction / distance } else { Vector::x() };
     Separation { distance, direction }
 }
 
-/// Calls `f` with the offset from the nearest point of each side of `sides` to each corner of `corners`.
-fn for_each_vertex_side(corners: &[Point], sides: &[Point], mut f: impl FnMut(Vector)) {
-    let n = sides.len();
-    let count = if n > 2 { n } else { n - 1 }.max(1);
-    for i in 0..count {
-        let (p, q) = (sides[i], sides[(i + 1) % n]);
+/// By how much more than the best a distance to a side's line has to be, as a share of its square, so that rounding does not hide
+/// a better one.
+const SLACK: f64 = 1e-12;
+
+/// Looks for a corner that is nearer to a side than the best so far, which holds the squared distance, and the offset from the
+/// nearest point of the side to the corner, times `sign`.
+///
+/// The line of a side is no farther than the side, so most sides are passed over. So are those of a core with area that have
+/// the corner on their inner side by more than `error`: the nearest point of the core is on one that the corner is outside
+/// of, too.
+fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
+    let mut look = |p: Point, q: Point, is_one_sided: bool| {
         let along = q - p;
         let length2 = along.norm_squared();
+        let inside = error * error * length2;
         for v in corners {
-            let t = (v - p).dot(&along);
-            f(if t <= 0.0 {
-                v - p
+            let from = v - p;
+            // Left of the side, which is inside, if positive.
+            let left = along.x * from.y - along.y * from.x;
+            let left2 = left * left;
+            if left2 > best.distance * length2 * (1.0 + SLACK) || is_one_sided && left > 0.0 && left2 > inside {
+                continue;
+            }
+            let t = from.dot(&along);
+            let offset = if t <= 0.0 {
+                from
             } else if t >= length2 {
                 v - q
             } else {
                 // Along the normal, rather than to a rounded foot on the side: keeps the direction of small offsets.
                 let normal = perpendicular(along);
-                normal * (normal.dot(&(v - p)) / length2)
-            });
+                normal * (normal.dot(&from) / length2)
+            };
+            let squared = offset.norm_squared();
+            if squared < best.distance {
+                *best = Separation { distance: squared, direction: offset * sign };
+            }
         }
+    };
+    match core {
+        [p] => look(*p, *p, false),
+        [p, q] => look(*p, *q, false),
+        _ => sides(core).for_each(|(p, q)| look(p, q, true)),
     }
 }

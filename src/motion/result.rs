@@ -73,7 +73,7 @@ pub struct Report {
     /// How the wavefront planner searched its grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchUsed>,
-    /// How the cells of the planner's grid were decided, if not by exact rows: `sampled`, which proves nothing by itself.
+    /// How the cells of the planner's grid were decided, if not by exact slices: `sampled`, which proves nothing by itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub space: Option<&'static str>,
     /// Names of the joints in the URDF, base to tip.

@@ -11,7 +11,7 @@ pub enum Family {
     Roadmap,
     /// Values on a grid's cells: wavefront, harmonic and its relatives.
     Field,
-    /// What judges the scene itself: exact rows, slabs, boxes: shortest, first, subdivision.
+    /// What judges the scene itself: exact slices, slabs, boxes: shortest, first, subdivision.
     Exact,
 }
 

@@ -1,21 +1,26 @@
 //! Bounds on the optimum, against closed forms, published figures and the paths of every other planner.
 
 use crate::common::{self, Benchmark, asked, disc, obstacle, q, rr, scene, shipped_feasible};
-use cplan::engine::{Answer, Bound, Effort, Method, Space, Verdict, bound, solve};
+use cplan::engine::{Answer, Bound, Criterion, Method, Planner, Space, Verdict, bound, solve};
 use cplan::geometry::{Convex, Point};
 use cplan::model::MotionProblem;
+use cplan::search::{Motions, least_length};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path};
 use std::f64::consts::TAU;
 
 /// Those that are after the optimum.
 const PLANNERS: [Method; 2] = [Method::Shortest, Method::Visibility];
 
-fn answer(problem: &MotionProblem, metric: Metric, gap: Option<f64>) -> Answer {
-    answer_by(Method::Visibility, problem, metric, gap)
+const CRITERIA: [Criterion; 3] = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.3]), Criterion::Time];
+
+fn answer(problem: &MotionProblem, criterion: Criterion, gap: Option<f64>) -> Answer {
+    answer_by(Method::Visibility, problem, criterion, gap)
 }
 
-fn answer_by(method: Method, problem: &MotionProblem, metric: Metric, gap: Option<f64>) -> Answer {
-    solve(problem, method, &Effort { metric, gap, ..Effort::default() }, &mut |_| {})
+fn answer_by(method: Method, problem: &MotionProblem, criterion: Criterion, gap: Option<f64>) -> Answer {
+    let planner = Planner::named(method).with_criterion(criterion);
+    let planner = gap.map_or(planner, |gap| planner.with_gap(gap));
+    solve(problem, &planner.into(), &mut |_| {})
 }
 
 fn path(answer: &Answer) -> &Path {
@@ -33,7 +38,7 @@ fn bounded(answer: &Answer) -> Bound {
 fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
     for (name, problem) in shipped_feasible() {
         for planner in PLANNERS {
-            let answer = answer_by(planner, &problem, Metric::Euclidean, Some(0.001));
+            let answer = answer_by(planner, &problem, Criterion::Euclidean, Some(0.001));
             let bound = bounded(&answer);
             assert_eq!(bound.upper, path(&answer).length(), "{name}");
             assert!(bound.lower <= bound.upper && bound.gap() <= 0.001, "{name}, {planner}: {bound:?}");
@@ -45,15 +50,16 @@ fn a_gap_of_a_thousandth_is_reached_on_every_feasible_workspace() {
 #[test]
 fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
     for (name, problem) in shipped_feasible() {
-        let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
-        let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds }];
-        for (metric, gap) in metrics.map(|metric| (metric, None)).into_iter().chain([(Metric::Euclidean, Some(1e-6))]) {
-            let answer = answer_by(Method::Shortest, &problem, metric, gap);
+        let each = CRITERIA.map(|criterion| (criterion, None));
+        for (criterion, gap) in each.into_iter().chain([(Criterion::Euclidean, Some(1e-6))]) {
+            let answer = answer_by(Method::Shortest, &problem, criterion, gap);
+            let metric = criterion.metric(problem.scene().arm());
             let bound = bounded(&answer);
             assert_eq!(bound.upper, metric.length(path(&answer)), "{name}");
             assert!(bound.gap() <= gap.unwrap_or(1e-4), "{name}, {metric:?}: {} of {gap:?}", bound.gap());
-            // No graph was needed.
-            assert!(!matches!(answer.space, Space::Regions(_)), "{name}, {metric:?}");
+            // No graph was needed but for gantries, whose C-obstacles are polygons.
+            let is_gantry = problem.scene().arm().kind() == "PP";
+            assert_eq!(matches!(answer.space, Space::Regions(_)), is_gantry, "{name}, {metric:?}");
         }
     }
 }
@@ -62,11 +68,10 @@ fn the_shortest_path_is_within_a_ten_thousandth_on_every_feasible_workspace() {
 #[test]
 fn no_planner_finds_a_path_below_the_bound() {
     for (name, problem) in shipped_feasible() {
-        let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
-        let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds }];
-        let lower = metrics.map(|metric| bounded(&answer(&problem, metric, Some(0.01))).lower);
+        let metrics = CRITERIA.map(|criterion| criterion.metric(problem.scene().arm()));
+        let lower = CRITERIA.map(|criterion| bounded(&answer(&problem, criterion, Some(0.01))).lower);
         for method in Method::ALL.into_iter().filter(|&method| method != Method::Harmonic) {
-            if let Verdict::Found(found) = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict {
+            if let Verdict::Found(found) = solve(&problem, &method.into(), &mut |_| {}).verdict {
                 for (metric, lower) in metrics.into_iter().zip(lower) {
                     let length = metric.length(found.path());
                     assert!(lower <= length, "{name}, {method}, {metric:?}: {lower} above {length}");
@@ -80,7 +85,7 @@ fn no_planner_finds_a_path_below_the_bound() {
 fn published_optima_lie_within_the_bounds() {
     for (which, optimum) in [(Benchmark::A, 6.4229), (Benchmark::B, 6.4281)] {
         for planner in PLANNERS {
-            let bound = bounded(&answer_by(planner, &common::problem(which), Metric::Euclidean, Some(1e-4)));
+            let bound = bounded(&answer_by(planner, &common::problem(which), Criterion::Euclidean, Some(1e-4)));
             assert!(bound.gap() <= 1e-4, "{which:?}: {bound:?}");
             // Published with four digits.
             assert!(bound.lower <= optimum + 5e-5 && optimum - 5e-5 <= bound.upper, "{which:?}: {bound:?}");
@@ -99,10 +104,12 @@ fn without_obstacles_the_bound_is_the_straight_way_the_short_way_round() {
     let circles = [JointRange::Circle, JointRange::Circle];
     let problem = among(circles, Vec::new(), q(-3.0, 0.0), &[q(3.0, 0.5)]);
     let straight = (TAU - 6.0).hypot(0.5);
-    let found = bounded(&answer(&problem, Metric::Euclidean, None));
+    let found = bounded(&answer(&problem, Criterion::Euclidean, None));
     assert!((found.lower - straight).abs() < 1e-8 && (found.upper - straight).abs() < 1e-8, "{found:?}");
-    let time = bounded(&answer(&problem, Metric::Time { speeds: [0.5, 0.1] }, None));
-    assert!((time.lower - 5.0).abs() < 1e-8 && (time.upper - 5.0).abs() < 1e-8, "{time:?}");
+    let [first, second] = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+    let slower = f64::max((TAU - 6.0) / first, 0.5 / second);
+    let time = bounded(&answer(&problem, Criterion::Time, None));
+    assert!((time.lower - slower).abs() < 1e-8 && (time.upper - slower).abs() < 1e-8, "{time:?}");
 }
 
 /// Of several goals the nearest counts.
@@ -111,7 +118,7 @@ fn the_bound_covers_all_goals() {
     let interval = JointRange::Interval { lower: -3.0, upper: 3.0 };
     let goals = [q(2.0, 2.0), q(1.0, 0.0), q(-2.0, 1.0)];
     let problem = among([interval, interval], Vec::new(), q(0.0, 0.0), &goals);
-    let found = bounded(&answer(&problem, Metric::Euclidean, None));
+    let found = bounded(&answer(&problem, Criterion::Euclidean, None));
     assert!((found.lower - 1.0).abs() < 1e-8, "{found:?}");
 }
 
@@ -128,16 +135,49 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     let block = common::rectangle(-0.5, 0.5, -2.5, 0.25);
     let problem = asked(scene(arm, vec![block]), q(-1.5, 0.0), q(1.5, 0.0));
     let string = 1.0 + 2.0 * 1.0_f64.hypot(0.25);
-    let found = bounded(&answer(&problem, Metric::Euclidean, Some(1e-5)));
+    let found = bounded(&answer(&problem, Criterion::Euclidean, Some(1e-5)));
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
+}
+
+/// A wall in a square spiral about the goal: the way in is as long as the sides that it follows.
+#[test]
+fn gantries_find_their_way_into_spirals() {
+    let slide =
+        |angle: f64| cplan::model::JointType::Prismatic { direction: Point::new(angle.cos(), angle.sin()).coords };
+    let (gap, radius) = (1.0, 0.2);
+    for turns in [2, 6] {
+        let size = gap * f64::from(turns);
+        let axis = JointRange::Interval { lower: -size - 3.0, upper: size + 3.0 };
+        let joints = [common::joint("x", slide(0.0), axis), common::joint("y", slide(TAU / 4.0), axis)];
+        let links = [common::link("beam", Vec::new()), common::link("tool", vec![disc(Point::origin(), radius)])];
+        let arm = common::arm(joints, links, Point::origin().coords, Point::origin());
+        // From the middle outwards: two sides of each length.
+        let mut corners = vec![Point::origin()];
+        for side in 0..4 * turns {
+            let (sin, cos) = (TAU / 4.0 * f64::from(side)).sin_cos();
+            let length = gap * f64::from(side / 2 + 1);
+            corners.push(corners[corners.len() - 1] + nalgebra::Vector2::new(cos.round(), sin.round()) * length);
+        }
+        let walls: Vec<Convex> =
+            corners.windows(2).map(|ends| Convex::segment(ends[0], ends[1]).expect("finite")).collect();
+        let problem = asked(scene(arm, walls), q(size + 2.0, size + 2.0), q(0.5, 0.5));
+        let answer = answer_by(Method::Shortest, &problem, Criterion::Euclidean, None);
+        let found = bounded(&answer);
+        assert!(found.gap() <= 1e-4 && matches!(answer.space, Space::Regions(_)), "{turns}: {found:?}");
+        // The same by what shares no code with it, as far as that gets.
+        let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
+        let motions = Motions { scene, start, goals, clearance: 0.0, metric: Metric::Euclidean };
+        let strips = least_length(&motions, found.upper, 1e-3, &[]);
+        assert!(strips <= found.upper && found.lower <= strips * 1.005, "{turns}: {found:?}, {strips}");
+    }
 }
 
 /// The bound speaks of the path it is given, whoever planned it.
 #[test]
 fn a_detour_has_a_gap() {
     let problem = common::problem(Benchmark::A);
-    let shortest = answer(&problem, Metric::Euclidean, Some(1e-3));
-    let Verdict::Found(other) = solve(&problem, Method::Wavefront, &Effort::default(), &mut |_| {}).verdict else {
+    let shortest = answer(&problem, Criterion::Euclidean, Some(1e-3));
+    let Verdict::Found(other) = solve(&problem, &Method::Wavefront.into(), &mut |_| {}).verdict else {
         panic!("problem A has a path")
     };
     let gap = bound(&problem, other.path(), Metric::Euclidean, 1e-4).gap();

@@ -4,7 +4,7 @@ use crate::common::random::{seeds, usual};
 use crate::common::{self, Benchmark, shipped_feasible};
 use crate::random_worlds::world;
 use cplan::check::{CheckedBound, LengthClaim};
-use cplan::engine::{Bound, Effort, Method, Verdict, solve};
+use cplan::engine::{Bound, Criterion, Method, Planner, Verdict, solve};
 use cplan::model::MotionProblem;
 use cplan::search::{Motions, claimed_length};
 use cplan::space::Metric;
@@ -14,9 +14,9 @@ use std::time::Instant;
 const UNSEEN: f64 = 1e-6;
 
 /// The length of a path that is about the shortest.
-fn length(problem: &MotionProblem, metric: Metric) -> Option<f64> {
-    let effort = Effort { metric, ..Effort::default() };
-    let answer = solve(problem, Method::Shortest, &effort, &mut |_| {});
+fn length(problem: &MotionProblem, criterion: Criterion) -> Option<f64> {
+    let planner = Planner::named(Method::Shortest).with_criterion(criterion);
+    let answer = solve(problem, &planner.into(), &mut |_| {});
     let Bound { upper, .. } = answer.bound?;
     matches!(answer.verdict, Verdict::Found(_)).then_some(upper)
 }
@@ -33,10 +33,11 @@ fn checked(problem: &MotionProblem, metric: Metric, claim: &LengthClaim) -> Chec
 }
 
 /// Which of these the judge sees less closed for, in words; panics where it sees more than is true.
-fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Metric)>) -> (usize, Vec<String>) {
+fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>) -> (usize, Vec<String>) {
     let (mut count, mut unseen) = (0, Vec::new());
-    for (name, problem, metric) in problems {
-        let Some(limit) = length(&problem, metric) else { continue };
+    for (name, problem, criterion) in problems {
+        let metric = criterion.metric(problem.scene().arm());
+        let Some(limit) = length(&problem, criterion) else { continue };
         let claim = claim(&problem, metric, limit);
         let clock = Instant::now();
         let found = checked(&problem, metric, &claim);
@@ -55,7 +56,7 @@ fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Metric)>) -
 
 #[test]
 fn bounds_of_all_shipped_workspaces_are_seen_to_hold() {
-    let problems = shipped_feasible().into_iter().map(|(name, problem)| (name, problem, Metric::Euclidean));
+    let problems = shipped_feasible().into_iter().map(|(name, problem)| (name, problem, Criterion::Euclidean));
     let (count, unseen) = unseen(problems);
     assert!(count >= 15 && unseen.is_empty(), "{count}, but {unseen:#?}");
 }
@@ -65,9 +66,8 @@ fn bounds_in_random_worlds_are_seen_to_hold() {
     let problems = seeds(24).filter_map(|seed| {
         let kind = world::KINDS[(seed % 4) as usize];
         let problem = world::world(kind, seed)?;
-        let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
-        let metrics = [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.4] }, Metric::Time { speeds }];
-        Some((format!("{kind} {seed}"), problem, metrics[(seed / 4 % 3) as usize]))
+        let criteria = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.4]), Criterion::Time];
+        Some((format!("{kind} {seed}"), problem, criteria[(seed / 4 % 3) as usize]))
     });
     let (count, unseen) = unseen(problems);
     assert!(!usual() || count >= 10 && 10 * unseen.len() <= count, "{count}, but {unseen:#?}");

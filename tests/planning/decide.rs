@@ -1,8 +1,9 @@
 //! Whether there is a path at all, among thousands of pieces and where nothing can tell.
 
 use crate::common::{asked, placed, q, recheck, rr, wall};
+use cplan::Options;
 use cplan::check::certify;
-use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Method, Verdict, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
@@ -65,7 +66,7 @@ fn what_slabs_see_closed_is_proven_closed() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
     let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
-    let first = solve(&problem, Method::First, &Effort { boxes: 10_000, ..Effort::default() }, &mut |_| {});
+    let first = solve(&problem, &Options { boxes: 10_000, ..Method::First.into() }, &mut |_| {});
     for verdict in [decide(&problem, 20_000), first.verdict] {
         let Verdict::Infeasible(proof) = verdict else { panic!("it is closed: {verdict:?}") };
         assert!(proof.stuck().len() < 1000, "{}", proof.stuck().len());

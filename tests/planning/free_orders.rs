@@ -4,8 +4,9 @@ use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::random_tasks::replay;
 use assert_cmd::Command;
-use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan};
-use cplan::engine::{Effort, Method};
+use cplan::Options;
+use cplan::engine::Method;
+use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
 use cplan::geometry::Point;
 use cplan::input::{Overrides, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
@@ -154,7 +155,7 @@ fn task(world: &str) -> Option<Task> {
 
 fn planned(task: &Task) -> TaskAnswer {
     let drive = Drive { period: 0.1, ..Drive::default() };
-    plan(task, &Manner { method: Method::Visibility, effort: Effort::default(), drive }, &mut |_| {})
+    plan(task, &Options { drive, ..Method::Visibility.into() }, &mut |_| {})
 }
 
 /// All orders of three things.

@@ -4,7 +4,7 @@
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{asked, disc, rr, scene, wall};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Planner, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
@@ -91,8 +91,8 @@ fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
     scene.blocked_along(&goals).is_none().then(|| (asked(scene, start, goals), goals))
 }
 
-fn found(problem: &MotionProblem, method: Method, effort: &Effort) -> Option<Path> {
-    match solve(problem, method, effort, &mut |_| {}).verdict {
+fn found(problem: &MotionProblem, planner: Planner) -> Option<Path> {
+    match solve(problem, &planner.into(), &mut |_| {}).verdict {
         Verdict::Found(path) => Some(path.path().clone()),
         Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
     }
@@ -100,7 +100,6 @@ fn found(problem: &MotionProblem, method: Method, effort: &Effort) -> Option<Pat
 
 #[test]
 fn a_seam_makes_no_difference_to_any_planner() {
-    let effort = Effort { cells: 96, ..Effort::default() };
     let (mut worlds, mut across) = (0, 0);
     for seed in seeds(60) {
         let Some((problem, goals)) = world(seed) else { continue };
@@ -113,7 +112,7 @@ fn a_seam_makes_no_difference_to_any_planner() {
             let lengths: Vec<Option<f64>> = sets
                 .iter()
                 .map(|set| {
-                    let path = found(&asked(scene.clone(), start, set.clone()), method, &effort)?;
+                    let path = found(&asked(scene.clone(), start, set.clone()), Planner::named(method).with_cells(96))?;
                     for set in &sets {
                         assert!(set.contains(&topology, path.goal(), 1e-9), "seed {seed}, {method}: {}", path.goal());
                     }
@@ -130,7 +129,8 @@ fn a_seam_makes_no_difference_to_any_planner() {
                 for k in 0..=TRIED {
                     let goal = goals.at(f64::from(k) / f64::from(TRIED));
                     if scene.clearance(goal) > ROOMY
-                        && let Some(path) = found(&asked(scene.clone(), start, goal), method, &effort)
+                        && let Some(path) =
+                            found(&asked(scene.clone(), start, goal), Planner::named(method).with_cells(96))
                     {
                         let other = path.length();
                         assert!(least <= other * (1.0 + 1e-9), "seed {seed}: {least}, but {other} to {goal} of them");

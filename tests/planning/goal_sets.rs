@@ -3,7 +3,8 @@
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, usual};
 use crate::common::{arm, asked, disc, joint, link, recheck, rectangle, scene, wall};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::Options;
+use cplan::engine::{Method, Verdict, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
 use cplan::search::{Connectivity, Motions, connectivity, least_length, slab_connectivity};
@@ -142,7 +143,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                 assert!(whole.is_err(), "seed {seed}: a proof about {goal} is taken for one about all goals");
             }
         }
-        let answer = solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {});
+        let answer = solve(&problem, &Method::Visibility.into(), &mut |_| {});
         match &answer.verdict {
             Verdict::Found(path) => {
                 let end = path.path().goal();
@@ -151,7 +152,7 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
                 let bound = answer.bound.expect("visibility bounds what it finds");
                 for &goal in &connected {
                     let single = asked(problem.scene().clone(), problem.start(), goal);
-                    let other = solve(&single, Method::Visibility, &Effort::default(), &mut |_| {});
+                    let other = solve(&single, &Method::Visibility.into(), &mut |_| {});
                     let Verdict::Found(path) = &other.verdict else { continue };
                     let length = path.path().length();
                     assert!(
@@ -180,12 +181,12 @@ fn a_set_of_goals_is_reached_if_any_of_it_is() {
 #[test]
 fn a_short_way_through_a_narrow_passage_is_preferred_to_a_long_way_round() {
     let problem = world(9_083_322_546_425_692_186).expect("a world");
-    let answer = solve(&problem, Method::Visibility, &Effort::default(), &mut |_| {});
+    let answer = solve(&problem, &Method::Visibility.into(), &mut |_| {});
     let bound = answer.bound.expect("visibility bounds what it finds");
     assert!(bound.gap() < 0.05, "{bound:?}");
     assert!(0.85 < bound.lower && bound.upper < 0.95, "{bound:?}");
     // The first level by itself knows the long way only, and says so.
-    let hasty = solve(&problem, Method::Visibility, &Effort { levels: 1, ..Effort::default() }, &mut |_| {});
+    let hasty = solve(&problem, &Options { levels: 1, ..Method::Visibility.into() }, &mut |_| {});
     let bound = hasty.bound.expect("visibility bounds what it finds");
     assert!(bound.lower < 0.95 && bound.upper > 5.0, "{bound:?}");
 }
@@ -196,7 +197,7 @@ fn planners_agree_about_sets_of_goals() {
     for seed in seeds(15).map(|seed| seed + 1_000) {
         let Some(problem) = world(seed) else { continue };
         let verdicts = Method::ALL.map(|method| {
-            let verdict = solve(&problem, method, &Effort::default(), &mut |_| {}).verdict;
+            let verdict = solve(&problem, &method.into(), &mut |_| {}).verdict;
             if let Verdict::Found(path) = &verdict {
                 let end = path.path().goal();
                 let topology = problem.scene().arm().topology();
@@ -239,11 +240,11 @@ fn joints_about_one_axis_share_the_angle() {
     let open = problem(1.9);
     assert_eq!(open.goals().pieces().len(), 2, "{:?}", open.goals());
     for method in Method::ALL {
-        let Verdict::Infeasible(proof) = solve(&barred, method, &Effort::default(), &mut |_| {}).verdict else {
+        let Verdict::Infeasible(proof) = solve(&barred, &method.into(), &mut |_| {}).verdict else {
             panic!("{method}: link 2 has to pass the obstacle")
         };
         assert_eq!(recheck(proof.stuck(), &scene, start, barred.goals(), 0.0), Ok(()), "{method}");
-        let Verdict::Found(path) = solve(&open, method, &Effort::default(), &mut |_| {}).verdict else {
+        let Verdict::Found(path) = solve(&open, &method.into(), &mut |_| {}).verdict else {
             panic!("{method}: the other way round is free")
         };
         let end = path.path().goal();

@@ -1,7 +1,7 @@
 //! Plans that are stopped: nothing comes of them but that they were, and nothing is left of them.
 
-use cplan::engine::task::{Manner, plan};
-use cplan::engine::{Answer, Effort, Method, Verdict, solve};
+use cplan::engine::task::plan;
+use cplan::engine::{Answer, Method, Options, Planner, Verdict, solve};
 use cplan::input::{Overrides, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
 use cplan::model::MotionProblem;
@@ -16,8 +16,8 @@ fn problem(world: &str) -> MotionProblem {
     load(&root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
 }
 
-fn effort() -> Effort {
-    Effort { cells: 64, levels: 2, ..Effort::default() }
+fn options(method: Method) -> Options {
+    Options { levels: 2, ..Planner::named(method).with_cells(64).into() }
 }
 
 /// What an answer says, without the times it took.
@@ -36,7 +36,7 @@ fn every_planner_comes_by_a_checkpoint() {
     for method in Method::ALL {
         let interrupt = Interrupt::new();
         interrupt.set();
-        let stopped = interrupt.run(|| solve(&problem, method, &effort(), &mut |_| ()));
+        let stopped = interrupt.run(|| solve(&problem, &options(method), &mut |_| ()));
         assert_eq!(stopped.err(), Some(Interrupted::Set), "{method}");
     }
 }
@@ -48,12 +48,12 @@ fn a_stopped_plan_says_nothing_and_leaves_nothing() {
         let problem = problem(world);
         for method in Method::ALL {
             let begun = Instant::now();
-            let expected = said(&solve(&problem, method, &effort(), &mut |_| ()));
+            let expected = said(&solve(&problem, &options(method), &mut |_| ()));
             let took = begun.elapsed();
             let mut stopped = 0;
             for part in 0..12 {
                 let deadline = Instant::now() + took.mul_f64(f64::from(part) / 10.0);
-                match Interrupt::new().by(deadline).run(|| solve(&problem, method, &effort(), &mut |_| ())) {
+                match Interrupt::new().by(deadline).run(|| solve(&problem, &options(method), &mut |_| ())) {
                     Ok(answer) => assert_eq!(said(&answer), expected, "{world} {method}"),
                     Err(why) => {
                         assert_eq!(why, Interrupted::TimeUp);
@@ -92,6 +92,6 @@ fn proofs_and_tasks_stop_too() {
     let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));
     let task = load_scene(&robot, &world).unwrap().task(&Overrides::default()).unwrap().task;
     let drive = cplan::motion::Drive::default();
-    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive };
-    assert!(stopped(&mut || drop(plan(&task, &manner, &mut |_| ()))));
+    let options = Options { drive, ..Method::Visibility.into() };
+    assert!(stopped(&mut || drop(plan(&task, &options, &mut |_| ()))));
 }

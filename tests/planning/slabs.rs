@@ -5,7 +5,7 @@ use crate::common::{
     rr, scene, wall,
 };
 use cplan::check::{Cell, certify};
-use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Method, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::input::{self, Overrides};
 use cplan::model::{JointType, Scene};
@@ -255,7 +255,7 @@ fn shipped_workspaces_are_answered_as_they_say() {
 }
 
 fn shortest(problem: &cplan::model::MotionProblem) -> Verdict {
-    solve(problem, Method::Shortest, &Effort::default(), &mut |_| {}).verdict
+    solve(problem, &Method::Shortest.into(), &mut |_| {}).verdict
 }
 
 #[test]

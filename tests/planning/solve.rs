@@ -2,11 +2,11 @@
 
 use crate::common::{Benchmark, asked, benchmark, problem, q, rectangle, rr, scene, shipped_feasible};
 use cplan::cspace::Proves;
-use cplan::engine::{Answer, Effort, GridSpace, Method, Space, Verdict, solve};
+use cplan::engine::{Answer, GridSpace, Method, Options, Planner, Space, Verdict, solve};
 use cplan::space::JointRange;
 
 fn answer(which: Benchmark, method: Method) -> Answer {
-    solve(&problem(which), method, &Effort::default(), &mut |_| {})
+    solve(&problem(which), &method.into(), &mut |_| {})
 }
 
 /// Length of the path, which must be found.
@@ -59,12 +59,12 @@ fn narrow_passages_are_found_by_subdivision() {
 /// Grids by collision checks, which are proposals alone: what is found through them is certified, and they close nothing.
 #[test]
 fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
-    let effort = Effort { space: GridSpace::Sampled, ..Effort::default() };
     for method in [Method::Wavefront, Method::Harmonic] {
         for (which, optimum) in
             [(Benchmark::A, Some(6.4229)), (Benchmark::B, Some(6.4281)), (Benchmark::Inf, None), (Benchmark::T, None)]
         {
-            let answer = solve(&problem(which), method, &effort, &mut |_| {});
+            let planner = Planner::named(method).with_space(GridSpace::Sampled);
+            let answer = solve(&problem(which), &planner.into(), &mut |_| {});
             match (&answer.verdict, optimum) {
                 (Verdict::Found(path), Some(optimum)) => {
                     assert!(path.clearance() > 0.0 && path.path().length() >= optimum - 1e-3, "{which:?} by {method}");
@@ -82,10 +82,11 @@ fn sampled_grids_lead_to_the_verdicts_of_exact_rows() {
 /// what is found is what the judge lets pass.
 #[test]
 fn coarse_samples_are_never_the_last_word() {
-    let effort = Effort { space: GridSpace::Sampled, cells: 16, levels: 1, ..Effort::default() };
+    let planner = Planner::named(Method::Wavefront).with_space(GridSpace::Sampled).with_cells(16);
+    let options = Options { levels: 1, ..planner.into() };
     let (mut found, mut unknown) = (0, 0);
     for (name, problem) in shipped_feasible() {
-        match solve(&problem, Method::Wavefront, &effort, &mut |_| {}).verdict {
+        match solve(&problem, &options, &mut |_| {}).verdict {
             Verdict::Found(path) => {
                 found += 1;
                 let clearance = problem.scene().workspace().clearance;
@@ -113,11 +114,10 @@ fn closed_ways_are_proven_closed() {
 fn ends_with_little_room_are_answered_at_the_first_level() {
     let scene = scene(rr([JointRange::Circle, JointRange::Circle]), vec![rectangle(1.8 + 1e-6, 2.0, -0.5, 0.5)]);
     let (tight, roomy) = (q(0.0, 0.0), q(2.0, 0.5));
-    let effort = Effort { levels: 1, ..Effort::default() };
     for (start, goal) in [(tight, roomy), (roomy, tight), (tight, tight)] {
         let problem = asked(scene.clone(), start, goal);
         for method in Method::ALL {
-            let answer = solve(&problem, method, &effort, &mut |_| {});
+            let answer = solve(&problem, &Options { levels: 1, ..method.into() }, &mut |_| {});
             let Verdict::Found(certified) = &answer.verdict else {
                 panic!("{method} from {start:?}: {:?}\n{:?}", answer.verdict, answer.history);
             };
@@ -134,9 +134,8 @@ fn a_start_without_room_to_spare_is_answered() {
     let (scene, start, goal) = benchmark(Benchmark::A);
     let clearance = scene.clearance(start);
     let problem = asked(scene.with_clearance(clearance).unwrap(), start, goal);
-    let effort = Effort { levels: 1, boxes: 1000, ..Effort::default() };
     for method in [Method::Visibility, Method::Trapezoid] {
-        let answer = solve(&problem, method, &effort, &mut |_| {});
+        let answer = solve(&problem, &Options { levels: 1, boxes: 1000, ..method.into() }, &mut |_| {});
         // Exactly as much as is asked for can be no more than undecided.
         assert!(!matches!(answer.verdict, Verdict::Found(_)), "{method}");
     }

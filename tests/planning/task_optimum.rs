@@ -1,8 +1,8 @@
 //! The choice of IK solutions and order against trying all of them.
 
 use crate::common::{arm, disc, joint, link, obstacle, placed, q, rectangle};
-use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan, rest_to_rest};
-use cplan::engine::{Effort, Method};
+use cplan::engine::task::{TaskAnswer, TaskVerdict, plan, rest_to_rest};
+use cplan::engine::{Method, Options};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{
     Action, Arm, Goal, Heights, Holding, Item, JointType, Object, Shape, Step, Task, Workspace, inverse, within,
@@ -12,12 +12,12 @@ use cplan::space::{Configuration, JointRange};
 use nalgebra::Isometry2;
 use std::collections::BTreeMap;
 
-fn manner() -> Manner {
-    Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive { period: 0.1, ..Drive::default() } }
+fn options() -> Options {
+    Options { drive: Drive { period: 0.1, ..Drive::default() }, ..Method::Visibility.into() }
 }
 
 fn planned(task: &Task) -> TaskAnswer {
-    plan(task, &manner(), &mut |_| {})
+    plan(task, &options(), &mut |_| {})
 }
 
 /// Two bars among three obstacles as high as they.

@@ -5,17 +5,16 @@
 
 use crate::common::recheck;
 use crate::random_tasks::replay;
-use cplan::engine::task::{Manner, TaskAnswer, TaskVerdict, plan};
-use cplan::engine::{Effort, Method};
+use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
+use cplan::engine::{Method, Options};
 use cplan::geometry::Point;
 use cplan::input::{self, Overrides};
 use cplan::model::{Action, Goal, Holding, Item, Object, Step, Task, Workspace, inverse, within};
-use cplan::motion::Drive;
 use cplan::space::Configuration;
 use std::path::{Path, PathBuf};
 
-fn manner() -> Manner {
-    Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() }
+fn options() -> Options {
+    Method::Visibility.into()
 }
 
 fn folder() -> PathBuf {
@@ -40,7 +39,7 @@ fn shipped(name: &str) -> Task {
 }
 
 fn planned(task: &Task) -> TaskAnswer {
-    plan(task, &manner(), &mut |_| {})
+    plan(task, &options(), &mut |_| {})
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use crate::common::recheck;
 use cplan::check::{ProofBox, read_proof};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Verdict, solve};
 use cplan::geometry::Convex;
 use cplan::input::{self, Overrides};
 use cplan::model::{MotionProblem, Scene};
@@ -101,7 +101,7 @@ fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
 fn open_ways_are_found_by(method: Method) {
     for (what, robot) in TWINS {
         let problem = load(&format!("{what}_open"), robot);
-        let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+        let answer = solve(&problem, &method.into(), &mut |_| {});
         let Verdict::Found(certified) = &answer.verdict else {
             panic!("{what} by {method}: {:?}", answer.verdict);
         };
@@ -129,7 +129,7 @@ fn the_sweep_sees_contacts() {
     // The same path as the twin's, where the way is closed.
     for (what, robot) in TWINS.into_iter().filter(|(what, _)| *what != "limits") {
         let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
-        let answer = solve(&open, Method::Visibility, &Effort::default(), &mut |_| {});
+        let answer = solve(&open, &Method::Visibility.into(), &mut |_| {});
         let Verdict::Found(certified) = &answer.verdict else { panic!("{what}") };
         assert!(first_contact(closed.scene(), certified.path()).is_some(), "{what}");
     }

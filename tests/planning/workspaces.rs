@@ -4,7 +4,7 @@
 //! `# expect: infeasible`). A line `# unknown: wavefront harmonic` names planners whose finest resolution may not do: they
 //! may answer either as stated or unknown, never the contrary.
 
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Verdict, solve};
 use cplan::input::{self, Overrides};
 use cplan::model::MotionProblem;
 use std::path::{Path, PathBuf};
@@ -64,7 +64,7 @@ fn check(method: Method) {
     let mut wrong = Vec::new();
     let mut told = [0, 0];
     for Shipped { name, problem, expect, unknown } in &all {
-        let answer = solve(problem, method, &Effort::default(), &mut |_| {});
+        let answer = solve(problem, &method.into(), &mut |_| {});
         match (&answer.verdict, expect.as_str()) {
             (Verdict::Found(certified), "found") => {
                 let path = certified.path();
@@ -124,7 +124,7 @@ fn the_visibility_path_is_the_shortest_up_to_the_margin() {
         if expect != "found" {
             continue;
         }
-        let length = |method| match solve(&problem, method, &Effort::default(), &mut |_| {}).verdict {
+        let length = |method: Method| match solve(&problem, &method.into(), &mut |_| {}).verdict {
             Verdict::Found(path) => path.path().length(),
             other => panic!("{name}: {other:?}"),
         };

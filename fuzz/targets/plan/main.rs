@@ -7,7 +7,8 @@ mod draft;
 use cplan::check::{CertifiedPath, Disconnection, certify};
 use cplan::geometry::Convex;
 use cplan::model::{JointType, MotionProblem, Scene};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Verdict, solve};
+use cplan::{Options, Planner};
 use cplan::space::{Configuration, Path};
 use draft::Draft;
 use libfuzzer_sys::fuzz_target;
@@ -22,8 +23,9 @@ const PARRY: f64 = 1e-6;
 const SAMPLES: u32 = 200;
 
 /// Little, so that many scenes are tried.
-fn effort() -> Effort {
-    Effort { levels: 2, margin: 1e-2, cells: 32, boxes: 2000, bounded: false, ..Effort::default() }
+fn options(method: Method) -> Options {
+    let planner = Planner::named(method).with_margin(1e-2).with_cells(32);
+    Options { levels: 2, boxes: 2000, bounded: false, ..planner.into() }
 }
 
 /// A shape's core, turned by an angle and moved; none where parry's constructor refuses a sliver.
@@ -102,7 +104,7 @@ fuzz_target!(|draft: Draft| {
     let chosen = Method::ALL[usize::from(draft.method) % Method::ALL.len()];
     let (mut found, mut infeasible) = (false, false);
     for method in [chosen, Method::Subdivision] {
-        match solve(&problem, method, &effort(), &mut |_| {}).verdict {
+        match solve(&problem, &options(method), &mut |_| {}).verdict {
             Verdict::Found(path) => {
                 check_path(&problem, &path);
                 found = true;

@@ -207,9 +207,10 @@ impl<'a> Desk<'a> {
         let (scene, ends) = (problem.scene(), (start, goals));
         if !ask.is_final {
             let planning = interrupt.clone().by(begun + DRAG_TIME);
-            let plan = || result::quick(motion, options, &self.contours);
+            let plan = || result::quick(&problem, options, &self.contours);
             return match self.pace.tries(|| planning.run(plan)) {
-                Some(Ok(answer)) => Ok(places(answer)),
+                Some(Ok(Ok(answer))) => Ok(places(answer)),
+                Some(Ok(Err(error))) => refused(About::Options, error),
                 Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
                 None | Some(Err(Interrupted::TimeUp)) => {
                     let reason = Some("not decided while something moves".into());

@@ -5,7 +5,7 @@
 
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
-use crate::engine::{Effort, GridSpace, Method};
+use crate::engine::{FIRST_CELLS, GridSpace, Method, Planner};
 use crate::field::Neighborhood;
 use crate::planner::GridSearch;
 use clap::{Arg, Command, ValueEnum};
@@ -71,9 +71,11 @@ const CHOICES: [Choice; 7] = [
 
 /// Cells of fields are square in joint space unless their number is given.
 fn cells(planner: Method) -> Option<String> {
-    let Effort { cells, square, .. } = Effort::default();
-    let is_square = square && planner == Method::Harmonic;
-    Some(if is_square { format!("{cells}, square") } else { cells.to_string() })
+    match Planner::named(planner) {
+        Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => Some(cells.to_string()),
+        Planner::Harmonic { cells: None, .. } => Some(format!("{FIRST_CELLS}, square")),
+        _ => None,
+    }
 }
 
 fn word(value: &impl ValueEnum) -> Option<String> {

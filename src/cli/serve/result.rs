@@ -4,8 +4,8 @@ use super::contours::Contours;
 use super::protocol::{AnswerReply, Figures};
 use crate::cspace::CObstacle;
 use crate::draw::{Picture, View};
-use crate::engine::{Effort, MotionPlan, Options, Problem, TaskPlan, Verdict, plan, solve};
-use crate::model::{MotionProblem, Scene, Status};
+use crate::engine::{MotionPlan, Options, Problem, TaskPlan, Verdict, plan};
+use crate::model::{Scene, Status};
 use crate::output;
 use crate::space::{Configuration, Segment};
 use serde_json::value::RawValue;
@@ -19,29 +19,28 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
 }
 
 /// What can be shown while something moves: a path, certified, but neither its bound nor its motion.
-pub fn quick(problem: &MotionProblem, options: &Options, contours: &Contours) -> AnswerReply {
-    let (method, effort) = (options.planner.method(), options.effort(problem.scene()));
-    let effort = Effort { bounded: false, gap: None, ..effort };
-    let answer = solve(problem, method, &effort, &mut |_| ());
+///
+/// # Errors
+/// A trajectory that cannot be made as asked, in words.
+pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
+    let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
+    let Some(MotionPlan { problem, answer, report, .. }) = plan.motion() else {
+        return Err("steps are not planned while something moves".into());
+    };
     let contours = contours.of(problem.scene());
-    let mut reply = judged(answer.verdict.status());
-    if let Verdict::Unknown(reason) = &answer.verdict {
-        reply.reason = Some(reason.clone());
-    }
-    reply.figures.size = Some(answer.run.size.to_string());
     let mut picture = Picture {
         trace: Some(&answer.run.trace),
         proof: answer.verdict.proof(),
         status: output::status(&answer.verdict).into(),
         ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
     };
+    let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(&answer.run.size) };
     if let Verdict::Found(path) = &answer.verdict {
-        reply.figures.length = Some(effort.metric.length(path.path()));
-        reply.figures.clearance = Some(path.clearance()).filter(|clearance| clearance.is_finite());
-        picture.paths.push((method.to_string(), path.path()));
+        figures.length = Some(options.planner.metric(problem.scene().arm()).length(path.path()));
+        picture.paths.push((answer.method.to_string(), path.path()));
     }
-    let ending = Some(answer.verdict.status());
-    AnswerReply { view: drawn(&View::of_picture(&picture, ending, Vec::new(), None)), ..reply }
+    let view = drawn(&View::of_picture(&picture, Some(plan.status()), Vec::new(), None));
+    Ok(AnswerReply { reason: report.reason.clone(), figures, view, ..judged(plan.status()) })
 }
 
 fn picture<'a>(

@@ -1,12 +1,11 @@
 //! The motions of a task, each planned once.
 
-use super::Manner;
 use super::least_time::rest_to_rest;
 use super::state::{Candidate, Held, State};
 use super::stroke::{ToolStroke, stroke};
 use crate::check::{CertifiedPath, CheckedProof, WristTurn, certify, wrist_turn};
 use crate::engine::settle::LARGE_PROOF;
-use crate::engine::{Effort, Verdict, solve};
+use crate::engine::{Options, Verdict, solve};
 use crate::geometry::Pose;
 use crate::model::{Grip, MotionProblem, Scene, Step, Task};
 use crate::motion::{Timed, single};
@@ -105,7 +104,7 @@ type WayKey = (usize, [u64; 4]);
 /// Plans motions, and remembers them: the same motion among the same things that can be hit is planned once. Tasks that differ
 /// in their items alone share them.
 pub(super) struct Legs {
-    manner: Manner,
+    options: Options,
     /// Scenes as far as they matter, by number.
     numbers: BTreeMap<SceneKey, usize>,
     ways: BTreeMap<WayKey, Way>,
@@ -118,11 +117,11 @@ pub(super) struct Legs {
 }
 
 impl Legs {
-    pub fn new(manner: Manner) -> Self {
+    pub fn new(options: &Options) -> Self {
         // Tasks bound times, not the lengths of paths: what is somewhat longer leaves room for faster motions.
-        let effort = Effort { bounded: false, gap: manner.effort.gap.or(Some(GAP)), ..manner.effort };
+        let planner = options.planner.with_gap(options.planner.gap().unwrap_or(GAP));
         Self {
-            manner: Manner { effort, ..manner },
+            options: Options { planner, bounded: false, ..*options },
             numbers: BTreeMap::new(),
             ways: BTreeMap::new(),
             fewer: BTreeMap::new(),
@@ -171,11 +170,11 @@ impl Legs {
     ) -> Result<Arc<Timed>, Refusal> {
         let scene = from.scene(task, candidate.step.action.picked());
         let path = match &self.ways[&key] {
-            _ if !self.manner.method.optimises() => path(&scene, from.q, candidate.to, &self.manner)?,
+            _ if !self.options.planner.method().optimises() => path(&scene, from.q, candidate.to, &self.options)?,
             Way::Straight(path) => path.clone(),
             Way::Open | Way::Barred(_) => self.shortest(task, from, candidate, &scene)?,
         };
-        let timed = self.manner.drive.along(&scene, &path, candidate.step.speed);
+        let timed = self.options.drive.along(&scene, &path, candidate.step.speed);
         timed.map(Arc::new).map_err(|error| Refusal::new(error.to_string(), false))
     }
 
@@ -200,8 +199,8 @@ impl Legs {
             let poses = from.poses.iter().enumerate().map(lies).collect();
             let fewer = State { poses, ..from.clone() };
             let key = (scene_key(&fewer, candidate.step, |object| among.contains(&object)), ends);
-            let manner = &self.manner;
-            let plan = || path(&fewer.scene(task, picked), q, to, manner);
+            let options = &self.options;
+            let plan = || path(&fewer.scene(task, picked), q, to, options);
             let found = match self.fewer.entry(key).or_insert_with(plan) {
                 Ok(found) => found.path(),
                 Err(refusal) if refusal.proven => return Err(refusal.clone()),
@@ -220,7 +219,7 @@ impl Legs {
                 break;
             }
         }
-        path(scene, q, to, &self.manner)
+        path(scene, q, to, &self.options)
     }
 
     /// Whether nothing is known that rules the motion to a candidate's target out, and the turn there: most of what can, and
@@ -323,9 +322,9 @@ fn way(scene: &Scene, from: Configuration, to: Configuration) -> Way {
 }
 
 /// The planner's path from one configuration to another.
-fn path(scene: &Scene, from: Configuration, to: Configuration, manner: &Manner) -> Result<CertifiedPath, Refusal> {
+fn path(scene: &Scene, from: Configuration, to: Configuration, options: &Options) -> Result<CertifiedPath, Refusal> {
     let problem = MotionProblem::trusted(scene.clone(), from, to);
-    match solve(&problem, manner.method, &manner.effort, &mut |_| {}).verdict {
+    match solve(&problem, options, &mut |_| {}).verdict {
         Verdict::Found(path) => Ok(path),
         Verdict::Infeasible(proof) => Err(Refusal::barred(proof)),
         Verdict::Unknown(reason) => Err(Refusal::new(reason, false)),

@@ -65,17 +65,3 @@ pub use report::{Choice, TaskReport};
 pub use sequence::Sequence;
 pub use step_report::{ActionName, EventName, EventReport, StepReport, StrokeReport, TurnReport};
 pub use stroke::ToolStroke;
-
-use crate::engine::{Effort, Method};
-use crate::motion::Drive;
-
-/// How to plan the motions of a task.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Manner {
-    /// The planner of each motion.
-    pub method: Method,
-    /// How hard it tries.
-    pub effort: Effort,
-    /// How to drive along its paths.
-    pub drive: Drive,
-}

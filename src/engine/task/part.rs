@@ -4,12 +4,12 @@
 //! What the whole does for these pairs is a way for the part, too: the arm passes the same configurations among fewer obstacles,
 //! carries nothing where it carried something else, and link 2 is free to meet what it went to, or let go of, for longer.
 
-use super::Manner;
 use super::answer::TaskVerdict;
 use super::heuristic::Heuristic;
 use super::legs::Legs;
 use super::plan::{Found, limits};
 use super::search::{Ending, Search};
+use crate::engine::Options;
 use crate::model::{Action, Item, Shape, Task};
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ pub(super) fn impossible(
     task: &Task,
     item: usize,
     pairs: &[usize],
-    manner: &Manner,
+    options: &Options,
     progress: &mut dyn FnMut(&str),
 ) -> Option<Found> {
     let (&first, others) = pairs.split_first()?;
@@ -39,7 +39,7 @@ pub(super) fn impossible(
         let alone = part_of(task, item, &part)?;
         let heuristic = Heuristic::new(&alone);
         // With legs of its own: its objects are not the same.
-        let mut legs = Legs::new(*manner);
+        let mut legs = Legs::new(options);
         let mut search = Search::new(&alone, &heuristic, &mut legs);
         let ending = search.run(limits(&alone, MOTIONS), progress);
         if ending != Ending::Dry {

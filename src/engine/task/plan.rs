@@ -1,6 +1,5 @@
 //! From a task to its answer: which search is made, and how long.
 
-use super::Manner;
 use super::answer::{TaskAnswer, TaskVerdict};
 use super::heuristic::Heuristic;
 use super::legs::Legs;
@@ -8,6 +7,7 @@ use super::order::{Orders, Outcome};
 use super::part;
 use super::search::{Ending, Limits, Search};
 use super::state::State;
+use crate::engine::Options;
 use crate::model::{Item, Task};
 use std::collections::BTreeSet;
 
@@ -41,11 +41,11 @@ const MOST_PAIRS: usize = 10;
 /// Where there are too many orders, it is one that is good with nothing in the way and meets what proofs and collisions tell of
 /// the orders that fail; the file's own, if that is faster; or a better one still, by the times of the motions planned.
 #[must_use]
-pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     let heuristic = Heuristic::new(task);
     let start = State::at_start(task);
     let lower_bound = heuristic.remaining(start.q, start.progress);
-    let planning = Planning { task, manner, legs: Legs::new(*manner), lower_bound, expanded: 0, progress };
+    let planning = Planning { task, options, legs: Legs::new(options), lower_bound, expanded: 0, progress };
     let pairs = |item: &Item| if let Item::AnyOrder(pairs) = item { pairs.len() } else { 0 };
     match task.items.iter().map(pairs).max().unwrap_or(0) {
         0 => planning.in_order(&heuristic),
@@ -56,7 +56,7 @@ pub fn plan(task: &Task, manner: &Manner, progress: &mut dyn FnMut(&str)) -> Tas
 
 struct Planning<'a, 'p> {
     task: &'a Task,
-    manner: &'a Manner,
+    options: &'a Options,
     legs: Legs,
     lower_bound: f64,
     /// Nodes that all searches have expanded.
@@ -132,7 +132,7 @@ impl Planning<'_, '_> {
             return self.improved(orders, best);
         }
         let proof = match &outcome {
-            Outcome::Stuck { item, pairs } => part::impossible(self.task, *item, pairs, self.manner, self.progress),
+            Outcome::Stuck { item, pairs } => part::impossible(self.task, *item, pairs, self.options, self.progress),
             Outcome::Promising | Outcome::Elsewhere => None,
         };
         proof.unwrap_or_else(|| self.in_orders(&orders, f64::INFINITY))

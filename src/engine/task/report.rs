@@ -47,7 +47,7 @@ pub struct TaskReport {
     /// How the wavefront planner searched its grids.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub search: Option<SearchUsed>,
-    /// How the cells of the planner's grids were decided, if not by exact rows.
+    /// How the cells of the planner's grids were decided, if not by exact slices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub space: Option<&'static str>,
     /// Names of the joints in the URDF, base to tip.

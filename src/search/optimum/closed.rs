@@ -202,12 +202,13 @@ impl<'a> Closed<'a> {
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
+        let (in_link, in_plane) = (posture.curvature_in_link(1, deviation), posture.curvature_in_plane(1, deviation));
         let of_world = |p: Point, from_piece: f64| {
-            let allowed = radius - from_piece - posture.curvature_in_link(1, p, deviation) / 2.0;
+            let allowed = radius - from_piece - in_link.of(p) / 2.0;
             poses.iter().all(|pose| within(pose.inverse_transform_point(&p), part.core(), of_part, allowed))
         };
         let of_link = |a: Point, from_part: f64| {
-            let allowed = radius - from_part - posture.curvature_in_plane(1, a, deviation) / 2.0;
+            let allowed = radius - from_part - in_plane.of(a) / 2.0;
             poses.iter().all(|pose| within(pose * a, piece.core(), of_piece, allowed))
         };
         if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {

@@ -8,7 +8,7 @@ mod refine;
 mod search;
 mod strips;
 
-use crate::check::{CertifiedPath, LengthClaim, Rejection, Vicinity, certify};
+use crate::check::{CertifiedPath, LengthClaim, Rejection, Vicinity};
 use crate::geometry::{Ordered, Point};
 use crate::model::{Pair, Scene};
 use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology};
@@ -108,14 +108,20 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
     (ways.rounded(best.min(limit)), ways)
 }
 
-/// About the shortest of the `motions`, shorter than `limit`, certified. It keeps `kept` metres more than the clearance where
-/// that matters, and is longer than the shortest by what that costs.
+/// About the shortest of the `motions`, shorter than `limit`, certified by `judge`, which gets a path, or one that is made of it,
+/// and the values of joint 1 at all slices, near each other where it leads past something. It keeps `kept` metres more than
+/// the clearance where that matters, and is longer than the shortest by what that costs.
 ///
 /// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
-/// into these than by half of that, and where the certificate says so. None if that does not get there, as where a passage
+/// into these than by half of that, and where the judge says so. None if that does not get there, as where a passage
 /// is narrower than `kept` leaves it.
 #[must_use]
-pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMotion> {
+pub fn short_motion(
+    motions: &Motions,
+    kept: f64,
+    limit: f64,
+    judge: &mut dyn FnMut(Path, &[f64]) -> Result<CertifiedPath, Rejection>,
+) -> Option<ShortMotion> {
     let Motions { scene, start, clearance, .. } = *motions;
     let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
     let (mut before, mut refused) = (0.0, 0);
@@ -130,11 +136,8 @@ pub fn short_motion(motions: &Motions, kept: f64, limit: f64) -> Option<ShortMot
         if !is_settled && ways.refine(&corners, Allowed::Depth(kept / 2.0)) {
             continue;
         }
-        let nearest = match certify(scene, ways.path(start, &corners), clearance) {
-            Ok(path) => {
-                let free = ways.passed(start, &corners);
-                return Some(ShortMotion { path, free, slices: ways.strips.slices() });
-            }
+        let nearest = match judge(ways.path(start, &corners), &ways.strips.slices()) {
+            Ok(path) => return Some(ShortMotion { path, free: ways.passed(start, &corners) }),
             Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => nearest.at,
             Err(Rejection::OutOfLimits { .. }) => return None,
         };
@@ -156,8 +159,6 @@ pub struct ShortMotion {
     pub path: CertifiedPath,
     /// The free stretch of each slice that it passes, in order: at the least and at the greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
-    /// The values of joint 1 at all slices: near each other where it leads past something.
-    pub slices: Vec<f64>,
 }
 
 /// The search for the shortest way past what is closed, finer and finer.
@@ -195,7 +196,7 @@ impl<'a> Ways<'a> {
         // Who knows where slices are needed knows about how long the shortest is.
         let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * LEAST_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
-        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: Fine::new() }
+        Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: Fine::default() }
     }
 
     /// The length of the shortest way past what is known to be closed, and its corners; without corners if none is as short as

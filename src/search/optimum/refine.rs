@@ -1,6 +1,7 @@
 //! Where a shortest way passes what is closed: there strips are too wide.
 
 use super::Motions;
+use super::search::Mixed;
 use super::strips::Strips;
 use crate::check::Vicinity;
 use crate::check::{Deviation, Posture};
@@ -10,12 +11,13 @@ use crate::search::slab::OUTWARD;
 use crate::space::Measure;
 use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
+use std::hash::BuildHasherDefault;
 
 /// Distance of the configurations, radians or metres, at which ways are looked at for what is thinner than a strip.
-const STEP: f64 = 0.005;
+const STEP: f64 = 0.01;
 
 /// Ratio of the distances from an end at which they are looked at.
-const NEARER: f64 = 0.25;
+const NEARER: f64 = 0.1;
 
 /// How near to a tip strips are cut at once, as a multiple of the detour that a strip may leave open: a way around the tip
 /// is as much longer, at the most twice.
@@ -102,7 +104,7 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
 
 /// Straight pieces of ways within a strip that are known to pass nothing by more than is allowed: their ends, and the strip's. Most
 /// of a way is where the last one was.
-pub(super) type Fine = HashSet<[u64; 6]>;
+pub(super) type Fine = HashSet<[u64; 6], BuildHasherDefault<Mixed>>;
 
 /// Where to cut strips: those in which a way passes what is closed by more than is allowed, by their index. What is overlooked
 /// makes no bound wrong, only lower. What is `fine` is not looked at.
@@ -130,13 +132,15 @@ pub(super) fn passed(
         if fine.contains(&known) {
             continue;
         }
-        // Halfway through the strip first: this is where the next slice will be.
-        let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
         let detour = |by: f64| {
             let via = nalgebra::center(&left, &right) + Vector::new(0.0, by);
             measure.norm(via - left) + measure.norm(right - via) - measure.norm(right - left)
         };
-        let least = || way_out.map(|way_out| way_out.map(detour).into_iter().fold(f64::INFINITY, f64::min));
+        // What is overlooked at the places that are looked at may show halfway through the strip, where the next slice would be.
+        let is_barred_halfway = |strips: &mut Strips, worth: f64| {
+            let way_out = middle.and_then(|middle| strips.way_out_of_middle(index, middle.y));
+            way_out.is_some_and(|ways| ways.map(detour).into_iter().all(|detour| detour > worth))
+        };
         if let Some(Deepest { by, share, pair }) = deepest(scene, vicinity, clearance, [left, right], allowed) {
             let at = left + (right - left) * share - Vector::new(turns, 0.0);
             let mut cuts = strips.towards_jumps(index, pair, at, finest);
@@ -147,7 +151,7 @@ pub(super) fn passed(
             cuts.push(at.x);
             cuts.sort_unstable_by(f64::total_cmp);
             passed.entry(index).or_insert(cuts);
-        } else if matches!(allowed, Allowed::Detour(worth) if least().is_some_and(|least| least > worth)) {
+        } else if matches!(allowed, Allowed::Detour(worth) if is_barred_halfway(strips, worth)) {
             passed.entry(index).or_default();
         } else {
             fine.insert(known);
@@ -178,7 +182,8 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     let near = std::iter::successors(Some(NEARER), |share| Some(share * NEARER));
     let towards_ends = near.take_while(|share| share * length > finest).flat_map(|share| [share, 1.0 - share]);
     let mut shares: Vec<f64> = regular.chain(towards_ends).collect();
-    shares.sort_unstable_by(f64::total_cmp);
+    // Most of it is in order.
+    shares.sort_by(f64::total_cmp);
 
     // Walls are made of shapes that are smaller by this.
     let least = clearance - 2.0 * OUTWARD;

@@ -30,9 +30,9 @@ pub(super) enum Way {
     NoneBelow(f64),
 }
 
-/// Mixes two numbers in a few operations: what is hashed comes from the search itself.
+/// Mixes a few numbers in a few operations: what is hashed comes from the search itself.
 #[derive(Default)]
-struct Mixed(u64);
+pub(super) struct Mixed(u64);
 
 impl Hasher for Mixed {
     fn finish(&self) -> u64 {
@@ -40,7 +40,11 @@ impl Hasher for Mixed {
     }
 
     fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|byte| self.write_u64(u64::from(*byte)));
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(u64::from_ne_bytes(word));
+        }
     }
 
     fn write_i64(&mut self, number: i64) {

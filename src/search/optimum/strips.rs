@@ -73,6 +73,11 @@ impl Strip {
     fn new(from: f64, to: f64, closed: bool) -> Self {
         Self { from, to, closed, barriers: None, middle: None, walls: None, portals: None }
     }
+
+    /// What is closed at the slice at `from`, as far as it has been asked for.
+    fn known_walls(&self) -> &[Wall] {
+        self.walls.as_deref().unwrap_or_default()
+    }
 }
 
 /// The strips, made as they are asked for. On a turning joint 1 without limits they are numbered on and on, over all
@@ -302,16 +307,16 @@ impl<'a> Strips<'a> {
         }
         let mut barriers = Vec::new();
         if !self.strips[index].closed {
-            let before = self.walls(index).to_vec();
-            let after = if index + 1 < self.strips.len() {
-                self.walls(index + 1).to_vec()
-            } else if self.topology.ranges[0].is_circle() {
-                self.walls(0).to_vec()
-            } else {
-                self.last.clone()
-            };
+            let next = (index + 1) % self.strips.len();
+            let is_last = next == 0 && !self.topology.ranges[0].is_circle();
+            self.walls(index);
+            if !is_last {
+                self.walls(next);
+            }
+            let before = self.strips[index].known_walls();
+            let after = if is_last { &self.last } else { self.strips[next].known_walls() };
             let (from, to) = (self.strips[index].from, self.strips[index].to);
-            for (left, right) in some(of_the_same_pairs(&before, &after)) {
+            for (left, right) in some(of_the_same_pairs(before, after)) {
                 barriers.extend(self.barrier([from, to], left, right).map(|barrier| (barrier, left.pair)));
             }
             barriers.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

@@ -1,7 +1,7 @@
 //! Polygonal regions against distances of sampled configurations.
 
 use crate::common::{convex, placed};
-use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, regions};
+use cplan::cspace::{Polygon, Proves, Regions, c_obstacles, inner_regions, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
 use cplan::model::{
     Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
@@ -104,16 +104,19 @@ fn any_joint(name: &'static str) -> impl Strategy<Value = Joint> {
     prop_oneof![turning, sliding].prop_map(move |(motion, axis)| joint(name, motion, axis))
 }
 
-fn any_scene() -> impl Strategy<Value = Scene> {
-    let obstacle = (shape(0.25), -1.5..1.5f64, -1.5..1.5f64).prop_map(|(shape, x, y)| {
+fn any_obstacle() -> impl Strategy<Value = Convex> {
+    (shape(0.25), -1.5..1.5f64, -1.5..1.5f64).prop_map(|(shape, x, y)| {
         let core = shape.core().iter().map(|p| p + Vector::new(x, y)).collect();
         convex(core, shape.radius())
-    });
+    })
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
     (
         [any_joint("first"), any_joint("second")],
         (-0.2..1.0f64, -0.2..0.2f64),
         [prop::collection::vec(shape(0.3), 0..2), prop::collection::vec(shape(0.5), 1..3)],
-        prop::collection::vec(obstacle, 1..4),
+        prop::collection::vec(any_obstacle(), 1..4),
         prop_oneof![Just(0.0), 0.0..0.05f64],
     )
         .prop_map(|(joints, (x, y), links, pieces, clearance)| {
@@ -177,8 +180,54 @@ fn keeps_its_margin(scene: &Scene, margin: f64) -> Result<(), TestCaseError> {
     Ok(())
 }
 
+/// Blocked in the regions is blocked in truth, and what is too near by more than the margin is blocked in them.
+fn loses_no_more_than_its_margin(scene: &Scene, regions: &Regions, margin: f64) -> Result<(), TestCaseError> {
+    let keep = scene.workspace().clearance;
+    prop_assert_eq!(regions.proves, Proves::Inner { margin });
+    for q in lattice(regions.window, 60) {
+        let clearance = scene.clearance(q);
+        let free = is_free(regions, q);
+        prop_assert!(free || clearance < keep, "{q} is blocked at {clearance}");
+        prop_assert!(!free || clearance >= keep - margin - 1e-9, "{q} is free at {clearance}");
+    }
+    for (a, b) in regions.free.iter().flat_map(points) {
+        for t in [0.0, 0.21, 0.5, 0.83] {
+            let q = a.coords + (b - a) * t;
+            let is_limit =
+                |k: usize| <[f64; 2]>::from(regions.window[k]).iter().any(|limit| (q[k] - limit).abs() < 1e-9);
+            let clearance = scene.clearance(q);
+            prop_assert!(clearance >= keep - margin - 1e-9, "{clearance} at {q}");
+            prop_assert!(is_limit(0) || is_limit(1) || clearance < keep - 0.25 * margin, "{clearance} at {q}");
+        }
+    }
+    Ok(())
+}
+
+/// Two slides, of which the second carries a shape.
+fn any_gantry() -> impl Strategy<Value = Scene> {
+    let slide = |name, angle: f64| {
+        let direction = Vector::new(angle.cos(), angle.sin());
+        joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.0, upper: 1.2 })
+    };
+    let clearance = prop_oneof![Just(0.0), 0.0..0.05f64];
+    (shape(0.3), prop::collection::vec(any_obstacle(), 1..6), 0.3..2.8f64, clearance).prop_map(
+        move |(tool, pieces, angle, clearance)| {
+            let joints = [slide("first", 0.2), slide("second", 0.2 + angle)];
+            scene(joints, Vector::new(0.1, 0.2), [vec![], vec![tool]], pieces, clearance)
+        },
+    )
+}
+
 proptest! {
     #![proptest_config(crate::common::random::cases(96))]
+
+    #[test]
+    fn what_gantries_lose_is_no_more_than_the_margin(scene in any_gantry(), margin in prop_oneof![Just(1e-4), 0.001..0.02f64]) {
+        // Of pieces and tools thinner than the margin nothing is left.
+        if let Some(regions) = inner_regions(&scene, margin) {
+            loses_no_more_than_its_margin(&scene, &regions, margin)?;
+        }
+    }
 
     #[test]
     fn free_is_free_and_clear_is_free(scene in any_scene(), margin in prop_oneof![Just(0.01), 0.002..0.03f64]) {

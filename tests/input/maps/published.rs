@@ -2,7 +2,7 @@
 
 use super::robot;
 use crate::common::reference::published;
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Verdict, solve};
 use cplan::input::{LineMap, Overrides, PreferenceMap, load};
 use cplan::model::MotionProblem;
 
@@ -48,7 +48,7 @@ fn the_gantry_finds_its_way_in_all_three() {
     for (map, preferences, start) in [(1, 1, [-9.0, 9.0]), (2, 2, [22.0, -22.0]), (3, 2, [8.0, -8.0])] {
         let problem = problem(&data, map, preferences, start);
         for method in Method::ALL {
-            let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+            let answer = solve(&problem, &method.into(), &mut |_| {});
             let Verdict::Found(path) = &answer.verdict else { panic!("map {map}, {method}: {:?}", answer.history) };
             assert_eq!(path.path().start(), problem.start());
             assert!(problem.goals().points().any(|goal| goal == path.path().goal()), "map {map}, {method}");
@@ -63,7 +63,7 @@ fn there_is_no_way_out_of_a_letter() {
     let data = published("data");
     let problem = problem(&data, 1, 1, [-9.0, 6.5]);
     for method in Method::ALL {
-        let answer = solve(&problem, method, &Effort::default(), &mut |_| {});
+        let answer = solve(&problem, &method.into(), &mut |_| {});
         assert!(matches!(answer.verdict, Verdict::Infeasible(_)), "{method}: {:?}", answer.history);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{ROUNDING, bound};
 use crate::common::shipped_feasible;
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Planner, Verdict, solve};
 use cplan::space::Metric;
 
 /// The gap asked for, and to the best known path, which is itself within a thousandth of the optimum.
@@ -13,8 +13,8 @@ const NEAR: f64 = 2e-3;
 fn bounds_come_near_the_best_known_paths() {
     let mut far = Vec::new();
     for (name, problem) in shipped_feasible() {
-        let effort = Effort { gap: Some(1e-3), ..Effort::default() };
-        let Verdict::Found(found) = solve(&problem, Method::Visibility, &effort, &mut |_| {}).verdict else {
+        let planner = Planner::named(Method::Visibility).with_gap(1e-3);
+        let Verdict::Found(found) = solve(&problem, &planner.into(), &mut |_| {}).verdict else {
             panic!("{name}: no path")
         };
         let length = found.path().length();

@@ -3,24 +3,30 @@
 use super::{LIMITS, ROUNDING, bound, metrics};
 use crate::common::{all_kinds, asked, convex, disc, inside, rectangle, scene, wall};
 use crate::random_worlds::world;
-use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::engine::{Criterion, Method, Options, Planner, Verdict, decide, solve};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::MotionProblem;
-use cplan::space::{GoalSet, Metric, Path};
+use cplan::space::{GoalSet, Path};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
 const SLABS: usize = 20_000;
 
+/// What makes a path short, one after the other.
+const CRITERIA: [Criterion; 3] = [Criterion::Euclidean, Criterion::Weighted([1.0, 0.3]), Criterion::Time];
+
 /// Certified motions of all that plan.
 fn motions(problem: &MotionProblem) -> Vec<Path> {
-    let effort = |metric| Effort { levels: 2, margin: 1e-4, cells: 128, boxes: 5000, metric, ..Effort::default() };
+    let options = |method: Method, criterion: Criterion| {
+        let planner = Planner::named(method).with_criterion(criterion).with_margin(1e-4).with_cells(128);
+        Options { levels: 2, boxes: 5000, ..planner.into() }
+    };
     let mut verdicts = vec![decide(problem, SLABS)];
     for method in [Method::Shortest, Method::Visibility] {
-        verdicts.extend(metrics().map(|metric| solve(problem, method, &effort(metric), &mut |_| {}).verdict));
+        verdicts.extend(CRITERIA.map(|criterion| solve(problem, &options(method, criterion), &mut |_| {}).verdict));
     }
     let others = [Method::Trapezoid, Method::Wavefront, Method::Subdivision];
-    verdicts.extend(others.map(|method| solve(problem, method, &effort(Metric::Euclidean), &mut |_| {}).verdict));
+    verdicts.extend(others.map(|method| solve(problem, &options(method, Criterion::Euclidean), &mut |_| {}).verdict));
     let found = |verdict| if let Verdict::Found(found) = verdict { Some(found.path().clone()) } else { None };
     verdicts.into_iter().filter_map(found).collect()
 }

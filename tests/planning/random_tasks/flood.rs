@@ -6,7 +6,7 @@ use super::task;
 use crate::common::asked;
 use crate::common::dice::Dice;
 use crate::common::random::{seeds, times};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Options, Verdict, solve};
 use cplan::model::{Grip, Holding, Payload, Scene, Task};
 use cplan::space::Configuration;
 use nalgebra::Point2;
@@ -127,8 +127,8 @@ fn payloads_are_judged_like_a_flood_fill() {
         let perhaps = bitmap.connects(start, goal, &[Cell::Free, Cell::Mixed]);
         decisive += u64::from(surely || !perhaps);
         let problem = asked(scene, start, goal);
-        let effort = Effort { levels: 4, boxes: 20_000, bounded: false, ..Effort::default() };
-        match solve(&problem, Method::Visibility, &effort, &mut |_| {}).verdict {
+        let options = Options { levels: 4, boxes: 20_000, bounded: false, ..Method::Visibility.into() };
+        match solve(&problem, &options, &mut |_| {}).verdict {
             Verdict::Found(_) => {
                 found += 1;
                 assert!(perhaps, "seed {seed}: found, but the flood does not get there");

@@ -1,10 +1,11 @@
 //! The library's own judge of recorded tasks, on random ones: what is planned is free, and as asked for; with objects that are
 //! larger than planned for it mostly is not.
 
-use super::{manner, task};
+use super::{options, task};
 use crate::common::random::{seeds, times};
 use cplan::check::{CollisionCheck, ReplayedStep};
-use cplan::engine::task::{Manner, TaskAnswer, TaskReport, TaskVerdict, plan};
+use cplan::engine::Options;
+use cplan::engine::task::{TaskAnswer, TaskReport, TaskVerdict, plan};
 use cplan::model::{RecordedStep, RecordedTurn, Task};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
@@ -32,11 +33,11 @@ fn is_free(step: &ReplayedStep) -> bool {
 #[test]
 fn what_is_planned_is_judged_free() {
     let count = times(100);
-    let manner = Manner { drive: Drive::default(), ..manner() };
+    let options = Options { drive: Drive::default(), ..options() };
     let (mut done, mut turns, mut refuted) = (0_u64, 0_u64, 0_u64);
     for seed in seeds(100) {
         let task = task::task(seed);
-        let answer = plan(&task, &manner, &mut |_| {});
+        let answer = plan(&task, &options, &mut |_| {});
         if answer.verdict != TaskVerdict::Found(()) {
             continue;
         }

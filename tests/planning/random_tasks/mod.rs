@@ -10,8 +10,8 @@ pub mod replay;
 pub mod task;
 
 use crate::common::random::seeds;
-use cplan::engine::task::{Manner, TaskVerdict, plan};
-use cplan::engine::{Effort, Method};
+use cplan::engine::task::{TaskVerdict, plan};
+use cplan::engine::{Method, Options};
 use cplan::motion::Drive;
 
 /// Planned, proven impossible, unknown.
@@ -23,10 +23,10 @@ struct Count {
     legs: usize,
 }
 
-fn manner() -> Manner {
+fn options() -> Options {
     // Samples need not be dense: the replay interpolates.
-    let effort = Effort { levels: 4, boxes: 20_000, ..Effort::default() };
-    Manner { method: Method::Visibility, effort, drive: Drive { period: 0.05, ..Drive::default() } }
+    let drive = Drive { period: 0.05, ..Drive::default() };
+    Options { levels: 4, boxes: 20_000, drive, ..Method::Visibility.into() }
 }
 
 #[test]
@@ -34,7 +34,7 @@ fn what_is_planned_can_be_done() {
     let mut found = Count::default();
     for seed in seeds(200) {
         let task = task::task(seed);
-        let answer = plan(&task, &manner(), &mut |_| {});
+        let answer = plan(&task, &options(), &mut |_| {});
         match &answer.verdict {
             TaskVerdict::Found(()) => found.done += 1,
             TaskVerdict::Infeasible(_) => found.infeasible += 1,
@@ -57,7 +57,7 @@ fn what_is_planned_for_another_task_is_refused() {
     let (mut larger, mut elsewhere, mut done) = (0, 0, 0);
     for seed in seeds(40) {
         let task = task::task(seed);
-        let answer = plan(&task, &manner(), &mut |_| {});
+        let answer = plan(&task, &options(), &mut |_| {});
         if answer.verdict != TaskVerdict::Found(()) {
             continue;
         }

@@ -1,6 +1,6 @@
 //! What rests on something presses into it no deeper than is promised, also with its corners.
 
-use super::{manner, replay, task};
+use super::{options, replay, task};
 use cplan::engine::task::{TaskVerdict, plan};
 
 /// A clearance of 1 cm, and a pentagon that is picked beside the disc that supports it: made smaller by the clearance and grown
@@ -8,6 +8,6 @@ use cplan::engine::task::{TaskVerdict, plan};
 #[test]
 fn a_corner_is_carried_through_no_support() {
     let task = task::task(134_591_390_155_048);
-    let answer = plan(&task, &manner(), &mut |_| {});
+    let answer = plan(&task, &options(), &mut |_| {});
     replay::replay(&task, &answer, answer.verdict == TaskVerdict::Found(())).unwrap();
 }

@@ -2,7 +2,7 @@
 //!
 //! 5 to 30 obstacles, arms of all kinds, joints with limits and without. The brute force shares no code with the library:
 //! a flood fill over up to 2048 x 2048 cells, wherever that is decisive. `cargo test` looks at a few worlds with little
-//! effort; the long run, with the default effort and counts printed, is
+//! effort; the long run, with the default options and counts printed, is
 //!
 //! ```sh
 //! CPLAN_WORLDS=2500 cargo test --profile quick --test planning random_worlds -- --nocapture
@@ -11,7 +11,7 @@
 //! for so many worlds of each kind of arm, on all cores. Also from the environment: `CPLAN_KIND` (only this kind),
 //! `CPLAN_FIRST` (the first seed, that of `CPLAN_SEED`), `CPLAN_LATTICE` (cells along an axis, 2048), `CPLAN_SHARE` (planners other than
 //! shortest, visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
-//! [`Effort::default`] has it), `CPLAN_THREADS`.
+//! [`Options::default`] has it), `CPLAN_THREADS`.
 
 mod flood;
 mod oracle;
@@ -19,7 +19,7 @@ pub mod solid;
 pub mod world;
 
 use crate::common::random::seeds;
-use cplan::engine::{Answer, Effort, Method, Verdict, solve};
+use cplan::engine::{Answer, Method, Options, Planner, Verdict, solve};
 use cplan::model::MotionProblem;
 use flood::{Truth, connected};
 use oracle::Oracle;
@@ -59,13 +59,32 @@ struct Tally {
     lies: Vec<String>,
 }
 
+/// The first margin of polygons, as a share of the reach.
+const MARGIN: f64 = 1e-3;
+
 /// How to look.
 struct Run {
-    effort: Effort,
+    levels: usize,
+    boxes: usize,
+    cells: Option<usize>,
     lattice: usize,
     /// Every so many worlds all planners answer.
     share: u64,
     long: bool,
+}
+
+impl Run {
+    /// Every planner as it is, beside so fine a lattice.
+    fn usual(lattice: usize) -> Self {
+        let Options { levels, boxes, .. } = Options::default();
+        Self { levels, boxes, cells: None, lattice, share: u64::MAX, long: false }
+    }
+
+    fn options(&self, method: Method) -> Options {
+        let planner = Planner::named(method);
+        let planner = self.cells.map_or(planner, |n| planner.with_cells(n));
+        Options { levels: self.levels, boxes: self.boxes, ..planner.into() }
+    }
 }
 
 /// What is wrong with an answer, if anything.
@@ -120,7 +139,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
             continue;
         }
         let clock = Instant::now();
-        let answer = solve(problem, method, &run.effort, &mut |_| {});
+        let answer = solve(problem, &run.options(method), &mut |_| {});
         let time = clock.elapsed();
         let count = &mut counts[i];
         count.time = time;
@@ -168,7 +187,7 @@ fn look(problem: &MotionProblem, seed: u64, run: &Run, tally: &Mutex<Tally>) {
     }
     // A path that keeps more than three times the first margin lies in those polygons, unless it turns more often than
     // they do. (Of several goals the nearest is chosen by what stands in for the tight ones, so none may be tight here.)
-    let margin = 3.0 * run.effort.margin * problem.scene().arm().reach();
+    let margin = 3.0 * MARGIN * problem.scene().arm().reach();
     if let Some((shortest, _, _)) = of(Method::Visibility)
         && problem.goals().points().all(|goal| oracle.room(goal) > margin)
     {
@@ -252,7 +271,7 @@ fn print(kind: &str, tally: &Tally) {
 /// columns, or left the start in one that was not looked into (PP, PR); a proof asked for less depth than its check (RP).
 #[test]
 fn remembered_worlds_are_decided() {
-    let run = Run { effort: Effort::default(), lattice: 512, share: u64::MAX, long: false };
+    let run = Run::usual(512);
     for (kind, seed) in [("PP", 2471), ("PP", 2434), ("PR", 54), ("RP", 2679)] {
         let tally = look_at_all(kind, seed..seed + 1, &run, 1);
         assert_eq!((tally.worlds, tally.lies.len()), (1, 0), "{kind} {seed}");
@@ -269,20 +288,12 @@ fn answers_agree_with_brute_force_and_each_other() {
     let count = wanted.unwrap_or(worlds.end - worlds.start);
     let run = match wanted {
         Some(_) => Run {
-            effort: Effort {
-                levels: number("CPLAN_LEVELS").map_or(Effort::default().levels, |n| n as usize),
-                ..Effort::default()
-            },
-            lattice: number("CPLAN_LATTICE").unwrap_or(2048) as usize,
+            levels: number("CPLAN_LEVELS").map_or(Options::default().levels, |n| n as usize),
             share: number("CPLAN_SHARE").unwrap_or(20).max(1),
             long: true,
+            ..Run::usual(number("CPLAN_LATTICE").unwrap_or(2048) as usize)
         },
-        None => Run {
-            effort: Effort { levels: 2, margin: 1e-3, cells: 128, boxes: 20_000, ..Effort::default() },
-            lattice: 512,
-            share: 2,
-            long: false,
-        },
+        None => Run { levels: 2, boxes: 20_000, cells: Some(128), share: 2, ..Run::usual(512) },
     };
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = number("CPLAN_THREADS").map_or(cores, |n| n as usize).max(1);

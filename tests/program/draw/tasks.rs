@@ -5,13 +5,12 @@ use super::{inspected, pages, words};
 use crate::common::{convex, disc};
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::draw::{Picture, TaskPicture, View, svg, task_svg};
-use cplan::engine::task::{Event, Manner, TaskAnswer, TaskVerdict, plan};
-use cplan::engine::{Effort, Method};
+use cplan::engine::Method;
+use cplan::engine::task::{Event, TaskAnswer, TaskVerdict, plan};
 use cplan::geometry::{Point, Pose};
 use cplan::model::{
     Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, Workspace, Wrist,
 };
-use cplan::motion::Drive;
 use cplan::space::Configuration;
 use std::collections::BTreeSet;
 
@@ -93,8 +92,7 @@ fn sorting(holding: Holding) -> Task {
 }
 
 fn answer(task: &Task) -> TaskAnswer {
-    let manner = Manner { method: Method::Visibility, effort: Effort::default(), drive: Drive::default() };
-    plan(task, &manner, &mut |_| {})
+    plan(task, &Method::Visibility.into(), &mut |_| {})
 }
 
 fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {

@@ -1,7 +1,7 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
 use cplan::check::{CollisionCheck, Excess, Limit, blend, check_collision, limits_kept};
-use cplan::engine::{Effort, Method, Verdict, solve};
+use cplan::engine::{Method, Verdict, solve};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
 use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
 use cplan::space::{Configuration, Path, Recording};
@@ -16,7 +16,7 @@ fn planned(robot: &str, world: &str) -> Option<(LoadedScene, Report)> {
     let files = [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))];
     let loaded = input::load(&files[0], &files[1], &Overrides::default()).unwrap();
     let joints = &loaded.problem.scene().arm().joints;
-    let answer = solve(&loaded.problem, Method::Visibility, &Effort::default(), &mut |_| {});
+    let answer = solve(&loaded.problem, &Method::Visibility.into(), &mut |_| {});
     let Verdict::Found(certified) = &answer.verdict else { return None };
     let scene = loaded.problem.scene();
     let curve = blend(scene, certified, f64::INFINITY, scene.workspace().clearance);

@@ -2,7 +2,8 @@
 
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
-use cplan::engine::{Effort, Method, Verdict, decide, solve};
+use cplan::Options;
+use cplan::engine::{Verdict, decide, solve};
 use serde_json::{Value, json};
 
 /// Boxes that a search may look at.
@@ -12,7 +13,7 @@ pub fn run(urdf: &str, world: &str, rounds: usize) -> Result<Value> {
     let problem = scenes::problem(urdf, world)?;
     let mut times = Rounds::default();
     let (mut decided, mut shortest, mut proven) = (None, None, None);
-    let answer = |bounded| solve(&problem, Method::Shortest, &Effort { bounded, ..Effort::default() }, &mut |_| {});
+    let answer = |bounded| solve(&problem, &Options { bounded, ..Options::default() }, &mut |_| {});
     for _ in 0..rounds {
         decided = Some(times.time("decide", || decide(&problem, BOXES)));
         shortest = Some(times.time("shortest", || answer(false).verdict));
