@@ -136,7 +136,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         }
         let kept = (share * gap).min(MOST_KEPT) * scene.arm().reach();
         let mut tries = 0;
-        let mut judge = |way: Path, slices: &[f64]| {
+        let judge = |way: Path, slices: &[f64]| {
             // As a rule the first way is good, and then only the one with fewer corners needs a certificate.
             tries += 1;
             let certified = if tries > 1 { Some(certify(scene, way.clone(), motions.clearance)?) } else { None };
@@ -144,7 +144,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
             let fewer = fewer_corners(scene, &way, metric, bounding.room(metric.length(&way)));
             fewer.or(certified).map_or_else(|| certify(scene, way, motions.clearance), Ok)
         };
-        let Some(found) = short_motion(&motions, kept, upper, &mut judge) else { continue };
+        let Some(found) = short_motion(&motions, kept, upper, judge) else { continue };
         let length = metric.length(found.path.path());
         if length < upper {
             (upper, path, free) = (length, found.path, found.free);

@@ -145,7 +145,7 @@ impl Runner<'_> {
                 prove: seconds(stages.prove),
                 total: seconds(stages.total()),
                 memory,
-                note: answer.run.note.clone(),
+                note: answer.run.note,
                 path_kind: options.planner.path_kind(),
                 outcome: answer.verdict.status(),
                 ..row

@@ -34,7 +34,7 @@ pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Resul
         status: output::status(&answer.verdict).into(),
         ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
     };
-    let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(&answer.run.size) };
+    let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(answer.run.size) };
     if let Verdict::Found(path) = &answer.verdict {
         figures.length = Some(options.planner.metric(problem.scene().arm()).length(path.path()));
         picture.paths.push((answer.method.to_string(), path.path()));

@@ -120,7 +120,7 @@ pub fn short_motion(
     motions: &Motions,
     kept: f64,
     limit: f64,
-    judge: &mut dyn FnMut(Path, &[f64]) -> Result<CertifiedPath, Rejection>,
+    mut judge: impl FnMut(Path, &[f64]) -> Result<CertifiedPath, Rejection>,
 ) -> Option<ShortMotion> {
     let Motions { scene, start, clearance, .. } = *motions;
     let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
