@@ -100,8 +100,8 @@ pub const MOST_MARGIN: f64 = 0.1;
 /// The first margin.
 const MARGIN: f64 = 1e-3;
 
-/// The first number of cells along an axis.
-pub(crate) const FIRST_CELLS: usize = 256;
+/// The first number of cells along an axis, if none is asked for.
+pub const FIRST_CELLS: usize = 256;
 
 /// Numbers of cells along an axis to begin with.
 pub const CELLS: RangeInclusive<usize> = 8..=2048;
