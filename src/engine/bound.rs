@@ -48,8 +48,9 @@ const LOST: f64 = 0.02;
 /// The same, as a share of the extent, at least: far above rounding.
 const LEAST_LOST: f64 = 1e-9;
 
-/// Of gantries the polygons of so many pairs are united at most.
-const MOST_PAIRS: usize = 20_000;
+/// Of gantries the polygons of so many pairs are united at most: as fine as they are, that takes some tenths of a second, and a
+/// minute with a few times as many that overlap.
+pub(super) const FEW_POLYGONS: usize = 512;
 
 /// What rounding may add to a length, as a share of it.
 const ROUNDING: f64 = 1e-9;
@@ -63,7 +64,7 @@ pub(super) fn lower_bound(motions: &Motions, upper: f64, gap: f64, slices: &[f64
 /// The length of the shortest way past polygons that lie within the C-obstacles of a gantry; none where these are not known.
 fn past_polygons(motions: &Motions, gap: f64) -> Option<f64> {
     let Motions { scene, start, goals, metric, .. } = *motions;
-    if scene.pairs().len() > MOST_PAIRS {
+    if scene.pairs().len() > FEW_POLYGONS {
         return None;
     }
     let space = inner_regions(scene, (LOST * gap.min(1.0)).max(LEAST_LOST) * extent(scene.arm()))?;

@@ -6,7 +6,7 @@
 //! polygons, graphs or grids are built unless that fails, but for gantries, whose C-obstacles are polygons: there a visibility
 //! graph has the path, and another one the bound.
 
-use super::bound::{Bound, lower_bound, motions};
+use super::bound::{Bound, FEW_POLYGONS, lower_bound, motions};
 use super::corners::fewer_corners;
 use super::first::answer;
 use super::ladder::{CLOSE, FIRST_BOXES, climb_polygons};
@@ -45,6 +45,7 @@ pub(super) fn solve(problem: &MotionProblem, options: &Options, progress: &mut d
     let first = decide(problem, options.boxes.min(FIRST_BOXES));
     let stages = Stages { query: clock.elapsed(), ..Stages::default() };
     if let (Verdict::Found(_), "PP") = (&first, problem.scene().arm().kind())
+        && problem.scene().pairs().len() <= FEW_POLYGONS
         && let Some(answer) = among_polygons(problem, options, stages)
     {
         return answer;
