@@ -34,8 +34,8 @@ pub fn percent(share: f64) -> String {
     if percent == 0.0 || percent >= 0.01 { format!("{percent:.2} %") } else { format!("{percent:.1e} %") }
 }
 
-/// A bound for `path`; see [`least_length`], and of gantries [`inner_regions`]. It is made better until the gap is known to be below `gap` (0.001 for a
-/// thousandth), or cannot be. Milliseconds, as a rule.
+/// A bound for `path`; see [`least_length`], and of gantries [`inner_regions`]. It is made better until the gap is known to be
+/// below `gap` (0.001 for a thousandth), or cannot be. Milliseconds, as a rule.
 #[must_use]
 pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> Bound {
     let upper = metric.length(path);

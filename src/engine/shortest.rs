@@ -103,8 +103,8 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
     }
     let (metric, clock) = (planner.metric(scene.arm()), Instant::now());
     let upper = metric.length(path.path());
-    let room = answer.bound.map_or(gap / 2.0 * upper, |bound| bound.lower * (1.0 + gap) - upper);
-    if let Some(fewer) = fewer_corners(scene, path.path(), metric, SPENT * room) {
+    let room = room(upper, answer.bound.map(|bound| bound.lower), gap);
+    if let Some(fewer) = fewer_corners(scene, path.path(), metric, room) {
         answer.bound = answer.bound.map(|bound| Bound { upper: metric.length(fewer.path()), ..bound });
         answer.verdict = Verdict::Found(fewer);
     }
@@ -201,8 +201,14 @@ impl Bounding<'_> {
         Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
     }
 
-    /// How much longer a way of length `upper` may become; without a bound what the gap that is aimed at leaves.
+    /// How much longer a way of length `upper` may become.
     fn room(&self, upper: f64) -> f64 {
-        SPENT * if self.is_asked { self.lower * (1.0 + self.gap) - upper } else { self.gap / 2.0 * upper }
+        room(upper, self.is_asked.then_some(self.lower), self.gap)
     }
+}
+
+/// How much longer a way of length `upper` may become for the sake of fewer corners; without a lower bound what the gap that is
+/// aimed at leaves.
+fn room(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
+    SPENT * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

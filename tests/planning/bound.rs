@@ -139,7 +139,7 @@ fn around_a_block_the_bound_is_the_shortest_path() {
     assert!(found.lower <= string && string <= found.upper && found.gap() <= 1e-5, "{found:?} {string}");
 }
 
-/// A wall in a square spiral about the goal: the way in is as long as the sides that it follows.
+/// Into a square spiral of walls, to its middle: proven within the default gap, and not beyond what strips prove.
 #[test]
 fn gantries_find_their_way_into_spirals() {
     let slide =

@@ -1,6 +1,6 @@
 //! What is closed, over all turns of the joints that a short way could take.
 
-use crate::geometry::Point;
+use crate::geometry::{Point, merge_in_place};
 use crate::space::{Configuration, JointRange, Measure, Segment, Topology};
 use std::f64::consts::TAU;
 
@@ -41,11 +41,9 @@ impl HeldSlice {
             return vec![*piece];
         }
         let turns = if topology.ranges[1].is_circle() { vec![-TAU, 0.0, TAU] } else { vec![0.0] };
-        let bound = [from[0]; 2];
         let left = turns.iter().flat_map(|turn| {
-            self.gaps
-                .iter()
-                .filter_map(move |gap| piece.within([bound[0], gap.ends[0] + turn], [bound[1], gap.ends[1] + turn]))
+            let within = move |gap: &Gap| piece.within([from[0], gap.ends[0] + turn], [from[0], gap.ends[1] + turn]);
+            self.gaps.iter().filter_map(within)
         });
         left.collect()
     }
@@ -65,19 +63,12 @@ fn gaps(axis: JointRange, walls: &[[f64; 2]]) -> Vec<Gap> {
             wall[1] = wall[0] + width;
         }
     }
-    walls.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let mut merged: Vec<[f64; 2]> = Vec::new();
-    for wall in walls {
-        match merged.last_mut() {
-            Some(last) if wall[0] <= last[1] => last[1] = last[1].max(wall[1]),
-            _ => merged.push(wall),
-        }
-    }
-    let (Some(&first), Some(&last)) = (merged.first(), merged.last()) else {
+    merge_in_place(&mut walls);
+    let (Some(&first), Some(&last)) = (walls.first(), walls.last()) else {
         let ends = if axis.is_circle() { [f64::NEG_INFINITY, f64::INFINITY] } else { [bottom, top] };
         return vec![Gap { ends, turns: [false; 2] }];
     };
-    let between = merged.windows(2).map(|w| Gap { ends: [w[0][1], w[1][0]], turns: [true; 2] });
+    let between = walls.windows(2).map(|w| Gap { ends: [w[0][1], w[1][0]], turns: [true; 2] });
     let mut gaps: Vec<Gap> = Vec::new();
     if axis.is_circle() {
         // Round the circle the last wall may cover the first ones.
@@ -97,7 +88,7 @@ fn gaps(axis: JointRange, walls: &[[f64; 2]]) -> Vec<Gap> {
 }
 
 /// A slice on one turn of joint 1.
-pub(super) struct CoverRow {
+pub(super) struct CoverSlice {
     pub q1: f64,
     /// Ascending.
     pub gaps: Vec<Gap>,
@@ -108,7 +99,7 @@ pub(super) struct CoverRow {
 /// All slices, barriers and goals that ways below a limit may come by.
 pub(super) struct Cover {
     /// Ascending.
-    pub slices: Vec<CoverRow>,
+    pub slices: Vec<CoverSlice>,
     /// Barriers across the strip before each slice and after the last, ascending at both slices.
     pub strips: Vec<Vec<[f64; 2]>>,
     pub goals: Vec<Segment>,
@@ -172,7 +163,7 @@ impl Cover {
                 let mut gaps: Vec<Gap> = copies.filter(|gap| gap.ends[0] <= high && low <= gap.ends[1]).collect();
                 gaps.dedup();
                 let count = gaps.len();
-                this.slices.push(CoverRow { q1: slice.q1 + turn, gaps, first });
+                this.slices.push(CoverSlice { q1: slice.q1 + turn, gaps, first });
                 this.strips.push(barriers.clone());
                 first += count;
             }
@@ -232,7 +223,7 @@ pub(super) fn on(barrier: [f64; 2], [from, to]: [f64; 2], q1: f64) -> f64 {
     }
 }
 
-impl CoverRow {
+impl CoverSlice {
     /// The place of the end of a gap.
     pub fn at(&self, gap: usize, end: usize) -> Point {
         Point::new(self.q1, self.gaps[gap].ends[end])

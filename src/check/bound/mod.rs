@@ -167,7 +167,8 @@ fn held_slice(scene: &Scene, slice: &Slice, clearance: f64, refused: &mut usize)
         let ends = [wall.lower, wall.upper].map(|q2| Configuration::new(slice.q1, q2));
         let [from, to] = held(scene, wall.pair, ends, clearance);
         let at = |share: f64| if share == 1.0 { wall.upper } else { wall.lower + (wall.upper - wall.lower) * share };
-        if from < to { walls.push([at(from), at(to)]) } else { *refused += 1 }
+        // A wall of no width, or the wrong way round, closes nothing.
+        if from < to && wall.lower < wall.upper { walls.push([at(from), at(to)]) } else { *refused += 1 }
     }
     HeldSlice::new(&scene.arm().topology(), slice.q1, &walls)
 }

@@ -3,7 +3,7 @@
 //! What is closed consists of straight segments, so the shortest way turns at ends of walls alone, and goes straight between
 //! them where it crosses none. Wherever rounding may decide, a way counts as open.
 
-use super::cover::{Cell, Cover, CoverRow, on};
+use super::cover::{Cell, Cover, CoverSlice, on};
 use crate::geometry::{OpenList, Point};
 use crate::interrupt::checkpoint;
 use crate::space::{Configuration, Measure, Segment};
@@ -29,11 +29,11 @@ pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, li
     let rest = |p: Point| cover.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min);
     let start = Point::from(start);
     let begin = cover.slices.partition_point(|slice| slice.q1 < start.x);
-    let is_on_row = cover.slices.get(begin).is_some_and(|slice| slice.q1 == start.x);
-    let mut next = Some((start, 0.0, begin, is_on_row));
+    let is_on_slice = cover.slices.get(begin).is_some_and(|slice| slice.q1 == start.x);
+    let mut next = Some((start, 0.0, begin, is_on_slice));
     let mut looked = 0;
     loop {
-        if let Some((at, cost, slice, is_on_row)) = next {
+        if let Some((at, cost, slice, is_on_slice)) = next {
             let mut see = |seen: Seen| match seen {
                 Seen::Goal(part) => open.push(cost + part.distance(measure, at.coords), Stop::Goal),
                 Seen::End(slice, gap, end) => {
@@ -47,7 +47,7 @@ pub(super) fn shortest(cover: &Cover, measure: Measure, start: Configuration, li
                 }
             };
             let reach = (limit - cost) / measure.norm(Point::new(1.0, 0.0).coords);
-            [true, false].iter().for_each(|&ahead| look(cover, at, slice, is_on_row, ahead, reach, &mut see));
+            [true, false].iter().for_each(|&ahead| look(cover, at, slice, is_on_slice, ahead, reach, &mut see));
         }
         let Some((bound, stop)) = open.pop() else { return limit };
         looked += 1;
@@ -78,12 +78,12 @@ fn look(
     cover: &Cover,
     from: Point,
     slice: usize,
-    is_on_row: bool,
+    is_on_slice: bool,
     ahead: bool,
     reach: f64,
     see: &mut impl FnMut(Seen),
 ) {
-    let mut strip = if ahead && is_on_row { slice + 1 } else { slice };
+    let mut strip = if ahead && is_on_slice { slice + 1 } else { slice };
     let far_of =
         |strip: usize| if ahead { Some(strip).filter(|k| *k < cover.slices.len()) } else { strip.checked_sub(1) };
     // All slices together are as wide as ways may go, or the domain is.
@@ -101,7 +101,7 @@ fn look(
         }
         // A cell is convex: all of it is seen.
         cover.goals.iter().filter_map(|goal| cover.within(goal, strip, &cell)).for_each(|part| see(Seen::Goal(part)));
-        if is_on_row {
+        if is_on_slice {
             ends_within(cover, slice, [lower, upper], see);
         }
         if let Some(far) = far_of(strip) {
@@ -152,7 +152,7 @@ fn through(
     hair: impl Fn(f64) -> f64 + Copy,
     see: &mut impl FnMut(Seen),
 ) -> Vec<[f64; 2]> {
-    let CoverRow { q1, gaps, .. } = &cover.slices[slice];
+    let CoverSlice { q1, gaps, .. } = &cover.slices[slice];
     let mut left = Vec::new();
     for part in sight {
         let least = from.y + part[0] * (q1 - from.x).abs();

@@ -47,6 +47,9 @@ pub struct Runner<'a> {
 /// A run's row, and its path.
 type Ran = Result<(Row, Option<Path>), PlanError>;
 
+/// Boxes of the run before all others.
+const WARMING: usize = 1000;
+
 /// A bound that is no farther below the shortest path found, as a share of it, is good enough.
 const BOUND_GAP: f64 = 1e-4;
 
@@ -121,7 +124,7 @@ impl Runner<'_> {
         let problem = Problem::from(case.problem().into_owned());
         let options = &entry.options;
         if is_first {
-            plan(&problem, &Options { levels: 1, ..*options })?;
+            plan(&problem, &Options { levels: 1, boxes: WARMING, ..*options })?;
         }
         let mut said = |text: &str| self.progress.say(text);
         let mut work = || plan_with(&problem, options, &mut said);
