@@ -15,6 +15,20 @@
 //! - [`claims_kept`]: what a result says besides its samples. The samples are the motion, everything else is a claim
 //!   about it.
 //! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
+//!
+//! ```
+//! use cplan::check::{Rejection, certify};
+//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan::space::{Configuration, Path};
+//!
+//! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
+//! let way = |q2: f64| Path::new(vec![Configuration::new(-0.6, q2), Configuration::new(0.6, q2)]);
+//! // Folded, the arm passes below the post: all of the continuous motion does. Stretched, it does not.
+//! assert!(certify(&scene, way(2.5), 0.0).is_ok_and(|certified| certified.clearance() > 0.3));
+//! assert!(matches!(certify(&scene, way(0.0), 0.0), Err(Rejection::TooClose(_))));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod blends;
 mod bound;

@@ -7,6 +7,24 @@
 //!
 //! On circle axes polygons cover a window of some turns, in which obstacles and goals repeat: planners need no special
 //! case.
+//!
+//! ```
+//! use cplan::cspace::{Slice, Slices, c_obstacles};
+//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan::space::Configuration;
+//!
+//! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
+//! // With joint 1 at zero: exactly the values of joint 2 at which the post is hit.
+//! let mut slice = Slice::default();
+//! Slices::new(&scene).slice(0.0, 0.0, &mut slice);
+//! let [[lower, upper]] = slice.merged[..] else { panic!("one interval") };
+//! assert!((upper - (0.13_f64 / 0.5).asin()).abs() < 1e-9 && (lower + upper).abs() < 1e-9);
+//! assert!(scene.clearance(Configuration::new(0.0, 0.0)) < 0.0);
+//! // And the whole C-obstacle, to a millimetre.
+//! assert_eq!(c_obstacles(&scene, 1e-3, 1e-3)[0].obstacle, 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bitmap;
 mod chord;

@@ -19,6 +19,22 @@
 //! where they do. States lie on the motion; lines between them leave it by no more than `a h^2 / 8` for accelerations up to
 //! `a` and states `h` seconds apart.
 //!
+//! ```
+//! use cplan::check::certify;
+//! use cplan::model::{Arm, Scene, Workspace};
+//! use cplan::motion::Drive;
+//! use cplan::space::{Configuration, Path};
+//!
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([]))?;
+//! let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+//! let path = certify(&scene, Path::new(corners.map(Configuration::from).to_vec()), 0.0).expect("nothing is in the way");
+//! let timed = Drive::default().along(&scene, &path, 1.0)?;
+//! let stopping = Drive { blend: 0.0, ..Drive::default() }.along(&scene, &path, 1.0)?;
+//! // The corner is rounded, which is faster than to stop there.
+//! assert!(timed.trajectory.duration() < stopping.trajectory.duration());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # How fast
 //!
 //! [`time`] drives along the curve within the limits: forward-backward integration of the squared speed, on straight

@@ -5,6 +5,25 @@
 //! neighbours through pieces of positive length only. Which of two paths a planner gives, its own or that one pulled
 //! taut, [`PathKind`] says. [`FieldPlanner`] follows any field on a `cspace::ZonedGrid`, whose cells know the world's
 //! preferences.
+//!
+//! ```
+//! use cplan::cspace::regions;
+//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan::planner::{Planner, Proposal, Query, Visibility};
+//! use cplan::space::Configuration;
+//!
+//! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
+//! let (start, goal) = (Configuration::new(-0.6, 0.2), Configuration::new(0.6, 0.2));
+//! // Polygons a millimetre larger than the C-obstacles, over one turn to either side of the start.
+//! let space = regions(&scene, 1e-3, start, 1);
+//! let planner = Visibility::default();
+//! let map = planner.build(&space);
+//! let run = planner.query(&space, &map, &Query { start, goals: goal.into() });
+//! let Proposal::Found(path) = run.outcome else { panic!("there is a way") };
+//! assert!(path.waypoints().len() > 2 && path.length() > 1.2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod attach;
 mod channel;

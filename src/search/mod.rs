@@ -7,11 +7,25 @@
 //! where the connection is undecided. What slabs leave open (shapes without thickness) goes to the boxes
 //! ([`connectivity()`]). Proofs of both are stuck boxes, paths of both a channel of free boxes: both pass the checks.
 //!
-//! [`least_length`] bounds the optimum from below. Rows at some dozens of values of `q1` say exactly what is closed
-//! there; between two rows straight barriers are proven to be closed. A search in the manner of Polyanya, over all turns
-//! at once, finds the shortest way around both, which no motion is shorter than. Rows are added where that way passes
+//! [`least_length`] bounds the optimum from below. Slices at some dozens of values of `q1` say exactly what is closed
+//! there; between two slices straight barriers are proven to be closed. A search in the manner of Polyanya, over all turns
+//! at once, finds the shortest way around both, which no motion is shorter than. Slices are added where that way passes
 //! what is closed, so along smooth boundaries what is left falls with the square of their spacing. [`short_motion`] is
 //! the same search among obstacles grown by a hair.
+//!
+//! ```
+//! use cplan::model::{Arm, MotionProblem, Obstacle, Scene, Workspace};
+//! use cplan::search::{Connectivity, slab_connectivity};
+//! use cplan::space::Configuration;
+//!
+//! // Beyond the elbow nothing gets past two posts that leave less room between them than the arm is thick.
+//! let posts = [Obstacle::circle("left", [0.55, 0.35], 0.2)?, Obstacle::circle("right", [0.55, -0.35], 0.2)?];
+//! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new(posts))?;
+//! let problem = MotionProblem::new(scene, Configuration::new(0.0, 0.5), Configuration::new(2.0, 0.5))?;
+//! let answer = slab_connectivity(problem.scene(), problem.start(), problem.goals(), 0.0, 10_000, 10_000);
+//! assert!(matches!(answer, Connectivity::Disconnected(_)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bands;
 mod boxes;

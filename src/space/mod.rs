@@ -3,6 +3,16 @@
 //! Goals are a set ([`GoalSet`]): configurations, and segments where a tip goal leaves a joint free. Roadmaps end where
 //! their last leg meets a segment at right angles or at an end of what is free of it, fields begin in all its free cells,
 //! boxes that meet it are goals for certificates and proofs, and bounds are to the nearest of it.
+//!
+//! ```
+//! use cplan::space::{Configuration, JointRange, Topology};
+//!
+//! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
+//! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));
+//! // The short way leads across the seam, and the path goes on counting there.
+//! assert!((topology.distance(from, to) - (std::f64::consts::TAU - 6.0)).abs() < 1e-12);
+//! assert!(topology.lift(to, from)[0] > 3.0);
+//! ```
 
 mod bernstein;
 mod blend;

@@ -46,6 +46,10 @@ const NEAREST: usize = 256;
 /// Rounds in a row that hardly make the bound better, after which it is as good as it gets.
 const MOST_IDLE_ROUNDS: usize = 3;
 
+/// Share of what a way is to keep beyond the clearance by which strips may let it fall short of that. What is left is enough for a
+/// certificate, and a greater share takes fewer slices.
+const DEEPEST: f64 = 0.9;
+
 /// Share of the gap asked for that a single strip may leave open without being halved.
 const WORTH: f64 = 1e-3;
 
@@ -113,7 +117,7 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
 /// the clearance where that matters, and is longer than the shortest by what that costs.
 ///
 /// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
-/// into these than by half of that, and where the judge says so. None if that does not get there, as where a passage
+/// into these than by most of that, and where the judge says so. None if that does not get there, as where a passage
 /// is narrower than `kept` leaves it.
 #[must_use]
 pub fn short_motion(
@@ -133,7 +137,7 @@ pub fn short_motion(
         // Where thousands of pieces lie side by side there is always one more to go round, and nothing is gained by it.
         let is_settled = length - before <= SETTLED * length;
         before = length;
-        if !is_settled && ways.refine(&corners, Allowed::Depth(kept / 2.0)) {
+        if !is_settled && ways.refine(&corners, Allowed::Depth(DEEPEST * kept)) {
             continue;
         }
         let nearest = match judge(ways.path(start, &corners), &ways.strips.slices()) {
@@ -143,7 +147,7 @@ pub fn short_motion(
         };
         refused += 1;
         let is_finer = ways.look_about(nearest)
-            || is_settled && ways.refine(&corners, Allowed::Depth(kept / 2.0))
+            || is_settled && ways.refine(&corners, Allowed::Depth(DEEPEST * kept))
             || ways.halve_at(nearest[0]);
         if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
             return None;

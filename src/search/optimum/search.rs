@@ -250,7 +250,12 @@ impl<'s, 'a> Search<'s, 'a> {
     /// The goals in a cell of a strip: of a segment the part.
     fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
-        self.goals.iter().filter_map(move |goals| {
+        // Most strips hold none.
+        let beside = move |goals: &&Segment| {
+            let [a, b] = goals.ends();
+            a[0].max(b[0]) >= from && a[0].min(b[0]) <= to
+        };
+        self.goals.iter().filter(beside).filter_map(move |goals| {
             let part = goals.within([from, f64::NEG_INFINITY], [to, f64::INFINITY])?;
             let beyond = |part: &Segment, side: usize| {
                 part.ends().map(|q| {
