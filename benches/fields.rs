@@ -1,14 +1,12 @@
-//! Grid planners: waves at 1024 x 1024 and 4096 x 4096, harmonic fields of rooms, mazes and a spiral, and the shortening of a path.
+//! Grid planners: waves at 1024 x 1024 and 4096 x 4096, and the shortening of a path.
 
-#[path = "../tests/common/mazes.rs"]
-mod mazes;
 mod wave;
 
 use cplan::cspace::{Grid, Proves};
-use cplan::field::{Component, FreeCells, Lattice, harmonic};
+use cplan::field::FreeCells;
 use cplan::planner::{PathKind, Planner, Query, Wavefront};
 use cplan::space::{JointRange, Topology};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
 /// A torus of `n x n` cells with 25 boxes, scattered by the golden ratio.
@@ -35,37 +33,12 @@ fn fields(c: &mut Criterion) {
     let grid = boxes(1024);
     let (start, goal) = ends(&grid);
     let query = Query { start: grid.center(start), goals: grid.center(goal).into() };
-    let lattice = Lattice::new(&grid);
     let free = FreeCells::new(&grid);
     c.bench_function("wavefront/build 1024^2", |b| b.iter(|| FreeCells::new(black_box(&grid))));
-    c.bench_function("lattice/build 1024^2", |b| b.iter(|| Lattice::new(black_box(&grid))));
-    c.bench_function("lattice/wave with its order 1024^2", |b| b.iter(|| lattice.wave(black_box(&[goal]))));
     for path in PathKind::ALL {
         let planner = Wavefront { path, ..Wavefront::default() };
         let name = format!("wavefront/query 1024^2, {path} path");
         c.bench_function(&name, |b| b.iter(|| planner.query(&grid, &free, black_box(&query))));
-    }
-
-    let n = 1001;
-    let drawn = |n: usize, blocked: Vec<bool>| Grid {
-        topology: Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] },
-        proves: Proves::Sampled,
-        cells: [n, n],
-        blocked,
-    };
-    let mut group = c.benchmark_group("harmonic");
-    group.sample_size(10);
-    for (name, grid) in [
-        ("boxes 256^2", boxes(256)),
-        ("boxes 1024^2", boxes(1024)),
-        ("maze 1001^2", drawn(n, mazes::maze(n, 0))),
-        ("maze with loops 1001^2", drawn(n, mazes::maze(n, 100))),
-        ("spiral 451^2", drawn(451, mazes::spiral(451).0)),
-    ] {
-        let lattice = Lattice::new(&grid);
-        let component = Component::new(&lattice, lattice.wave(&[ends(&grid).1]));
-        group.throughput(Throughput::Elements(component.len() as u64));
-        group.bench_function(name, |b| b.iter(|| harmonic(black_box(&component))));
     }
 }
 

@@ -42,7 +42,6 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
-pub mod interrupt;
 mod text;
 pub mod geometry;
 pub mod space;
@@ -60,6 +59,7 @@ pub mod report;
 pub mod output;
 #[cfg(feature = "program")]
 pub mod cli;
+pub use cplan_interrupt as interrupt;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};
 pub use geometry::Point;
 pub use input::InputError;

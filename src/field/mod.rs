@@ -6,19 +6,21 @@
 //! - [`Khatib`]: attraction and repulsion, with their local minima;
 //! - [`follow()`]: the curve along the gradient of any of them, between the cells;
 //! - [`multigrid`]: the solver for five-point problems among walls.
+//!
+//! The harmonic potential and the curve are the crate [`cplan_harmonic`], the solver is [`cplan_multigrid`]: both can be had
+//! without the rest.
 
-mod follow;
-mod harmonic;
 mod khatib;
 mod lattice;
-pub mod multigrid;
 mod relax;
 mod waves;
 
-pub use follow::{Guide, LatticePoint, Place, STEP, Streamline, follow};
-pub use harmonic::{Component, Field, LocalMaximum, Potential, Room, Uphill, harmonic, residual, rough_harmonic};
+pub use cplan_harmonic::{
+    Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, Room, STEP, Streamline, UNREACHED,
+    Uphill, Wave, follow, harmonic, residual, rough_harmonic,
+};
+pub use cplan_multigrid as multigrid;
 pub use khatib::{Attraction, Downforce, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
-pub use lattice::{Lattice, UNREACHED, Wave};
 pub use relax::{
     Boundary, Cell, Convergence, Difference, Direction, Domain, Equation, Factor, Influence, Levels, Limits, Lines,
     Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Scan, Scheme, Slope, Stopping, Stuck, around,

@@ -31,7 +31,7 @@ impl Planner for Harmonic {
     type Map = Lattice;
 
     fn build(&self, space: &Grid) -> Lattice {
-        Lattice::new(space)
+        Lattice::from(space)
     }
 
     fn query(&self, space: &Grid, map: &Lattice, query: &Query) -> Run {

@@ -3,6 +3,5 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod family;
-mod harmonic;
-mod multigrid;
 mod planners;
+mod streamlines;

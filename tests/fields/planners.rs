@@ -116,7 +116,7 @@ fn found(run: &Run) -> Path {
 
 /// The goal's component and its potential.
 fn field(grid: &Grid, goal: usize) -> (Component, Field) {
-    let lattice = Lattice::new(grid);
+    let lattice = Lattice::from(grid);
     let component = Component::new(&lattice, lattice.wave(&[goal]));
     let field = harmonic(&component);
     (component, field)
@@ -168,7 +168,7 @@ proptest! {
     #[test]
     fn labels_are_the_shortest_numbers_of_steps((grid, start, goal) in random_problem()) {
         let steps = all_steps(&grid);
-        let lattice = Lattice::new(&grid);
+        let lattice = Lattice::from(&grid);
         let wave = lattice.wave(&[goal]);
         prop_assert_eq!(&wave.labels(&lattice), &steps[goal]);
         match wave.descend(&lattice, start) {

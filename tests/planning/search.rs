@@ -116,7 +116,7 @@ fn check_labels(grid: &Grid, sources: &[usize], start: usize) -> Result<(), Test
             prop_assert!(moves(grid, pair[0], neighborhood).iter().any(|&(to, _)| to == pair[1]));
         }
     }
-    let lattice = Lattice::new(grid);
+    let lattice = Lattice::from(grid);
     prop_assert_eq!(lattice.wave(sources).labels(&lattice), textbook(grid, sources, Neighborhood::Four));
     Ok(())
 }

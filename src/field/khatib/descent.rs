@@ -1,7 +1,7 @@
 //! Attraction and repulsion as a guide for the way between the cells.
 
 use super::{ForceField, Trap};
-use crate::field::follow::{Guide, Place};
+use crate::field::{Guide, Place};
 use std::collections::BTreeSet;
 
 /// The forces as a [`Guide`]: down the potential, or, where they are saturated and have none, along them as long as they

@@ -1,7 +1,7 @@
 //! The way to a goal: from cell to cell, and the slope at each for the way between them.
 
 use super::{Cell, Domain, Neighbor};
-use crate::field::follow::{Guide, Place};
+use crate::field::{Guide, Place};
 use std::collections::{BTreeMap, VecDeque};
 
 /// Where a descent ended without a goal.

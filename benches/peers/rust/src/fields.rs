@@ -67,7 +67,7 @@ pub fn run(grid: Grid, rounds: usize, directory: &str) -> Result<Value> {
             times.time(stage, || solver.goal(goal, &mut values, ERROR, &mut workspace));
         }
         let field = times.time("harmonic", || {
-            let lattice = Lattice::new(&grid);
+            let lattice = Lattice::from(&grid);
             let component = Component::new(&lattice, lattice.wave(&[goal]));
             let field = harmonic(&component);
             (component, field)

@@ -1,7 +1,6 @@
 //! The way up a harmonic potential between the cells.
 
-use super::{Component, Potential};
-use crate::field::follow::{Guide, Place};
+use super::{Component, Guide, Place, Potential};
 
 /// The potential as a [`Guide`]: the gradient of its logarithm, by central differences in which walls are 0.
 pub struct Uphill<'a, F> {

@@ -1,25 +1,33 @@
 //! The harmonic field at any length: exact values where they are far below the least double, mazes and spirals, and the
-//! path between the cells.
+//! curve between the cells.
 
-use crate::common::mazes;
-use cplan::cspace::{Grid, Proves};
-use cplan::field::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
-use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query};
-use cplan::space::{JointRange, Topology};
+#[path = "../../../tests/common/mazes.rs"]
+mod mazes;
+#[path = "../../../tests/common/random.rs"]
+mod random;
+
+use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
+#[derive(Debug, Clone)]
+struct Grid {
+    cells: [usize; 2],
+    circles: [bool; 2],
+    blocked: Vec<bool>,
+}
+
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
-    let axis = |k: usize| match circles[k] {
-        true => JointRange::Circle,
-        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
-    };
-    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { cells, circles, blocked }
+}
+
+fn lattice(grid: &Grid) -> Lattice {
+    Lattice::new(grid.cells, grid.circles, &grid.blocked)
 }
 
 fn solved(grid: &Grid, goals: &[usize]) -> (Component, Field) {
-    let lattice = Lattice::new(grid);
+    let lattice = lattice(grid);
     let component = Component::new(&lattice, lattice.wave(goals));
     let field = harmonic(&component);
     (component, field)
@@ -67,7 +75,7 @@ fn exact(component: &Component) -> Vec<BigRational> {
 
 /// Natural logarithm of a positive rational of any size.
 fn ln(x: &BigRational) -> f64 {
-    let part = |x: &num_rational::BigRational, upper: bool| {
+    let part = |x: &BigRational, upper: bool| {
         let digits = if upper { x.numer() } else { x.denom() }.to_string();
         let leading: f64 = digits[..digits.len().min(18)].parse().expect("digits");
         leading.ln() + (digits.len() - digits.len().min(18)) as f64 * std::f64::consts::LN_10
@@ -85,7 +93,7 @@ fn random_grid() -> impl Strategy<Value = (Grid, usize)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(40))]
+    #![proptest_config(crate::random::cases(40))]
 
     #[test]
     fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
@@ -124,7 +132,7 @@ fn large_grid() -> impl Strategy<Value = (Grid, Vec<usize>)> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::random::cases(12))]
+    #![proptest_config(crate::random::cases(12))]
 
     #[test]
     fn every_cell_has_a_greater_neighbor_in_large_grids_of_all_kinds((grid, goals) in large_grid()) {
@@ -188,44 +196,6 @@ fn a_braided_maze_of_501_x_501_cells() {
     is_sound(&component, &field);
 }
 
-proptest! {
-    #![proptest_config(crate::common::random::cases(300))]
-
-    /// The path between the cells stays in free cells and ends at the goal.
-    #[test]
-    fn streamlines_stay_in_free_cells_and_come_to_the_goal(
-        (grid, goal) in random_grid(),
-        start in any::<proptest::sample::Index>(),
-        offset in any::<(u8, u8)>(),
-    ) {
-        let start = start.index(grid.blocked.len());
-        prop_assume!(!grid.blocked[start]);
-        let step = grid.step();
-        let part = [offset.0, offset.1].map(|x| f64::from(x) / 256.0 - 0.498);
-        let from = grid.center(start) + cplan::space::Configuration::new(part[0] * step[0], part[1] * step[1]);
-        let planner = Harmonic { path: PathKind::Own };
-        let run = planner.query(&grid, &planner.build(&grid), &Query { start: from, goals: grid.center(goal).into() });
-        let path = match &run.outcome {
-            Proposal::Found(path) => path,
-            Proposal::NoPath => return Ok(()),
-            Proposal::GaveUp(reason) => panic!("{reason}"),
-        };
-        prop_assert_eq!(path.start(), from);
-        prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-9);
-        for (a, b) in path.segments() {
-            for k in 0..=50 {
-                let q = a + (b - a) * (f64::from(k) / 50.0);
-                // On a side between two cells either may be the free one.
-                let beside = |d: [f64; 2]| {
-                    let p = q + cplan::space::Configuration::new(d[0] * 1e-7 * step[0], d[1] * 1e-7 * step[1]);
-                    grid.topology.contains(p) && !grid.blocked[grid.locate(p)]
-                };
-                prop_assert!([[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]].into_iter().any(beside), "{q:?}");
-            }
-        }
-    }
-}
-
 /// In `u = sin(pi x / w) sinh(pi y / w)` the path is the streamline that a fine Runge-Kutta integration finds.
 #[test]
 fn paths_are_streamlines_of_a_known_function() {
@@ -234,7 +204,7 @@ fn paths_are_streamlines_of_a_known_function() {
     // Centres at 1 .. w - 1 and 1 .. h - 1; goals in the last row.
     let (columns, rows) = (w - 1, h - 1);
     let grid = grid([rows, columns], [false; 2], vec![false; rows * columns]);
-    let lattice = Lattice::new(&grid);
+    let lattice = lattice(&grid);
     let goals: Vec<usize> = ((rows - 1) * columns..rows * columns).collect();
     let component = Component::new(&lattice, lattice.wave(&goals));
     let log2 = (0..component.len()).map(|position| {

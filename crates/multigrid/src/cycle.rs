@@ -7,7 +7,7 @@ use super::machine::{LANES, Machine};
 use super::smooth::{Smooth, Vectors};
 use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Corners, Rows, Transfer};
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 
 /// A level with at most this many cells is solved directly.
 const BOTTOM: usize = 40;

@@ -1,13 +1,13 @@
 //! The curve along a field's gradient, between the cells.
 //!
-//! [`follow`] goes along any [`Guide`]: the harmonic potential (`Uphill`), a relaxed field (`Slope`) or forces
-//! (`Downforce`). A guide tells the direction at the centres of free cells (the gradient of the logarithm, by central
+//! [`follow`] goes along any [`Guide`]: the harmonic potential ([`Uphill`](crate::Uphill)), a relaxed field, or forces. A guide
+//! tells the direction at the centres of free cells (the gradient of the logarithm, by central
 //! differences); `follow` interpolates bilinearly and integrates by Runge and Kutta's fourth order in steps of a fifth of
 //! a cell. After some four cells the curve must have come to a better cell than before; where it has not (at a saddle, in
 //! a corridor one cell wide) the guide names the next cells, and so the promise that the cells lead to the goal is the
 //! curve's, too.
 
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 
 /// Row and column of a cell on the unbounded lattice: on a circle counted on.
 pub type Place = [i64; 2];

@@ -11,13 +11,13 @@
 //! is nowhere a long one, the first window is all there is, and mostly the last.
 
 use super::extent::Bounds;
+use super::front::Front;
 use super::laplace::decay;
 use super::network::{Network, SIDES};
 use super::potential::Scaled;
 use super::wide::Wide;
 use super::{Component, Potential};
-use crate::geometry::OpenList;
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 use std::f64::consts::LN_2;
 
 /// Stands for a cell that is in no window.
@@ -59,7 +59,7 @@ pub(super) struct Peeling<'a> {
     /// How many positions are not known.
     unknown: usize,
     /// Accepted positions that may have neighbours yet to be accepted, greatest first: by the binary logarithm, negative.
-    front: OpenList<u32>,
+    front: Front,
     /// Number in the window of each position, or [`NONE`]; nothing until windows are gathered.
     number: Vec<u32>,
     depth: f64,
@@ -88,7 +88,7 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let mut potential = Potential::zero(component.len());
-        let mut front = OpenList::default();
+        let mut front = Front::default();
         for goal in 0..component.goals {
             potential.set(goal, Scaled { mantissa: 1.0, exponent: 0 });
             front.push(0.0, goal as u32);
@@ -206,10 +206,10 @@ impl<'a> Peeling<'a> {
 
     /// The unknown cells around the greatest accepted values; nothing if there are none.
     fn gather(&mut self) -> Option<Window> {
-        while self.front.peek().is_some_and(|(_, position)| !self.is_front(*position as usize)) {
+        while self.front.peek().is_some_and(|(_, position)| !self.is_front(position as usize)) {
             self.front.pop();
         }
-        let (top, &position) = self.front.peek()?;
+        let (top, position) = self.front.peek()?;
         let exponent = self.potential.at(position as usize).exponent;
         let greatest = self.potential.at(position as usize).mantissa;
         let mut sources = Vec::new();
@@ -217,7 +217,7 @@ impl<'a> Peeling<'a> {
         let (mut beside, mut cut) = (0.0_f64, false);
         // Cells to go on from, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
-        while let Some((below, &position)) = self.front.peek() {
+        while let Some((below, position)) = self.front.peek() {
             let depth = (below - top) * LN_2;
             let is_front = self.is_front(position as usize);
             if is_front && depth > self.depth {

@@ -1,7 +1,7 @@
 //! The free cells connected with the goal, as a graph.
 
 use super::{Lattice, Wave};
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 
 /// The free cells that a wave from the goal reached, numbered in the order in which it came: the goals first, then level
 /// by level. Positions within this numbering, not indices of the grid, are the currency of the field algorithms.
@@ -29,7 +29,7 @@ pub struct Component {
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Component {
-    /// From the wave, in linear time.
+    /// From a wave over this lattice, in linear time.
     #[must_use]
     pub fn new(lattice: &Lattice, wave: Wave) -> Self {
         let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;

@@ -26,7 +26,7 @@ pub(super) const LOSS: f64 = f64::EPSILON * 512.0;
 /// Solved in windows in order of falling values; narrow ones by elimination without subtractions, wide rooms by
 /// multigrid. Each value agrees with its neighbours' mean to 1.5e-14 of itself ([`residual`]), which is less than what
 /// walks lose a step: every cell that is no goal has a strictly greater neighbour ([`Potential::navigates`]).
-/// Some 300 ns a cell in mazes and corridors; wide rooms cost a few solves by [`Multigrid`](crate::field::multigrid::Multigrid).
+/// Some 300 ns a cell in mazes and corridors; wide rooms cost a few solves by [`Multigrid`](cplan_multigrid::Multigrid).
 #[must_use]
 pub fn harmonic(component: &Component) -> Field {
     let Peeling { potential, windows, .. } = Peeling::new(component, LOSS).run();

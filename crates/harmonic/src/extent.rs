@@ -1,6 +1,6 @@
 //! Boxes of cells.
 
-use crate::field::multigrid::Ends;
+use cplan_multigrid::Ends;
 
 /// A box of cells of a grid.
 #[derive(Debug, Clone, Copy)]

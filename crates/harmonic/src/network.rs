@@ -1,6 +1,6 @@
 //! Elimination in a network of unit resistances, without a subtraction.
 
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 use std::collections::VecDeque;
 
 /// No link, no node.

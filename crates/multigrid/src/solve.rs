@@ -6,7 +6,7 @@ use super::frame::{Ends, Frame};
 use super::machine::{Machine, Portable};
 use super::red_black::RedBlack;
 use super::stencil::FivePoint;
-use crate::interrupt::checkpoint;
+use cplan_interrupt::checkpoint;
 
 /// Evaluates an expression with the best machine that there is.
 macro_rules! on_this_machine {
@@ -251,8 +251,8 @@ fn power_of_two(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::multigrid::band::Band;
-    use crate::field::multigrid::machine::LANES;
+    use crate::band::Band;
+    use crate::machine::LANES;
 
     #[cfg(target_arch = "x86_64")]
     #[test]

@@ -9,7 +9,7 @@
 //! `cargo bench --bench solve`; at 2048 x 2048 the yardstick runs only with `CPLAN_BENCH_LARGE=1`, with the factor
 //! extrapolated from 512 x 512 (`2 - factor` goes as one over the size), and takes minutes.
 
-use cplan::field::multigrid::{Ends, Multigrid};
+use cplan_multigrid::{Ends, Multigrid};
 use criterion::Criterion;
 use std::hint::black_box;
 use std::time::Instant;

@@ -7,7 +7,7 @@
 
 use super::extent::Extent;
 use super::network::SIDES;
-use crate::field::multigrid::{Ends, Multigrid, Workspace};
+use cplan_multigrid::{Ends, Multigrid, Workspace};
 
 /// Relative residual of a value at which it is precise: half of what walks lose a step
 /// ([`LOSS`](super::laplace::LOSS) over four neighbours), so that the loss outweighs it, and many roundings.

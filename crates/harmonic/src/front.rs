@@ -1,0 +1,69 @@
+//! Where the next window begins.
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+
+/// Positions with keys: least key first, of equal keys the least position, so that nothing is left to chance.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Front {
+    heap: BinaryHeap<Reverse<(Key, u32)>>,
+}
+
+/// A double in the total order of IEEE 754.
+#[derive(Debug, Clone, Copy)]
+struct Key(f64);
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.0.total_cmp(&other.0)
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Key {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Key {}
+
+impl Front {
+    /// Adds a position. `O(log n)`.
+    pub fn push(&mut self, key: f64, position: u32) {
+        self.heap.push(Reverse((Key(key), position)));
+    }
+
+    /// Takes the first position away. `O(log n)`.
+    pub fn pop(&mut self) {
+        self.heap.pop();
+    }
+
+    /// The first position and its key.
+    pub fn peek(&self) -> Option<(f64, u32)> {
+        self.heap.peek().map(|&Reverse((Key(key), position))| (key, position))
+    }
+
+    /// Takes all positions away.
+    pub fn clear(&mut self) {
+        self.heap.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_first_then_the_least_position() {
+        let mut front = Front::default();
+        [(2.0, 0), (1.0, 7), (f64::INFINITY, 1), (1.0, 3)].into_iter().for_each(|(key, at)| front.push(key, at));
+        let order = std::iter::from_fn(|| front.peek().inspect(|_| front.pop())).collect::<Vec<_>>();
+        assert_eq!(order, [(1.0, 3), (1.0, 7), (2.0, 0), (f64::INFINITY, 1)]);
+    }
+}
