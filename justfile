@@ -6,7 +6,7 @@ default:
 
 # Formatting and lints, with all features and with none
 check:
-    cargo fmt --check
+    cargo fmt --all --check
     cargo clippy --locked --all-targets --all-features -- -D warnings
     cargo clippy --locked --all-targets --no-default-features -- -D warnings
 

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 /// The one place where seeds and numbers of cases are made, and this file.
 const HERE: [&str; 2] = ["tests/common/random.rs", "tests/architecture/seeds.rs"];
 
+/// Where tests are.
+const FOLDERS: [&str; 3] = ["crates", "src", "tests"];
+
 /// What makes a seed of its own, or none.
 const ELSEWHERE: [&str; 7] =
     ["ProptestConfig", "with_cases", "test_runner::Config", "TestRunner::", "RngSeed", "from_entropy", "rand::"];
@@ -44,7 +47,7 @@ fn left_to_chance(text: &str) -> Vec<usize> {
 #[test]
 fn no_random_test_is_left_to_chance() {
     let (mut wrong, mut blocks) = (Vec::new(), 0);
-    for folder in ["src", "tests"] {
+    for folder in FOLDERS {
         for file in rust_files(&root().join(folder)) {
             if HERE.iter().any(|here| file.ends_with(here)) {
                 continue;
@@ -57,7 +60,7 @@ fn no_random_test_is_left_to_chance() {
     }
     assert!(
         wrong.is_empty(),
-        "begin with #![proptest_config(crate::common::random::cases(100))], in src with crate::random::cases, and use no \
+        "begin with #![proptest_config(crate::common::random::cases(100))], in src and crates with crate::random::cases, and use no \
          other source of chance:\n{}",
         wrong.join("\n")
     );
@@ -69,7 +72,9 @@ fn numbers_of_cases_have_no_variables_of_their_own() {
     let known =
         |name: &str| ["CPLAN_SEED", "CPLAN_TIMES", "CPLAN_REFERENCE"].iter().chain(&VARIABLES).any(|v| *v == name);
     let mut wrong = Vec::new();
-    for file in rust_files(&root().join("tests")) {
+    let files = ["crates", "tests"].iter().flat_map(|folder| rust_files(&root().join(folder)));
+    // Benchmarks ask how long they may take.
+    for file in files.filter(|file| !file.components().any(|part| part.as_os_str() == "benches")) {
         let text = std::fs::read_to_string(&file).unwrap();
         for (at, _) in text.match_indices("\"CPLAN_").filter(|_| !file.ends_with("tests/architecture/seeds.rs")) {
             let is_part = |c: char| c.is_ascii_uppercase() || c == '_';
@@ -100,7 +105,7 @@ fn nothing_is_left_behind_by_a_failure() {
         }
         found
     };
-    let found: Vec<_> = ["src", "tests"].iter().flat_map(|folder| of_failures(&root().join(folder))).collect();
+    let found: Vec<_> = FOLDERS.iter().flat_map(|folder| of_failures(&root().join(folder))).collect();
     assert!(found.is_empty(), "make these cases tests with names: {found:?}");
 }
 
