@@ -5,7 +5,7 @@
 //! ```
 
 use cplan::cspace::{Slices, c_obstacles};
-use cplan::draw::{Picture, svg};
+use cplan::draw::{Picture, View, svg};
 use cplan::input;
 use cplan::motion::write_whole;
 use std::error::Error;
@@ -37,18 +37,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         contours.iter().map(|c| c.contour.len()).sum::<usize>()
     );
 
-    let picture = Picture {
+    let view = View::of_picture(&Picture {
         title: vec![format!("{}: {}", scene.workspace().name, scene.arm().name)],
-        status: String::new(),
-        scene,
-        start,
         goals: loaded.problem.goals().pieces(),
-        paths: Vec::new(),
-        trace: None,
-        proof: None,
         c_obstacles: &contours,
-    };
-    write_whole(&file, svg(&picture).as_bytes())?;
+        ..Picture::new(scene, start)
+    });
+    write_whole(&file, svg(&view).as_bytes())?;
     println!("drawn to {}", file.display());
     Ok(())
 }

@@ -4,8 +4,8 @@ use super::DONE;
 use super::args::CheckArgs;
 use super::failure::Failure;
 use super::sinks::{self, Sink};
-use crate::cspace::{CObstacle, NearestFree, nearest_free};
-use crate::draw::Picture;
+use crate::cspace::{NearestFree, nearest_free};
+use crate::draw::{Picture, View};
 use crate::geometry::{CornerInside, Point, polygon_test, shapes_meet};
 use crate::input::{self, LoadedScene};
 use crate::model::{Contact, Scene};
@@ -93,8 +93,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let findings = findings(scene, q);
     for sink in &sinks {
         if let Sink::Picture(format, path) = sink {
-            let contours = contours(scene);
-            sinks::save_picture(*format, path, &picture(scene, q, &findings, &contours))?;
+            sinks::save_picture(*format, path, &view(scene, q, findings.free))?;
         }
     }
     if args.json {
@@ -168,18 +167,13 @@ fn pair(p: Point) -> [f64; 2] {
     [p.x, p.y]
 }
 
-fn picture<'a>(scene: &'a Scene, q: Configuration, findings: &Findings, contours: &'a [CObstacle]) -> Picture<'a> {
-    Picture {
+fn view(scene: &Scene, q: Configuration, free: bool) -> View {
+    View::of_picture(&Picture {
         title: vec![scene.arm().name.clone(), configuration(scene.arm(), q)],
-        status: if findings.free { "free".into() } else { "not free".into() },
-        scene,
-        start: q,
-        goals: &[],
-        paths: Vec::new(),
-        trace: None,
-        proof: None,
-        c_obstacles: contours,
-    }
+        status: if free { "free".into() } else { "not free".into() },
+        c_obstacles: &contours(scene),
+        ..Picture::new(scene, q)
+    })
 }
 
 fn text(loaded: &LoadedScene, q: Configuration, findings: &Findings) -> String {

@@ -5,7 +5,7 @@ use super::args::InspectArgs;
 use super::failure::Failure;
 use super::inspect_text::text;
 use super::sinks::{self, Sink};
-use crate::draw::{ArmPicture, AxesFrame};
+use crate::draw::{AxesFrame, Picture, View};
 use crate::input::{self, Diagnostic, Inspection};
 use crate::space::Configuration;
 use serde::Serialize;
@@ -42,8 +42,8 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     for sink in &sinks {
         let Sink::Picture(format, path) = sink else { continue };
-        match arm_picture(&inspection) {
-            Some(arm_picture) => sinks::save_picture(*format, path, &arm_picture)?,
+        match view(&inspection) {
+            Some(view) => sinks::save_picture(*format, path, &view)?,
             None => sinks::say(&format!("warning: {} is not written: there is no planar arm to draw", path.display())),
         }
     }
@@ -73,18 +73,17 @@ fn entry(diagnostic: &Diagnostic) -> DiagnosticEntry<'_> {
 }
 
 /// The arm at zero, if there is one.
-fn arm_picture(inspection: &Inspection) -> Option<ArmPicture<'_>> {
+fn view(inspection: &Inspection) -> Option<View> {
     let scene = inspection.scene.as_ref()?;
     let arm = scene.arm();
     let [first, second] = &arm.joints;
     let outlines: Vec<String> = inspection.outlines.iter().map(|o| format!("{}: {}", o.link, o.source)).collect();
     let outlines = if outlines.is_empty() { "none".into() } else { outlines.join(", ") };
-    let frames = &inspection.frames;
-    Some(ArmPicture {
+    let picture = Picture {
         title: vec![arm.name.clone(), format!("{} and {} at zero; outlines: {outlines}", first.name, second.name)],
         status: if inspection.is_plannable() { "can be planned with".into() } else { "cannot be planned with".into() },
-        scene,
-        at: Configuration::zeros(),
-        frames: frames.iter().map(|f| AxesFrame { name: f.name.clone(), at: f.at, axes: f.axes }).collect(),
-    })
+        ..Picture::new(scene, Configuration::zeros())
+    };
+    let frame = |f: &input::Frame| AxesFrame { name: f.name.clone(), at: f.at, axes: f.axes };
+    Some(View::of_arm(&picture, &inspection.frames.iter().map(frame).collect::<Vec<_>>()))
 }

@@ -1,9 +1,10 @@
 //! Files and streams.
 
 use super::failure::Failure;
+use crate::draw::View;
 use crate::input::{FileIdentity, read_from};
 use crate::motion::{Format, check_writable, write_whole};
-use crate::output::{Drawn, PictureFormat};
+use crate::output::PictureFormat;
 use crate::text::{plain, plain_json};
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -83,8 +84,8 @@ pub fn warn_unwritten(path: &Path) {
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
-pub fn save_picture(format: PictureFormat, path: &Path, drawing: &impl Drawn) -> Result<(), Failure> {
-    Ok(write_whole(path, &format.bytes(drawing)?)?)
+pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(), Failure> {
+    Ok(write_whole(path, &format.bytes(view)?)?)
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

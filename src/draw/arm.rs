@@ -1,10 +1,11 @@
 //! The arm in one configuration, with what it carries.
 
 use super::axes::Frame;
-use super::color::{self, BARRED, INK, PALE, Rgb, WHITE};
+use super::color::{BARRED, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
-use super::shapes::{outline, union};
-use crate::model::Scene;
+use super::shapes::union;
+use super::view::PayloadView;
+use crate::model::Arm;
 use crate::space::Configuration;
 
 /// How a pose is drawn.
@@ -26,22 +27,17 @@ pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacit
 pub const GHOST: Look =
     Look { fill: Rgb(0xf3, 0xf4, 0xf6), line: Rgb(0x8c, 0x94, 0x9d), width: 1.0, opacity: 0.65, joints: false };
 
-/// The scene's arm at `q`: its own outline, and above it the payload in the colour of the object.
+/// The arm at `q`: its own outline, and above it what it carries in the colour of the object.
 #[must_use]
-pub fn items(frame: &Frame, scene: &Scene, q: Configuration, look: &Look) -> Vec<Item> {
-    let arm = scene.arm();
-    let mut items = Vec::new();
-    let body =
-        Style { pen_below: true, ..Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity) };
-    for (link, pose) in arm.poses(q).iter().enumerate() {
-        let parts = scene.own_parts(link).iter().flat_map(|part| outline(frame, &part.shape.at(pose)));
-        items.push(Item::Outline(parts.collect(), body));
-    }
-    if let Some(payload) = scene.payload() {
-        let (pose, color) = (payload.pose(arm, q), payload_color(scene));
-        let pieces: Vec<_> = payload.pieces.iter().map(|piece| piece.at(&pose)).collect();
+pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &Look) -> Vec<Item> {
+    let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);
+    let links = arm.links.iter().zip(arm.poses(q));
+    let mut items: Vec<Item> =
+        links.map(|(link, pose)| union(frame, link.parts.iter().map(|part| part.shape.at(&pose)), body)).collect();
+    if let Some(PayloadView { color, pieces, grip, .. }) = payload {
+        let pose = grip.pose(arm, q);
         let style = Style::line(color.darker(0.25), 2.0 * look.width).filled(color.lighter(0.25));
-        items.push(union(frame, &pieces, style.faded(look.opacity)));
+        items.push(union(frame, pieces.iter().map(|piece| piece.0.at(&pose)), style.faded(look.opacity)));
     }
     if look.joints {
         let [base, elbow, tip] = [arm.base, arm.elbow_at(q[0]), arm.tip_at(q)].map(|p| frame.at(p.x, p.y));
@@ -52,12 +48,4 @@ pub fn items(frame: &Frame, scene: &Scene, q: Configuration, look: &Look) -> Vec
         items.push(Item::Disc(tip, 3.0, Style::line(INK, 1.4).filled(WHITE)));
     }
     items
-}
-
-/// The colour of what is carried: that of the obstacle which it is while it lies somewhere, or the one after all others.
-#[must_use]
-pub fn payload_color(scene: &Scene) -> Rgb {
-    let obstacles = &scene.workspace().obstacles;
-    let lying = scene.payload().and_then(|payload| obstacles.iter().position(|o| o.name == payload.object));
-    color::obstacle(lying.unwrap_or(obstacles.len()))
 }

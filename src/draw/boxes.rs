@@ -4,7 +4,7 @@ use super::axes::Frame;
 use super::color::{BARRED, INK, Rgb};
 use super::figure::{Item, Rect, Style, rectangle};
 use super::legend::{Key, Sign};
-use crate::check::StuckBox;
+use super::view::Chain;
 use crate::space::Configuration;
 
 const FREE: Rgb = Rgb(0xcf, 0xe8, 0xd5);
@@ -19,20 +19,20 @@ fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
     Rect { x: x0.min(x1), y: y0.min(y1), width: (x1 - x0).abs(), height: (y1 - y0).abs() }
 }
 
+fn surface(boxes: &Chain, frame: &Frame, style: Style) -> Item {
+    Item::Outline(boxes.pairs().flat_map(|b| rectangle(rect(b, frame))).collect(), style)
+}
+
 /// Free and undecided boxes, as surfaces.
 #[must_use]
-pub fn surfaces(free: &[[Configuration; 2]], mixed: &[[Configuration; 2]], frame: &Frame) -> Vec<Item> {
-    let surface = |boxes: &[[Configuration; 2]], color| {
-        let steps = boxes.iter().flat_map(|&b| rectangle(rect(b, frame))).collect();
-        Item::Outline(steps, Style::fill(color).faded(0.8))
-    };
-    vec![surface(free, FREE), surface(mixed, MIXED)]
+pub fn surfaces(free: &Chain, mixed: &Chain, frame: &Frame) -> Vec<Item> {
+    [(free, FREE), (mixed, MIXED)].map(|(boxes, color)| surface(boxes, frame, Style::fill(color).faded(0.8))).into()
 }
 
 /// The sides of boxes.
 #[must_use]
-pub fn sides(boxes: &[[Configuration; 2]], frame: &Frame) -> Item {
-    let rects = boxes.iter().map(|&b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
+pub fn sides(boxes: &Chain, frame: &Frame) -> Item {
+    let rects = boxes.pairs().map(|b| rect(b, frame)).filter(|r| r.width >= NARROW && r.height >= NARROW);
     Item::Outline(rects.flat_map(rectangle).collect(), Style::line(SIDE, 0.4).faded(0.6))
 }
 
@@ -44,10 +44,8 @@ pub fn keys() -> Vec<Key> {
 
 /// The boxes of a proof, over the C-obstacles.
 #[must_use]
-pub fn proof(stuck: &[StuckBox], frame: &Frame) -> Item {
-    let corners = |s: &StuckBox| [Configuration::from(s.cell.lower), Configuration::from(s.cell.upper)];
-    let steps = stuck.iter().flat_map(|s| rectangle(rect(corners(s), frame))).collect();
-    Item::Outline(steps, Style::line(BARRED.mixed(INK, 0.2), 0.9).filled(BARRED).faded(0.45))
+pub fn proof(boxes: &Chain, frame: &Frame) -> Item {
+    surface(boxes, frame, Style::line(BARRED.mixed(INK, 0.2), 0.9).filled(BARRED).faded(0.45))
 }
 
 /// Legend of a proof.
@@ -59,15 +57,12 @@ pub fn proof_key() -> Key {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::Cell;
-    use crate::model::Pair;
 
     #[test]
     fn a_box_of_a_proof_is_drawn_where_it_is() {
         let frame = Frame::filling(Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 }, (0.0, 1.0), (0.0, 1.0));
-        let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
-        let stuck = StuckBox { cell: Cell { lower: [0.25, 0.5], upper: [0.5, 1.0] }, pair };
-        let Item::Outline(steps, style) = proof(&[stuck], &frame) else { panic!("not an outline") };
+        let boxes = Chain(vec![Configuration::new(0.25, 0.5), Configuration::new(0.5, 1.0)]);
+        let Item::Outline(steps, style) = proof(&boxes, &frame) else { panic!("not an outline") };
         assert_eq!(steps, rectangle(Rect { x: 25.0, y: 0.0, width: 25.0, height: 50.0 }));
         assert_eq!(style.fill, Some(BARRED));
     }

@@ -3,10 +3,10 @@
 use super::axes::{Frame, Unit};
 use super::copies::Window;
 use super::figure::{Item, Rect, Spot, Step, Style, chain};
-use crate::cspace::CObstacle;
-use crate::geometry::{Point, cross};
+use super::view::{Chain, ContourView};
+use crate::geometry::cross;
 use crate::model::{Arm, Joint};
-use crate::space::{Configuration, Path, Topology};
+use crate::space::{Configuration, Topology};
 
 /// Ratio of the ranges of two joints of one kind up to which both are drawn to one scale.
 const ONE_SCALE: f64 = 2.2;
@@ -55,23 +55,32 @@ impl Chart {
 
     /// A path, cut at the seams.
     #[must_use]
-    pub fn outline(&self, path: &Path) -> Vec<Step> {
-        let pieces = self.paths.pieces(path.waypoints());
+    pub fn outline(&self, path: &[Configuration]) -> Vec<Step> {
+        let pieces = self.paths.pieces(path);
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
+    }
+
+    /// A closed outline with its copies.
+    #[must_use]
+    pub fn polygon(&self, corners: &Chain) -> Vec<Step> {
+        let copy =
+            |s: Configuration| chain(corners.0.iter().map(move |q| self.frame.at(q[0] + s[0], q[1] + s[1])), true);
+        self.paths.shifts(&corners.0).into_iter().flat_map(copy).collect()
     }
 
     /// Contours with their copies as one outline; in a style whose pen lies below they look like their union.
     #[must_use]
-    pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a CObstacle>, style: Style) -> Item {
+    pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
-        for contour in contours.map(|c| &c.contour) {
-            let twice: f64 =
-                (0..contour.len()).map(|i| cross(contour[i].coords, contour[(i + 1) % contour.len()].coords)).sum();
+        for Chain(contour) in contours.map(|c| &c.contour) {
+            let twice: f64 = (0..contour.len()).map(|i| cross(contour[i], contour[(i + 1) % contour.len()])).sum();
             // The non-zero rule unites contours of one orientation only.
-            let ordered: Vec<&Point> =
-                if twice >= 0.0 { contour.iter().collect() } else { contour.iter().rev().collect() };
-            for shift in self.obstacles.shifts(contour.iter().map(|p| &p.coords)) {
-                steps.extend(chain(ordered.iter().map(|p| self.frame.at(p.x + shift[0], p.y + shift[1])), true));
+            let mut ordered: Vec<&Configuration> = contour.iter().collect();
+            if twice < 0.0 {
+                ordered.reverse();
+            }
+            for shift in self.obstacles.shifts(contour) {
+                steps.extend(chain(ordered.iter().map(|p| self.frame.at(p[0] + shift[0], p[1] + shift[1])), true));
             }
         }
         Item::Outline(steps, style)

@@ -1,50 +1,96 @@
-//! The right panel: the configuration space.
+//! A configuration space.
 
 use super::chart::{self, Chart};
-use super::color::{self, INK, Rgb, WHITE};
+use super::color::{INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
-use super::{Picture, boxes, page, preferences, trace};
-use crate::space::Path;
+use super::shapes::DASH;
+use super::tags::{self, Tag};
+use super::view::{ContourView, PanelView, PathView, View, WorldView};
+use super::{boxes, page, preferences, trace};
+use crate::space::Configuration;
 
 /// The pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
 /// The panel in this part of the page, with room for a scale of colours to the right of it.
 #[must_use]
-pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
-    let chart = Chart::new(picture.scene.arm(), area);
-    let Chart { frame, units, topology, paths, .. } = chart;
-
-    let mut inside = frame.grid(units);
-    inside.extend(picture.trace.into_iter().flat_map(|t| trace::below(t, &frame, &paths)));
-    for index in 0..picture.scene.workspace().obstacles.len() {
-        let contours = picture.c_obstacles.iter().filter(|c| c.obstacle == index);
-        inside.push(chart.c_obstacle(contours, blocked(color::obstacle(index))));
-    }
-    inside.extend(picture.trace.into_iter().flat_map(|t| trace::above(t, &frame, &topology, &paths)));
-    inside.extend(preferences::in_cspace(&picture.scene.workspace().preferences, &frame, &paths));
-    if let Some(proof) = picture.proof {
-        inside.push(boxes::proof(proof.stuck(), &frame));
-    }
-    let segments = picture.goals.iter().filter(|goal| !goal.is_point());
-    inside.extend(page::lines(segments.map(|goals| (chart.outline(&Path::new(goals.ends().to_vec())), GOALS))));
-    inside.extend(page::path_items(picture.paths.iter().map(|(_, path)| chart.outline(path)).collect()));
-    let mut items = vec![Item::Clip(frame.rect, inside)];
-    items.extend(frame.border(units, chart::titles(picture.scene.arm()), chart.seams()));
-    items.extend(picture.trace.into_iter().flat_map(|t| trace::color_bar(t, &frame)));
-    // Where paths were found, the goals that none of them reached are hollow.
-    let reached: Vec<Spot> = picture.paths.iter().map(|(_, path)| chart.place(path.goal())).collect();
-    items
-        .extend(picture.single_goals().into_iter().flat_map(|q| goal_marker(chart.place(q), picture.paths.is_empty())));
-    items.extend(reached.into_iter().flat_map(|spot| goal_marker(spot, true)));
-    items.extend(start_marker(chart.place(picture.start)));
+pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
+    let chart = Chart::new(&view.arm, area);
+    let mut items = self::items(view, panel, &chart);
+    items.extend(chart.frame.tick_marks(chart.units, [true; 2]));
+    items.extend(chart.frame.titles(chart.frame.rect, chart.units, chart::titles(&view.arm)));
     items
 }
 
-/// How a C-obstacle is drawn.
+/// All but values and titles of the axes.
 #[must_use]
-pub fn blocked(color: Rgb) -> Style {
+pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
+    let frame = &chart.frame;
+    let worlds: Vec<&WorldView> = panel.worlds.iter().map(|&index| &view.worlds[index]).collect();
+    let paths = || panel.paths.iter().map(|&index| &view.paths[index]);
+    let world = worlds[0];
+    let mut inside = frame.grid(chart.units);
+    inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
+    inside.extend(c_obstacles(&worlds, chart));
+    inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, chart)));
+    inside.extend(preferences::in_cspace(&world.regions, chart));
+    inside.push(boxes::proof(&world.proof, frame));
+    inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
+    inside.extend(page::lines(paths().map(|path| (chart.outline(&path.points.0), path.pen()))));
+    let mut items = vec![Item::Clip(frame.rect, inside)];
+    items.extend(frame.sides(chart.seams()));
+    items.extend(world.trace.iter().flat_map(|trace| trace::color_bar(trace, &frame.rect)));
+    // Where paths were found, the goals that none of them reached are hollow.
+    let alone = panel.paths.is_empty();
+    let mut goal = |q: Configuration, reached| items.extend(goal_marker(chart.place(q), reached));
+    view.goals.iter().for_each(|&q| goal(q.into(), alone));
+    paths().for_each(|path| goal(path.goal(), true));
+    world.unreached.iter().for_each(|&q| goal(q.into(), false));
+    items.extend(start_marker(chart.place(panel.start.into())));
+    if view.is_task() {
+        items.extend(numbers(panel, world, paths(), chart));
+    }
+    items
+}
+
+/// The numbers of the steps that end here, or were to, where there are several.
+fn numbers<'a>(
+    panel: &PanelView,
+    world: &WorldView,
+    paths: impl Iterator<Item = &'a PathView>,
+    chart: &Chart,
+) -> Vec<Item> {
+    let mut tags: Vec<Tag> = Vec::new();
+    paths.for_each(|path| tags::add(&mut tags, chart.place(path.goal()), path.step));
+    for (number, &q) in panel.fails.iter().flat_map(|number| world.unreached.iter().map(move |q| (*number, q))) {
+        tags::add(&mut tags, chart.place(q.into()), number);
+    }
+    if tags.len() > 1 { tags::items(&tags, chart.frame.rect, &[], &[]) } else { Vec::new() }
+}
+
+/// What is blocked; of the obstacles that link 2 may reach into in one of the worlds, what they would else block is dashed.
+fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
+    let (mut dashed, mut solid) = (Vec::new(), Vec::new());
+    for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
+        let open = |world: &&&WorldView| world.open.iter().any(|c| c.obstacle == number);
+        let world = worlds.iter().find(open).unwrap_or(&worlds[0]);
+        let of = |contours| <[_]>::iter(contours).filter(|c: &&ContourView| c.obstacle == number);
+        dashed.push(chart.c_obstacle(of(&world.open), passable(obstacle.color)));
+        solid.push(chart.c_obstacle(of(&world.c_obstacles), blocked(obstacle.color)));
+    }
+    dashed.extend(solid);
+    dashed
+}
+
+/// How a C-obstacle is drawn.
+fn blocked(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.0).filled(color.lighter(0.35)).faded(0.85);
+    Style { pen_below: true, ..style }
+}
+
+/// How that of an obstacle is drawn that link 2 may reach into.
+fn passable(color: Rgb) -> Style {
+    let style = Style::line(color.darker(0.25), 2.6).dashed(DASH).filled(color.lighter(0.85)).faded(0.85);
     Style { pen_below: true, ..style }
 }
 

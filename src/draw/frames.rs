@@ -1,9 +1,9 @@
 //! Coordinate frames of links, drawn by their axes.
 
-use super::AxesFrame;
 use super::axes::Frame;
 use super::color::{self, INK, WHITE};
 use super::figure::{Anchor, Item, Label, Spot, Step, Style};
+use super::view::FrameView;
 use crate::geometry::{Vector, perpendicular};
 
 /// Length of an axis that lies in the plane, pixels.
@@ -14,23 +14,23 @@ const LETTERS: [&str; 3] = ["x", "y", "z"];
 
 /// Axes, letters and names.
 #[must_use]
-pub fn items(panel: &Frame, frames: &[AxesFrame]) -> Vec<Item> {
+pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
     frames.iter().flat_map(|frame| one(panel, frame)).collect()
 }
 
-fn one(panel: &Frame, frame: &AxesFrame) -> Vec<Item> {
-    let at = panel.at(frame.at.x, frame.at.y);
+fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
+    let at = panel.at(frame.at[0], frame.at[1]);
     let mut items = Vec::new();
-    for (k, axis) in frame.axes.iter().enumerate() {
+    for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
         let (color, _) = color::path(k);
         // The page's y goes down.
-        let shadow = Vector::new(axis.x, -axis.y);
+        let shadow = Vector::new(u, -v);
         let text = |at: Spot| {
             let text = LETTERS[k].to_owned();
             Item::Text(Label { at, text, size: 14.0, anchor: Anchor::Middle, upwards: false, color })
         };
         if shadow.norm() < STANDING {
-            items.extend(standing(at, axis.z > 0.0, Style::line(color, 1.8)));
+            items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
             items.push(text([at[0] - 15.0, at[1] + 5.0]));
             continue;
         }

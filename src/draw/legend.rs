@@ -1,10 +1,9 @@
 //! What the signs mean.
 
-use super::Picture;
-use super::color::{self, INK, PALE, Rgb};
+use super::color::{BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Label, Pen, Rect, Step, Style, rectangle, shortened, text_width};
-use super::{arm, boxes, cspace, page, preferences, shapes, trace};
-use crate::model::Payload;
+use super::view::{PathView, View};
+use super::{boxes, cspace, preferences, shapes, trace};
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
@@ -12,7 +11,7 @@ const SIZE: f64 = 13.0;
 const SIGN: f64 = 26.0;
 const GAP: f64 = 26.0;
 /// More obstacles than this are not named.
-const NAMED: usize = 8;
+const NAMED: usize = 16;
 
 /// What stands before a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,27 +35,43 @@ pub type Key = (Sign, String);
 
 /// Everything that the picture needs explained.
 #[must_use]
-pub fn keys(picture: &Picture) -> Vec<Key> {
-    let mut keys = vec![(Sign::Start, "start".to_owned()), (Sign::Goal, "goal".to_owned())];
-    let count = picture.paths.len();
-    for (i, (name, _)) in picture.paths.iter().enumerate() {
-        let name = if count == 1 { "path, and trace of the tip".to_owned() } else { name.clone() };
-        keys.push((Sign::Line(page::path_pen(i, count)), name));
+pub fn keys(view: &View) -> Vec<Key> {
+    let world = view.first_world();
+    let goal = if view.is_task() { "end of a step" } else { "goal" };
+    let mut keys = vec![(Sign::Start, "start".to_owned()), (Sign::Goal, goal.to_owned())];
+    keys.extend(paths(view));
+    if view.worlds.iter().any(|world| !world.open.is_empty()) {
+        keys.push((Sign::Dashed(GREY), "open to link 2 (picked or placed)".to_owned()));
     }
-    keys.extend(picture.trace.map_or_else(Vec::new, trace::keys));
-    keys.extend(picture.proof.map(|_| boxes::proof_key()));
-    keys.extend(preferences::keys(&picture.scene.workspace().preferences));
+    if view.unreached().next().is_some() {
+        keys.push((Sign::Unreached, "not reached".to_owned()));
+        let pen = Pen { color: BARRED, width: 1.2, dash: &[] };
+        keys.push((Sign::Line(pen), "the arm there".to_owned()));
+    }
+    keys.extend(world.trace.as_ref().map_or_else(Vec::new, trace::keys));
+    keys.extend(view.worlds.iter().any(|world| !world.proof.0.is_empty()).then(boxes::proof_key));
+    keys.extend(preferences::keys(&world.regions));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
-    let obstacles = &picture.scene.workspace().obstacles;
-    // Obstacles without pieces lie nowhere: they are carried.
-    let lying = obstacles.iter().enumerate().filter(|(_, o)| !o.pieces.is_empty());
+    let lying = world.obstacles.iter().filter(|obstacle| obstacle.lies());
     if lying.clone().count() <= NAMED {
-        keys.extend(lying.map(|(i, o)| (Sign::Swatch(color::obstacle(i)), o.name.clone())));
+        keys.extend(lying.map(|o| (Sign::Swatch(o.color), o.name.clone())));
     }
-    let carried =
-        |payload: &Payload| (Sign::Swatch(arm::payload_color(picture.scene)), format!("{}, carried", payload.object));
-    keys.extend(picture.scene.payload().map(carried));
+    keys.extend(world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object))));
     keys
+}
+
+/// Paths by their names; those of a task by whether something is carried.
+fn paths(view: &View) -> Vec<Key> {
+    let named = |path: &PathView, name: &str| (Sign::Line(path.pen()), name.to_owned());
+    if view.is_task() {
+        let kinds = [(false, "empty-handed"), (true, "carrying (object's colour)")];
+        let first = |carrying| view.paths.iter().find(|path| path.is_colored() == carrying);
+        return kinds.into_iter().filter_map(|(carrying, name)| Some(named(first(carrying)?, name))).collect();
+    }
+    match &view.paths[..] {
+        [path] => vec![named(path, "path, and trace of the tip")],
+        paths => paths.iter().map(|path| named(path, &path.name)).collect(),
+    }
 }
 
 fn width(key: &Key) -> f64 {

@@ -1,30 +1,107 @@
-//! The page: titles, two panels, legend.
+//! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::color::{GREY, INK, Rgb};
+use super::color::{self, GREY, INK, Rgb};
 use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
-use super::{ArmPicture, Picture, color, cspace, frames, legend, workspace};
+use super::grid::Grid;
+use super::legend::{self, Key};
+use super::view::{PanelView, View};
+use super::{cspace, steps, workspace};
 
 /// Width of every picture, pixels.
-pub const WIDTH: f64 = 1400.0;
+const WIDTH: f64 = 1400.0;
 /// Height of pictures of one motion, and least height of all, pixels.
-pub const HEIGHT: f64 = 720.0;
+const HEIGHT: f64 = 720.0;
 /// Beside everything, pixels.
-pub const MARGIN: f64 = 28.0;
+const MARGIN: f64 = 28.0;
+/// Below panels, for values and titles of their axes and the space to what follows, pixels.
+const AXES: f64 = 58.0;
 
-/// The pen of path `index` out of `count`: a single one is drawn in ink.
-pub fn path_pen(index: usize, count: usize) -> Pen {
-    let (color, dash): (Rgb, &[f64]) = if count == 1 { (INK, &[]) } else { color::path(index) };
-    Pen { color, width: 2.4, dash }
+/// The columns; as high as there is room.
+const LEFT: Rect = Rect { x: 84.0, y: 0.0, width: 570.0, height: 0.0 };
+const RIGHT: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
+/// Beside a single configuration space stands a scale of colours.
+const SCALED: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
+/// Least and greatest height of the workspace of a task, pixels.
+const WORKSPACE: [f64; 2] = [520.0, 640.0];
+/// More payload states than this are not shown, but for the one in which a step fails: the page would be longer than
+/// anyone reads.
+const MOST: usize = 24;
+
+/// The whole page of a view.
+#[must_use]
+pub fn compose(view: &View) -> Figure {
+    let mut items = titles(&view.title, &view.status);
+    let lines = 18.0 * view.title.len().max(1) as f64;
+    let keys = legend::layout(legend::keys(view), WIDTH - 2.0 * MARGIN);
+    let height = match &view.still.panels[..] {
+        // The workspace takes the whole page.
+        [] => {
+            let top = 44.0 + lines;
+            let width = WIDTH - LEFT.x - MARGIN;
+            items.extend(workspace::panel(view, Rect { y: top, width, height: HEIGHT - AXES - top, ..LEFT }));
+            HEIGHT
+        }
+        [panel] if !view.is_task() => {
+            let top = 62.0 + lines;
+            let height = HEIGHT - 14.0 - legend::ROW * keys.len() as f64 - AXES - top;
+            items.extend(workspace::panel(view, Rect { y: top, height, ..LEFT }));
+            items.extend(cspace::panel(view, panel, Rect { y: top, height, ..SCALED }));
+            items.push(heading(LEFT, top - 12.0, "Workspace"));
+            items.push(heading(SCALED, top - 12.0, &panel.title));
+            items.extend(legend::items(&keys, WIDTH / 2.0, HEIGHT - 14.0 - legend::ROW * keys.len() as f64));
+            HEIGHT
+        }
+        panels => task(view, panels, &keys, 84.0 + lines, &mut items),
+    };
+    Figure { width: WIDTH, height, items }
 }
 
-/// The paths, visible on any ground by the broad pale line under each. Those come first, so that no path hides in the
-/// gaps of another's dashes.
-pub fn path_items(outlines: Vec<Vec<Step>>) -> Vec<Item> {
-    let count = outlines.len();
-    lines(outlines.into_iter().enumerate().map(|(i, steps)| (steps, path_pen(i, count))))
+/// The workspace, a configuration space for each payload state, and the steps; returns the height of the page.
+fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &mut Vec<Item>) -> f64 {
+    let going = panels.iter().filter(|panel| panel.fails.is_none());
+    let left_out = going.clone().count().saturating_sub(MOST);
+    let shown: Vec<&PanelView> = going.take(MOST).chain(panels.iter().filter(|panel| panel.fails.is_some())).collect();
+    let grid = Grid::new(shown.len(), &view.arm, RIGHT.width);
+    let notes = if left_out > 0 { 22.0 } else { 0.0 };
+    let legend = 14.0 + legend::ROW * keys.len() as f64;
+    let list = steps::ROW * view.still.steps.len() as f64;
+    let Layout { workspace, list, height } = layout(top, grid.height() + notes, list, legend);
+    items.extend(workspace::panel(view, workspace));
+    items.extend(grid.items(view, &shown, left_out, [RIGHT.x, top]));
+    items.extend(steps::items(&view.still.steps, list));
+    items.push(heading(LEFT, top - 32.0, "Workspace"));
+    let note = "objects where they lie at first, and dashed where they are placed".to_owned();
+    items.push(label([LEFT.x + LEFT.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GREY));
+    items.push(heading(RIGHT, top - 32.0, "Configuration space of each payload state"));
+    items.extend(legend::items(keys, WIDTH / 2.0, height - legend));
+    height
 }
 
-/// Lines with a broad pale one under each, all of which come first.
+/// Where things are, pixels.
+struct Layout {
+    workspace: Rect,
+    /// The list of steps; as high as it needs.
+    list: Rect,
+    /// Of the page.
+    height: f64,
+}
+
+/// The list of steps stands below the workspace, or below the configuration spaces (`grid` pixels high) where the page
+/// becomes less high by that.
+fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
+    let list = AXES + list;
+    let [below_workspace, below_grid] = [grid.max(WORKSPACE[0] + list), WORKSPACE[0].max(grid + list)];
+    let left = below_workspace <= below_grid;
+    let height = (top + below_workspace.min(below_grid) + AXES + legend).max(HEIGHT);
+    let room = height - top - AXES - legend - if left { list } else { 0.0 };
+    let workspace = Rect { y: top, height: room.min(WORKSPACE[1]), ..LEFT };
+    let list =
+        if left { Rect { y: workspace.bottom() + AXES, ..LEFT } } else { Rect { y: top + grid + AXES, ..RIGHT } };
+    Layout { workspace, list, height }
+}
+
+/// Lines, visible on any ground by the broad pale one under each. Those come first, so that no line hides in the gaps of
+/// another's dashes.
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
     for (steps, pen) in outlines {
@@ -35,43 +112,12 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
-/// The whole page: workspace, configuration space, title and legend.
-#[must_use]
-pub fn compose(picture: &Picture) -> Figure {
-    let mut items = titles(&picture.title, &picture.status);
-    let top = 62.0 + 18.0 * picture.title.len().max(1) as f64;
-    let keys = legend::layout(legend::keys(picture), WIDTH - 2.0 * MARGIN);
-    let legend_top = HEIGHT - 14.0 - legend::ROW * keys.len() as f64;
-    let height = legend_top - 58.0 - top;
-    let left = Rect { x: 84.0, y: top, width: 570.0, height };
-    let right = Rect { x: 770.0, y: top, width: 530.0, height };
-    items.extend(workspace::panel(picture, left));
-    items.extend(cspace::panel(picture, right));
-    items.push(heading("Workspace", left));
-    items.push(heading("Configuration space", right));
-    items.extend(legend::items(&keys, WIDTH / 2.0, legend_top));
-    Figure { width: WIDTH, height: HEIGHT, items }
-}
-
-/// Draws an arm in one configuration: the workspace takes the whole page.
-#[must_use]
-pub fn compose_arm(arm_picture: &ArmPicture) -> Figure {
-    let picture = arm_picture.picture();
-    let mut items = titles(&picture.title, &picture.status);
-    let top = 44.0 + 18.0 * picture.title.len().max(1) as f64;
-    let area = Rect { x: 84.0, y: top, width: WIDTH - 84.0 - MARGIN, height: HEIGHT - 58.0 - top };
-    items.extend(workspace::panel(&picture, area));
-    items.extend(frames::items(&workspace::frame(&picture, area), &arm_picture.frames));
-    Figure { width: WIDTH, height: HEIGHT, items }
-}
-
-fn heading(text: &str, area: Rect) -> Item {
-    let at = [area.x + area.width / 2.0, area.y - 12.0];
-    label(at, text.to_owned(), 16.0, Anchor::Middle, INK)
+fn heading(column: Rect, y: f64, text: &str) -> Item {
+    label([column.x + column.width / 2.0, y], text.to_owned(), 16.0, Anchor::Middle, INK)
 }
 
 /// The title and the lines below it, and the status in the opposite corner.
-pub fn titles(lines: &[String], status: &str) -> Vec<Item> {
+fn titles(lines: &[String], status: &str) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);
     items.push(label([WIDTH - MARGIN, 36.0], status.to_owned(), 18.0, Anchor::End, INK));

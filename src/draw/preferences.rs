@@ -1,12 +1,11 @@
 //! Regions that fields prefer or avoid: dashed, since one may pass.
 
 use super::axes::Frame;
+use super::chart::Chart;
 use super::color::Rgb;
-use super::copies::Window;
 use super::figure::{Item, Pen, Style, chain};
 use super::legend::{Key, Sign};
-use crate::geometry::SimplePolygon;
-use crate::model::{Preference, Region};
+use super::view::RegionView;
 use crate::space::Configuration;
 
 /// Of regions with a positive epsilon.
@@ -17,42 +16,32 @@ const DASH: &[f64] = &[7.0, 4.0];
 
 /// Those of the workspace.
 #[must_use]
-pub fn in_workspace(preferences: &[Preference], frame: &Frame) -> Vec<Item> {
-    let regions = preferences.iter().filter_map(|preference| match &preference.region {
-        Region::Tip(polygon) => Some(item(preference, polygon, &[Configuration::zeros()], frame)),
-        Region::Configurations(_) => None,
-    });
-    regions.collect()
+pub fn in_workspace(regions: &[RegionView], frame: &Frame) -> Vec<Item> {
+    let regions = regions.iter().filter(|region| !region.joints);
+    regions.map(|region| item(region, &[Configuration::zeros()], frame)).collect()
 }
 
 /// Those of the configuration space, with their copies on circles.
 #[must_use]
-pub fn in_cspace(preferences: &[Preference], frame: &Frame, window: &Window) -> Vec<Item> {
-    let regions = preferences.iter().filter_map(|preference| match &preference.region {
-        Region::Configurations(polygon) => {
-            let shifts = window.shifts(polygon.corners().iter().map(|corner| &corner.coords));
-            Some(item(preference, polygon, &shifts, frame))
-        }
-        Region::Tip(_) => None,
-    });
-    regions.collect()
+pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
+    let regions = regions.iter().filter(|region| region.joints);
+    regions.map(|region| item(region, &chart.paths.shifts(&region.corners.0), &chart.frame)).collect()
 }
 
 /// What the dashes mean.
 #[must_use]
-pub fn keys(preferences: &[Preference]) -> Vec<Key> {
+pub fn keys(regions: &[RegionView]) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.4, dash: DASH });
-    let any = |positive: bool| preferences.iter().any(|preference| (preference.epsilon > 0.0) == positive);
+    let any = |positive: bool| regions.iter().any(|region| (region.epsilon > 0.0) == positive);
     let avoided = any(true).then(|| (line(AVOIDED), "region, epsilon above 0".to_owned()));
     avoided.into_iter().chain(any(false).then(|| (line(PREFERRED), "region, epsilon below 0".to_owned()))).collect()
 }
 
-fn item(preference: &Preference, polygon: &SimplePolygon, shifts: &[Configuration], frame: &Frame) -> Item {
-    let color = if preference.epsilon > 0.0 { AVOIDED } else { PREFERRED };
+fn item(region: &RegionView, shifts: &[Configuration], frame: &Frame) -> Item {
+    let color = if region.epsilon > 0.0 { AVOIDED } else { PREFERRED };
     let copy = |shift: &Configuration| {
-        let corners = polygon.corners().iter();
-        chain(corners.map(|p| frame.at(p.x + shift[0], p.y + shift[1])).collect::<Vec<_>>(), true)
+        let corners = region.corners.0.iter().map(|p| p + shift);
+        chain(corners.map(|p| frame.at(p[0], p[1])).collect::<Vec<_>>(), true)
     };
-    let steps = shifts.iter().flat_map(copy).collect();
-    Item::Outline(steps, Style::line(color, 1.4).dashed(DASH))
+    Item::Outline(shifts.iter().flat_map(copy).collect(), Style::line(color, 1.4).dashed(DASH))
 }

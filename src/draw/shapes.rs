@@ -1,43 +1,44 @@
 //! Shapes in the workspace.
 
 use super::axes::Frame;
-use super::color::Rgb;
 use super::figure::{Item, Step, Style, chain};
+use super::view::ObstacleView;
 use crate::geometry::{Convex, Point, Vector};
-use crate::model::{Obstacle, Shape};
+use crate::model::Shape;
 
 /// Dashes of what is not there yet, or lets something pass.
 pub const DASH: &[f64] = &[5.0, 3.0];
 
 /// An obstacle where it is.
 #[must_use]
-pub fn solid(frame: &Frame, obstacle: &Obstacle, color: Rgb) -> Item {
+pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
+    let color = obstacle.color;
     let style = Style::line(color.darker(0.25), 1.2).filled(color.lighter(0.25));
     item(frame, obstacle, style, Style::line(color.darker(0.1), 3.0))
 }
 
 /// An object where it is going to be.
 #[must_use]
-pub fn dashed(frame: &Frame, object: &Obstacle, color: Rgb) -> Item {
-    let line = Style::line(color.darker(0.25), 1.6).dashed(DASH);
-    item(frame, object, line.filled(color.lighter(0.85)).faded(0.9), line)
+pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
+    let line = Style::line(object.color.darker(0.25), 1.6).dashed(DASH);
+    item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 
-fn item(frame: &Frame, obstacle: &Obstacle, surface: Style, wall: Style) -> Item {
-    match &obstacle.shape {
+fn item(frame: &Frame, obstacle: &ObstacleView, surface: Style, wall: Style) -> Item {
+    match &obstacle.outline {
         Shape::Polygon(points) => Item::Outline(chain(points.iter().map(|p| frame.at(p.x, p.y)), true), surface),
         Shape::Circle { center, radius } => {
             Item::Disc(frame.at(center.x, center.y), (radius * frame.scale()).max(1.0), surface)
         }
         Shape::Polyline(points) => Item::Outline(chain(points.iter().map(|p| frame.at(p.x, p.y)), false), wall),
-        Shape::Pieces => union(frame, &obstacle.pieces, surface),
+        Shape::Pieces => union(frame, obstacle.own().cloned(), surface),
     }
 }
 
 /// Pieces as one surface.
 #[must_use]
-pub fn union(frame: &Frame, pieces: &[Convex], style: Style) -> Item {
-    let steps = pieces.iter().flat_map(|piece| outline(frame, piece)).collect();
+pub fn union(frame: &Frame, pieces: impl IntoIterator<Item = Convex>, style: Style) -> Item {
+    let steps = pieces.into_iter().flat_map(|piece| outline(frame, &piece)).collect();
     Item::Outline(steps, Style { pen_below: true, ..style })
 }
 

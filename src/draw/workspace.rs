@@ -1,63 +1,112 @@
-//! The left panel: the workspace, with the arm in it.
+//! The workspace, with the arm in it and all that takes place.
 
-use super::arm::{self, GHOST, GOAL, START};
+use super::arm::{self, GHOST, GOAL, START, UNREACHED};
 use super::axes::{Frame, Unit};
-use super::color::{self, PALE};
-use super::figure::{Item, Rect, Step, Style, chain};
-use super::{Picture, extent, page, preferences, shapes};
+use super::color::{BARRED, GREY, INK, PALE, WHITE};
+use super::figure::{Anchor, Item, Label, Rect, Spot, Step, Style, chain};
+use super::tags::{self, Tag};
+use super::view::{ObstacleView, PathView, View, around};
+use super::{frames, page, preferences, shapes};
 use crate::geometry::{Convex, cross};
 use crate::model::{Arm, JointType, Plane};
-use crate::space::{Configuration, Path};
+use crate::space::Configuration;
 use nalgebra::Vector3;
-
-/// Poses shown between start and goal.
-const GHOSTS: usize = 5;
 
 /// The panel in this part of the page, which it fills.
 #[must_use]
-pub fn panel(picture: &Picture, area: Rect) -> Vec<Item> {
-    let scene = picture.scene;
-    let obstacles = &scene.workspace().obstacles;
-    let frame = frame(picture, area);
-    let mut inside = ground(&frame, scene.arm());
-    for (i, obstacle) in obstacles.iter().enumerate() {
-        inside.push(shapes::solid(&frame, obstacle, color::obstacle(i)));
+pub fn panel(view: &View, area: Rect) -> Vec<Item> {
+    let View { arm, frame: [x, y], still, .. } = view;
+    let frame = Frame::filling(area, (*x).into(), (*y).into());
+    let first = view.first_world();
+    let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
+    let mut inside = ground(&frame, arm);
+    inside.extend(first.obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
+    inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
+    inside.extend(preferences::in_workspace(&first.regions, &frame));
+    let mut pose = |world: usize, q, look| {
+        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q, look));
+    };
+    if let ([path], false) = (&view.paths[..], view.is_task()) {
+        path.ghosts.0.iter().for_each(|&q| pose(0, q, &GHOST));
     }
-    inside.extend(preferences::in_workspace(&scene.workspace().preferences, &frame));
-    if let [(_, path)] = picture.paths[..] {
-        for q in between(path, GHOSTS) {
-            inside.extend(arm::items(&frame, scene, q, &GHOST));
-        }
+    view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED));
+    pose(0, view.start.into(), &START);
+    still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL));
+    let paths = || still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
+    let traces: Vec<_> = paths().map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
+    let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
+    inside.extend(page::lines(traces));
+    if view.is_task() {
+        let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
+        inside.extend(numbers(view, &frame, paths(), &boxes, &spots));
     }
-    inside.extend(arm::items(&frame, scene, picture.start, &START));
-    let goal = picture.paths.first().map(|(_, path)| path.goal()).or(picture.single_goals().first().copied());
-    inside.extend(goal.into_iter().flat_map(|q| arm::items(&frame, scene, q, &GOAL)));
-    let traces = picture.paths.iter().map(|(_, path)| tip_trace(&frame, scene.arm(), path)).collect();
-    inside.extend(page::path_items(traces));
-    inside.extend(extent::hidden_note(&frame, obstacles));
-    framed(&frame, &scene.arm().plane, inside)
-}
-
-/// The frame of the panel in this part of the page.
-#[must_use]
-pub fn frame(picture: &Picture, area: Rect) -> Frame {
-    extent::frame(picture.scene, &picture.shown(), area)
-}
-
-/// What lies below everything: grid and reach.
-#[must_use]
-pub fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
-    let mut items = frame.grid([Unit::Meters; 2]);
-    let reach = Style::line(PALE, 1.0).dashed(&[2.0, 4.0]);
-    items.push(Item::Outline(shapes::outline(frame, &reach_shape(arm)), reach));
+    inside.extend(hidden_note(&frame, lying()));
+    let mut items = vec![Item::Clip(frame.rect, inside)];
+    items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));
+    items.extend(frames::items(&frame, &view.frames));
     items
 }
 
-/// Cuts what sticks out of the frame, and draws its border.
-#[must_use]
-pub fn framed(frame: &Frame, plane: &Plane, inside: Vec<Item>) -> Vec<Item> {
-    let mut items = vec![Item::Clip(frame.rect, inside)];
-    items.extend(frame.border([Unit::Meters; 2], titles(plane), [false; 2]));
+/// A dot where each step ends, or was to end, with its number.
+fn numbers<'a>(
+    view: &View,
+    frame: &Frame,
+    paths: impl Iterator<Item = &'a PathView>,
+    boxes: &[Rect],
+    spots: &[Spot],
+) -> Vec<Item> {
+    let place = |q| {
+        let tip = view.arm.tip_at(q);
+        frame.at(tip.x, tip.y)
+    };
+    let mut tags: Vec<Tag> = Vec::new();
+    paths.for_each(|path| tags::add(&mut tags, place(path.goal()), path.step));
+    let dot = Style::line(WHITE, 1.2).filled(INK);
+    let mut items: Vec<Item> = tags.iter().map(|tag| Item::Disc(tag.at, 3.6, dot)).collect();
+    let fails = view.still.panels.iter().find_map(|panel| panel.fails);
+    for (number, (_, q)) in fails.into_iter().flat_map(|number| view.unreached().map(move |to| (number, to))) {
+        items.push(Item::Disc(place(q), 3.6, Style::line(BARRED, 1.4).filled(WHITE)));
+        tags::add(&mut tags, place(q), number);
+    }
+    items.extend(tags::items(&tags, frame.rect, boxes, spots));
+    items
+}
+
+/// Where a step of an outline leads.
+fn end(step: &Step) -> Option<Spot> {
+    match *step {
+        Step::Move(spot) | Step::Line(spot) | Step::Arc(_, spot) => Some(spot),
+        Step::Close => None,
+    }
+}
+
+/// The box around an obstacle that lies somewhere, on the page.
+fn on_page(frame: &Frame, obstacle: &ObstacleView) -> Rect {
+    let [x, y] = around(obstacle.own());
+    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
+    Rect { x: left, y: top, width: right - left, height: bottom - top }
+}
+
+/// Says so if obstacles lie outside the panel.
+fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleView>) -> Option<Item> {
+    let outside = |o: &&ObstacleView| {
+        let [x, y] = around(o.own());
+        x.1 < frame.x.0 || x.0 > frame.x.1 || y.1 < frame.y.0 || y.0 > frame.y.1
+    };
+    let text = match obstacles.filter(outside).count() {
+        0 => return None,
+        1 => "1 obstacle lies outside this picture".to_owned(),
+        n => format!("{n} obstacles lie outside this picture"),
+    };
+    let at = [frame.rect.x + 10.0, frame.rect.bottom() - 10.0];
+    Some(Item::Text(Label { at, text, size: 13.0, anchor: Anchor::Start, upwards: false, color: GREY }))
+}
+
+/// What lies below everything: grid and reach.
+fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
+    let mut items = frame.grid([Unit::Meters; 2]);
+    let reach = Style::line(PALE, 1.0).dashed(&[2.0, 4.0]);
+    items.push(Item::Outline(shapes::outline(frame, &reach_shape(arm)), reach));
     items
 }
 
@@ -98,30 +147,14 @@ fn reach_shape(arm: &Arm) -> Convex {
     }
 }
 
-/// Configurations that divide the path into `count + 1` equal parts.
-fn between(path: &Path, count: usize) -> Vec<Configuration> {
-    let total = path.length();
-    let mut wanted = (1..=count).map(|k| total * k as f64 / (count + 1) as f64).peekable();
-    let (mut found, mut done) = (Vec::new(), 0.0);
-    for (a, b) in path.segments() {
-        let length = (b - a).norm();
-        while let Some(s) = wanted.next_if(|&s| s <= done + length) {
-            found.push(a + (b - a) * ((s - done) / length));
-        }
-        done += length;
-    }
-    found
-}
-
 /// Where the tip goes: straight joint motions are curves here, so they are followed in small steps.
-#[must_use]
-pub fn tip_trace(frame: &Frame, arm: &Arm, path: &Path) -> Vec<Step> {
+fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Radians; a chord of such an arc is off by 2e-5 of the reach at most, a hundredth of a pixel.
     const STEP: f64 = 0.0125;
     const MOST: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());
     let mut spots = vec![path.start()];
-    for (a, b) in path.segments() {
+    for (a, b) in path.points.0.windows(2).map(|ends| (ends[0], ends[1])) {
         let angle = (0..2).filter(|&k| turns[k]).map(|k| (b[k] - a[k]).abs()).fold(0.0, f64::max);
         let n = (angle / STEP).ceil().clamp(1.0, MOST) as usize;
         spots.extend((1..=n).map(|i| a + (b - a) * (i as f64 / n as f64)));
@@ -131,24 +164,4 @@ pub fn tip_trace(frame: &Frame, arm: &Arm, path: &Path) -> Vec<Step> {
         frame.at(tip.x, tip.y)
     };
     chain(spots.into_iter().map(place), false)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ghosts_are_equally_spaced() {
-        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.5, 3.0)];
-        let path = Path::new(corners.iter().map(|c| Configuration::new(c.0, c.1)).collect());
-        let all = between(&path, 8);
-        let expected: Vec<Configuration> =
-            [(0.5, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 1.0), (1.0, 1.5), (1.0, 2.0), (1.0, 2.5), (1.0, 3.0)]
-                .iter()
-                .map(|c| Configuration::new(c.0, c.1))
-                .collect();
-        assert_eq!(all.len(), expected.len());
-        assert!(all.iter().zip(&expected).all(|(a, b)| (a - b).norm() < 1e-12), "{all:?}");
-        assert!(between(&Path::new(vec![Configuration::zeros()]), 3).is_empty());
-    }
 }

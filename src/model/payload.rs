@@ -19,6 +19,21 @@ pub enum Grip {
     },
 }
 
+impl Grip {
+    /// Where what hangs so is at `q`: the pose of its frame in the plane.
+    #[must_use]
+    pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
+        match *self {
+            Grip::Rigid(in_link) => arm.pose(1, q) * in_link,
+            Grip::Level { angle, point } => {
+                Translation2::from(arm.tip_at(q).coords)
+                    * Isometry2::rotation(angle)
+                    * Translation2::from(-point.coords)
+            }
+        }
+    }
+}
+
 /// An object while the arm carries it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Payload {
@@ -50,14 +65,7 @@ impl Payload {
     /// Where the object is at `q`: the pose of its frame in the plane.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: Configuration) -> Pose {
-        match self.grip {
-            Grip::Rigid(in_link) => arm.pose(1, q) * in_link,
-            Grip::Level { angle, point } => {
-                Translation2::from(arm.tip_at(q).coords)
-                    * Isometry2::rotation(angle)
-                    * Translation2::from(-point.coords)
-            }
-        }
+        self.grip.pose(arm, q)
     }
 
     /// The grip that holds an object lying at `pose` with the arm at `q`, so that link 2 turns it.

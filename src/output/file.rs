@@ -63,7 +63,7 @@ impl Plan {
         match (format, self.made()) {
             (FileFormat::Result(format), Made::Motion(plan)) => Ok(format.bytes(&plan.report)),
             (FileFormat::Result(format), Made::Task(plan)) => Ok(plan.report.bytes(format)),
-            (FileFormat::Picture(format), _) => self.drawn(format).map(Some),
+            (FileFormat::Picture(format), _) => format.bytes(&self.view()).map(Some),
         }
     }
 

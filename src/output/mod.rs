@@ -12,7 +12,7 @@ mod task_summary;
 pub use file::{FileFormat, SaveError};
 #[cfg(feature = "serve")]
 pub(crate) use picture::status;
-pub use picture::{Drawn, PictureFormat, PictureFormatError};
+pub use picture::{PictureFormat, PictureFormatError};
 #[cfg(feature = "program")]
 pub(crate) use picture::{contours, title_of};
 #[cfg(feature = "program")]

@@ -3,7 +3,7 @@
 use super::summary::facts;
 use super::task_summary;
 use crate::cspace::{CObstacle, c_obstacles};
-use crate::draw::{self, ArmPicture, DrawError, Picture, TaskPicture, View};
+use crate::draw::{self, DrawError, Picture, TaskPicture, View};
 use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
 use crate::text::counted;
@@ -69,68 +69,30 @@ impl PictureFormat {
     ///
     /// # Errors
     /// A picture that cannot be made of pixels.
-    pub fn bytes(self, drawing: &impl Drawn) -> Result<Vec<u8>, DrawError> {
+    pub fn bytes(self, view: &View) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
-            Self::Svg => drawing.svg().into_bytes(),
+            Self::Svg => draw::svg(view).into_bytes(),
             #[cfg(feature = "png")]
-            Self::Png => draw::png(&drawing.svg(), PNG_SCALE)?,
-            Self::Html => draw::page(&drawing.view()).into_bytes(),
+            Self::Png => draw::png(&draw::svg(view), PNG_SCALE)?,
+            Self::Html => draw::page(view).into_bytes(),
         })
     }
 }
 
-/// What there are pictures and pages of.
-pub trait Drawn {
-    /// As an SVG document.
-    fn svg(&self) -> String;
-    /// As a page shows it.
-    fn view(&self) -> View;
-}
-
-impl Drawn for Picture<'_> {
-    fn svg(&self) -> String {
-        draw::svg(self)
-    }
-
-    fn view(&self) -> View {
-        View::of_picture(self, None, Vec::new(), None)
-    }
-}
-
-impl Drawn for ArmPicture<'_> {
-    fn svg(&self) -> String {
-        draw::arm_svg(self)
-    }
-
-    fn view(&self) -> View {
-        View::of_arm(self)
-    }
-}
-
-impl Drawn for Plan {
-    fn svg(&self) -> String {
-        match self.made() {
-            Made::Motion(plan) => {
-                let contours = contours(plan.problem.scene());
-                with_picture(plan, &contours, draw::svg)
-            }
-            Made::Task(plan) => draw::task_svg(&self.task_picture(plan)),
-        }
-    }
-
-    fn view(&self) -> View {
+impl Plan {
+    /// What pictures and pages of it show.
+    #[must_use]
+    pub fn view(&self) -> View {
         match self.made() {
             Made::Motion(plan) => self.view_among(&contours(plan.problem.scene())),
             Made::Task(_) => self.view_among(&[]),
         }
     }
-}
 
-impl Plan {
     /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
     #[must_use]
     pub fn svg(&self) -> String {
-        Drawn::svg(self)
+        draw::svg(&self.view())
     }
 
     /// A page that stands by itself, in which the motion is played and the arm can be moved.
@@ -139,21 +101,36 @@ impl Plan {
         draw::page(&self.view())
     }
 
-    pub(super) fn drawn(&self, format: PictureFormat) -> Result<Vec<u8>, DrawError> {
-        format.bytes(self)
-    }
-
-    /// What a page shows, where the contours of the C-obstacles of a single motion are known.
+    /// The same where the contours of the C-obstacles of a single motion are known.
     #[must_use]
     pub(crate) fn view_among(&self, contours: &[CObstacle]) -> View {
-        let ending = Some(self.status());
         match self.made() {
-            Made::Motion(plan) => {
-                let (facts, trajectory) = (facts(plan, self.options()), plan.report.trajectory.as_ref());
-                with_picture(plan, contours, |picture| View::of_picture(picture, ending, facts, trajectory))
-            }
-            Made::Task(plan) => View::of_task(&self.task_picture(plan), ending, task_summary::facts(plan)),
+            Made::Motion(plan) => self.motion_view(plan, contours),
+            Made::Task(plan) => View::of_task(&self.task_picture(plan)),
         }
+    }
+
+    fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
+        let MotionPlan { problem, answer, curve, report } = plan;
+        let scene = problem.scene();
+        let outline = curve.as_ref().map(|curve| curve.curve().outline());
+        let detail = match report.length {
+            Some(length) => format!("{}: length {length:.4}, {}", answer.method, kept(report.clearance)),
+            None => answer.method.to_string(),
+        };
+        View::of_picture(&Picture {
+            title: vec![title_of(scene), detail],
+            status: status(&answer.verdict).into(),
+            ending: Some(self.status()),
+            facts: facts(plan, self.options()),
+            goals: problem.goals().pieces(),
+            paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
+            trajectory: report.trajectory.as_ref(),
+            trace: Some(&answer.drawn()),
+            proof: answer.verdict.proof(),
+            c_obstacles: contours,
+            ..Picture::new(scene, problem.start())
+        })
     }
 
     /// What a picture of a task shows.
@@ -162,8 +139,8 @@ impl Plan {
         let steps = counted(answer.legs.len(), "step");
         let (status, detail) = match (answer.verdict.status(), report.clearance()) {
             (Status::Found, clearance) => {
-                let kept = clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
-                ("done, certified", format!("{}: {steps} in {:.3} s, {kept}", report.planner(), answer.duration()))
+                let (planner, seconds) = (report.planner(), answer.duration());
+                ("done, certified", format!("{planner}: {steps} in {seconds:.3} s, {}", kept(clearance)))
             }
             (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner())),
             (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner())),
@@ -171,6 +148,8 @@ impl Plan {
         TaskPicture {
             title: vec![title_of(self.problem().scene()), detail],
             status: status.into(),
+            ending: Some(self.status()),
+            facts: task_summary::facts(plan),
             task,
             answer,
             c_obstacles: contours,
@@ -188,29 +167,9 @@ pub(crate) fn status(verdict: &Verdict) -> &'static str {
     }
 }
 
-/// Shows a single motion.
-fn with_picture<T>(plan: &MotionPlan, contours: &[CObstacle], show: impl FnOnce(&Picture) -> T) -> T {
-    let MotionPlan { problem, answer, curve, report } = plan;
-    let scene = problem.scene();
-    let outline = curve.as_ref().map(|curve| curve.curve().outline());
-    let detail = match report.length {
-        Some(length) => {
-            let clearance = report.clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"));
-            format!("{}: length {length:.4}, {clearance}", answer.method)
-        }
-        None => answer.method.to_string(),
-    };
-    show(&Picture {
-        title: vec![title_of(scene), detail],
-        status: status(&answer.verdict).into(),
-        scene,
-        start: problem.start(),
-        goals: problem.goals().pieces(),
-        paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
-        trace: Some(&answer.drawn()),
-        proof: answer.verdict.proof(),
-        c_obstacles: contours,
-    })
+/// How far from obstacles a motion is known to stay.
+fn kept(clearance: Option<f64>) -> String {
+    clearance.map_or("nothing to hit".into(), |c| format!("proven clearance {c:.6} m"))
 }
 
 /// Workspace and robot, as a title.

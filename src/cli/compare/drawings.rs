@@ -4,10 +4,9 @@ use super::cases::{Case, Cases};
 use super::runner::Compared;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
-use crate::cspace::CObstacle;
-use crate::draw::{self, Picture};
+use crate::draw::{self, Picture, View};
+use crate::model::Scene;
 use crate::model::Status;
-use crate::model::{MotionProblem, Scene};
 use crate::output::{self, PictureFormat};
 use crate::report::{self, Comparison, Overlay, Study};
 use crate::space::Path;
@@ -35,9 +34,7 @@ pub fn save(
     format: PictureFormat,
     file: &std::path::Path,
 ) -> Result<(), Failure> {
-    let problem = case.problem();
-    let contours = output::contours(problem.scene());
-    sinks::save_picture(format, file, &picture(&problem, comparison, paths, &contours))
+    sinks::save_picture(format, file, &view(case, comparison, paths))
 }
 
 /// The page's pictures: workspace and configuration space of each problem; of random queries, those on which the planners'
@@ -54,9 +51,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &Compared) -> Vec<report::Pi
     }
     let drawn = chosen.into_iter().take(DRAWN_WORLDS).map(|i| {
         let (case, comparison) = (&cases.cases[i], &study.comparisons[i]);
-        let problem = case.problem();
-        let contours = output::contours(problem.scene());
-        let svg = draw::svg(&picture(&problem, comparison, &done.paths[i], &contours));
+        let svg = draw::svg(&view(case, comparison, &done.paths[i]));
         report::Picture { title: case.name.clone(), svg }
     });
     drawn.collect()
@@ -97,24 +92,16 @@ fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
     contours.into_iter().map(|c| c.contour.iter().map(|p| [p.x, p.y]).collect()).collect()
 }
 
-fn picture<'a>(
-    problem: &'a MotionProblem,
-    comparison: &Comparison,
-    paths: &'a [Option<Path>],
-    contours: &'a [CObstacle],
-) -> Picture<'a> {
+fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
+    let problem = case.problem();
     let named = comparison.rows.iter().zip(paths).filter_map(|(row, path)| Some((row, path.as_ref()?)));
-    let paths: Vec<_> = named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect();
     let found = comparison.rows.iter().filter(|row| row.outcome == Status::Found).count();
-    Picture {
+    View::of_picture(&Picture {
         title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
         status: format!("{found} of {} found a certified path", comparison.rows.len()),
-        scene: problem.scene(),
-        start: problem.start(),
         goals: problem.goals().pieces(),
-        paths,
-        trace: None,
-        proof: None,
-        c_obstacles: contours,
-    }
+        paths: named.map(|(row, path)| (format!("{}: {:.3}", row.planner, path.length()), path)).collect(),
+        c_obstacles: &output::contours(problem.scene()),
+        ..Picture::new(problem.scene(), problem.start())
+    })
 }

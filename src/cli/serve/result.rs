@@ -15,7 +15,7 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
     let contours = contours.of(scene);
     let (start, goals) = ends;
     let picture = Picture { status: status.into(), ..picture(scene, start, goals, &contours) };
-    AnswerReply { view: drawn(&View::of_picture(&picture, None, Vec::new(), None)), ..AnswerReply::default() }
+    AnswerReply { view: drawn(&View::of_picture(&picture)), ..AnswerReply::default() }
 }
 
 /// What can be shown while something moves: a path, certified, but neither its bound nor its motion.
@@ -32,6 +32,7 @@ pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Resul
         trace: Some(&answer.run.trace),
         proof: answer.verdict.proof(),
         status: output::status(&answer.verdict).into(),
+        ending: Some(plan.status()),
         ..picture(problem.scene(), problem.start(), problem.goals().pieces(), &contours)
     };
     let mut figures = Figures { clearance: report.clearance, ..Figures::of_size(answer.run.size) };
@@ -39,7 +40,7 @@ pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Resul
         figures.length = Some(options.planner.metric(problem.scene().arm()).length(path.path()));
         picture.paths.push((answer.method.to_string(), path.path()));
     }
-    let view = drawn(&View::of_picture(&picture, Some(plan.status()), Vec::new(), None));
+    let view = drawn(&View::of_picture(&picture));
     Ok(AnswerReply { reason: report.reason.clone(), figures, view, ..judged(plan.status()) })
 }
 
@@ -49,17 +50,8 @@ fn picture<'a>(
     goals: &'a [Segment],
     c_obstacles: &'a [CObstacle],
 ) -> Picture<'a> {
-    Picture {
-        title: vec![output::title_of(scene), arm_of(scene)],
-        status: String::new(),
-        scene,
-        start,
-        goals,
-        paths: Vec::new(),
-        trace: None,
-        proof: None,
-        c_obstacles,
-    }
+    let title = vec![output::title_of(scene), arm_of(scene)];
+    Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 
 /// What is planned for, in a line; so that a page keeps its lines while something moves.

@@ -10,7 +10,7 @@ use super::failure::Failure;
 use super::sinks::{self, Sink};
 use super::{DONE, REFUTED, UNKNOWN};
 use crate::check::{ENDS_WITHIN, check_collision, claims_kept, ends_kept, limits_kept, replay};
-use crate::draw::Picture;
+use crate::draw::{Picture, View};
 use crate::input::{self, LoadedRecording, LoadedScene, LoadedTask, Overrides};
 use crate::model::{Claims, RecordedStep, Scene};
 use crate::output::{PictureFormat, contours, title_of, value};
@@ -149,21 +149,16 @@ fn draw(
     format: PictureFormat,
     file: &std::path::Path,
 ) -> Result<(), Failure> {
-    let contours = contours(scene);
     let path = recording.outline();
     // The arm is shown where it hits.
     let shown = findings.way.first_contact.as_ref().map(|c| c.moment.configuration.into());
-    let goals = [shown.unwrap_or(path.goal()).into()];
-    let picture = Picture {
+    let view = View::of_picture(&Picture {
         title: vec![title_of(scene), format!("{} samples", findings.samples)],
         status: findings.verdict.word().into(),
-        scene,
-        start: path.start(),
-        goals: &goals,
+        goals: &[shown.unwrap_or(path.goal()).into()],
         paths: vec![("motion".into(), &path)],
-        trace: None,
-        c_obstacles: &contours,
-        proof: None,
-    };
-    sinks::save_picture(format, file, &picture)
+        c_obstacles: &contours(scene),
+        ..Picture::new(scene, path.start())
+    });
+    sinks::save_picture(format, file, &view)
 }

@@ -1,28 +1,13 @@
 //! The arm: enough of it to put it into any configuration.
 
-use super::super::workspace;
-use super::round::Grain;
-use crate::geometry::Convex;
-use crate::model::{Joint, JointType, Scene};
-use serde::Serialize;
+use super::numbers::{Grain, ShapeView};
+use crate::draw::{chart, workspace};
+use crate::model::{Arm, Joint, JointType, Part, Scene};
+use serde::{Serialize, Serializer};
 
-/// A rounded convex polygon.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ShapeView {
-    /// Corners of the core, one coordinate after the other.
-    core: Vec<f64>,
-    radius: f64,
-}
-
-impl ShapeView {
-    pub fn new(shape: &Convex, grain: Grain) -> Self {
-        Self { core: grain.points(shape.core()), radius: grain.length(shape.radius()) }
-    }
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct JointView {
-    name: String,
+#[derive(Serialize)]
+struct JointView<'a> {
+    name: &'a str,
     /// `rad` or `m`.
     unit: &'static str,
     /// +1 or -1 of one that turns.
@@ -39,26 +24,28 @@ struct JointView {
     acceleration: f64,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct LinkView {
-    name: String,
-    parts: Vec<PartView>,
+#[derive(Serialize)]
+struct LinkView<'a> {
+    name: &'a str,
+    parts: Vec<PartView<'a>>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct PartView {
-    body: String,
+#[derive(Serialize)]
+struct PartView<'a> {
+    body: &'a str,
     #[serde(flatten)]
     shape: ShapeView,
 }
 
-/// The arm, empty-handed: see [`crate::model::Arm`] for the kinematics.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ArmView {
-    name: String,
+/// See [`Arm`] for the kinematics.
+#[derive(Serialize)]
+struct ArmView<'a> {
+    name: &'a str,
     kind: &'static str,
-    joints: [JointView; 2],
-    links: [LinkView; 2],
+    joints: [JointView<'a>; 2],
+    /// Whether both axes of the configuration space have one scale.
+    one_scale: bool,
+    links: [LinkView<'a>; 2],
     base: [f64; 2],
     offset: [f64; 2],
     tip: [f64; 2],
@@ -66,37 +53,45 @@ pub struct ArmView {
     plane: [String; 2],
 }
 
-impl ArmView {
-    pub fn new(scene: &Scene, grain: Grain) -> Self {
-        let arm = scene.arm();
-        let link = |k: usize| {
-            let part = |part: &crate::model::Part| PartView {
-                body: part.body.clone(),
-                shape: ShapeView::new(&part.shape, grain),
-            };
-            LinkView { name: arm.links[k].name.clone(), parts: scene.own_parts(k).iter().map(part).collect() }
-        };
-        Self {
-            name: arm.name.clone(),
-            kind: arm.kind(),
-            joints: arm.joints.each_ref().map(joint),
-            links: [link(0), link(1)],
-            base: [arm.base.x, arm.base.y],
-            offset: [arm.offset.x, arm.offset.y],
-            tip: [arm.tip.x, arm.tip.y],
-            plane: workspace::titles(&arm.plane),
-        }
+/// A scene's arm, empty-handed.
+#[must_use]
+pub fn empty_handed(scene: &Scene, grain: Grain) -> Arm {
+    let mut arm = scene.arm().clone();
+    for (k, link) in arm.links.iter_mut().enumerate() {
+        let part = |part: &Part| Part { shape: grain.shape(&part.shape).0, ..part.clone() };
+        link.parts = scene.own_parts(k).iter().map(part).collect();
     }
+    arm
+}
+
+/// What a page has to know of an arm.
+pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok, S::Error> {
+    let link = |k: usize| {
+        let part = |part: &'a Part| PartView { body: &part.body, shape: ShapeView(part.shape.clone()) };
+        LinkView { name: &arm.links[k].name, parts: arm.links[k].parts.iter().map(part).collect() }
+    };
+    let document = ArmView {
+        name: &arm.name,
+        kind: arm.kind(),
+        joints: arm.joints.each_ref().map(joint),
+        one_scale: chart::one_scale(arm).is_some(),
+        links: [link(0), link(1)],
+        base: [arm.base.x, arm.base.y],
+        offset: [arm.offset.x, arm.offset.y],
+        tip: [arm.tip.x, arm.tip.y],
+        plane: workspace::titles(&arm.plane),
+    };
+    document.serialize(serializer)
 }
 
 /// Unrounded: what comes of these numbers is multiplied and added up.
-fn joint(joint: &Joint) -> JointView {
+fn joint(joint: &Joint) -> JointView<'_> {
     let (sign, direction) = match joint.joint_type {
         JointType::Revolute { sign } => (Some(sign), None),
         JointType::Prismatic { direction } => (None, Some([direction.x, direction.y])),
     };
     JointView {
-        name: joint.name.clone(),
+        name: &joint.name,
         unit: joint.unit(),
         sign,
         direction,

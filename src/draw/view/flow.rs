@@ -1,6 +1,6 @@
 //! Lines of steepest ascent through a field, from places all over it.
 
-use crate::draw::isolines::Samples;
+use super::isolines::Samples;
 use crate::space::Topology;
 
 /// Places along each axis from which lines begin.

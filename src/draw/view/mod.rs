@@ -1,41 +1,55 @@
-//! Pages that people move things in: the same results as the pictures, for a browser to draw.
+//! What there is to see, decided once: pictures and pages render the same view.
 //!
 //! ```text
-//! Picture, TaskPicture -> View (a document of numbers and names) -> JSON -> page
+//! Picture, TaskPicture -> View -> Figure -> SVG -> PNG
+//!                             \-> JSON -> page
 //! ```
 //!
 //! A [`View`] holds what happens and where: the arm, the worlds that it moves in (one for a plan, one for each payload
-//! state of a task) with their C-obstacles, and the motions in time. Kinematics, contacts and layers are the page's work,
-//! so that whoever holds it can put the arm anywhere. A page is one file that needs no network; the same view is the same
-//! file, byte for byte.
+//! state of a task) with their C-obstacles, paths with their colours, and the motions in time; numbers and names, rounded to
+//! what can be seen. In pages kinematics, contacts and layers are the page's work, so that whoever holds it can put the arm
+//! anywhere. A page is one file that needs no network; the same view is the same file, byte for byte.
 
 mod arm;
+mod extent;
 mod flow;
 mod html;
+mod isolines;
 mod motion;
-mod round;
+mod numbers;
+mod picture;
+mod slope;
+mod states;
+mod steps;
 mod task;
 mod trace;
+mod waves;
 mod world;
 
 pub use html::{page, shell};
+pub use picture::{AxesFrame, Picture};
+pub use task::TaskPicture;
 
-use super::{ArmPicture, Picture, TaskPicture, extent};
-use crate::model::Status;
-use crate::motion::Trajectory;
-use crate::space::Segment;
-use arm::ArmView;
-use motion::{Clock, MotionView, PathView};
-use round::Grain;
+pub(super) use extent::around;
+pub(super) use motion::PathView;
+pub(super) use numbers::Chain;
+pub(super) use states::ranges;
+pub(super) use steps::Row;
+pub(super) use trace::TraceView;
+pub(super) use waves::{LEVELS, Waves};
+pub(super) use world::{ContourView, ObstacleView, PayloadView, RegionView, WorldView};
+
+use crate::model::{Arm, Status};
+use crate::space::Configuration;
+use motion::{Clock, MotionView};
 use serde::{Serialize, Serializer};
-use world::WorldView;
 
 /// How what is shown ended, for colours and symbols; `shown` where nothing was asked for: a comparison, a configuration.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
 
-/// What a page shows. Lengths in metres, angles in radians, times in seconds, rounded to what can be seen.
+/// What a picture or a page shows. Lengths in metres, angles in radians, times in seconds, rounded to what can be seen.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// The first line is the title; the others follow in smaller type.
@@ -47,83 +61,76 @@ pub struct View {
     pub ending: Option<Status>,
     /// What is to be said of the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
-    arm: ArmView,
+    /// Empty-handed.
+    #[serde(serialize_with = "arm::document")]
+    pub(super) arm: Arm,
     /// What of the workspace is shown: least and greatest of both coordinates.
-    frame: [[f64; 2]; 2],
-    start: [f64; 2],
-    goals: Vec<[f64; 2]>,
-    /// Goals along segments: both ends of each, one coordinate after the other.
-    goal_lines: Vec<[f64; 4]>,
-    worlds: Vec<WorldView>,
-    paths: Vec<PathView>,
+    pub(super) frame: [[f64; 2]; 2],
+    pub(super) start: [f64; 2],
+    pub(super) goals: Vec<[f64; 2]>,
+    /// Goals along segments: both ends of each.
+    pub(super) goal_lines: Vec<Chain>,
+    /// The first is the one that is there at first.
+    pub(super) worlds: Vec<WorldView>,
+    pub(super) paths: Vec<PathView>,
     motions: Vec<MotionView>,
     clock: Option<Clock>,
-    frames: Vec<FrameView>,
+    pub(super) frames: Vec<FrameView>,
+    #[serde(skip)]
+    pub(super) still: Still,
 }
 
-/// A frame, drawn by its axes: see [`super::AxesFrame`].
+/// A frame, drawn by its axes: see [`AxesFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct FrameView {
-    name: String,
-    at: [f64; 2],
-    axes: [[f64; 3]; 3],
+pub(super) struct FrameView {
+    pub name: String,
+    pub at: [f64; 2],
+    pub axes: [[f64; 3]; 3],
+}
+
+/// What pictures show side by side, and pages one after the other: these have time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Still {
+    /// None of an arm alone.
+    pub panels: Vec<PanelView>,
+    /// Objects where they are put, each place once.
+    pub placed: Vec<ObstacleView>,
+    /// Where the arm is in the end, and in which world.
+    pub end: Option<([f64; 2], usize)>,
+    /// The steps of a task, below what the columns are called; none of single motions.
+    pub steps: Vec<Row>,
+}
+
+/// A configuration space, and what takes place in it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct PanelView {
+    /// The text above it.
+    pub title: String,
+    /// These differ in what link 2 may reach into alone.
+    pub worlds: Vec<usize>,
+    /// Those that are drawn; those that are repeated once.
+    pub paths: Vec<usize>,
+    /// Where the arm is at first.
+    pub start: [f64; 2],
+    /// The step that fails here, if one does.
+    pub fails: Option<usize>,
 }
 
 impl View {
-    /// The view of a picture; with a trajectory, that of the motion along its only path.
-    #[must_use]
-    pub fn of_picture(
-        picture: &Picture,
-        ending: Option<Status>,
-        facts: Vec<[String; 2]>,
-        motion: Option<&Trajectory>,
-    ) -> Self {
-        let arm = picture.scene.arm();
-        let grain = Grain::of(arm);
-        let world = WorldView::new(picture.scene, String::new(), picture.c_obstacles, grain);
-        let world = match picture.trace {
-            Some(trace) => world.traced(trace, &arm.topology(), grain),
-            None => world,
-        };
-        let line = |goals: &Segment| {
-            let [[a, b], [c, d]] = goals.ends().map(|q| grain.configuration(q));
-            [a, b, c, d]
-        };
-        Self {
-            title: picture.title.clone(),
-            status: picture.status.clone(),
-            ending,
-            facts,
-            arm: ArmView::new(picture.scene, grain),
-            frame: extent::sides(picture.scene, &picture.shown())
-                .map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
-            start: grain.configuration(picture.start),
-            goals: picture.single_goals().into_iter().map(|q| grain.configuration(q)).collect(),
-            goal_lines: picture.goals.iter().filter(|goal| !goal.is_point()).map(line).collect(),
-            worlds: vec![world.proven(picture.proof, grain)],
-            paths: PathView::of_picture(&picture.paths, grain),
-            motions: motion.map(|trajectory| MotionView::only(trajectory.duration())).into_iter().collect(),
-            clock: motion.map(|trajectory| Clock::new(trajectory, grain)),
-            frames: Vec::new(),
-        }
+    /// Whether it is that of a task, whose steps have numbers.
+    pub(super) fn is_task(&self) -> bool {
+        !self.still.steps.is_empty()
     }
 
-    /// The view of an arm in one configuration, without its configuration space.
-    #[must_use]
-    pub fn of_arm(arm_picture: &ArmPicture) -> Self {
-        let grain = Grain::of(arm_picture.scene.arm());
-        let frames = arm_picture.frames.iter().map(|frame| FrameView {
-            name: frame.name.clone(),
-            at: grain.point(frame.at),
-            axes: frame.axes.map(|axis| [axis.x, axis.y, axis.z].map(|x| grain.number(x))),
-        });
-        Self { frames: frames.collect(), ..Self::of_picture(&arm_picture.picture(), None, Vec::new(), None) }
+    /// The world that is there at first.
+    pub(super) fn first_world(&self) -> &WorldView {
+        &self.worlds[0]
     }
 
-    /// The view of a task: a world for each set of motions that share one.
-    #[must_use]
-    pub fn of_task(picture: &TaskPicture, ending: Option<Status>, facts: Vec<[String; 2]>) -> Self {
-        task::view(picture, ending, facts)
+    /// Configurations that were to be reached and are not, each with its world.
+    pub(super) fn unreached(&self) -> impl Iterator<Item = (usize, Configuration)> {
+        let worlds = self.worlds.iter().enumerate();
+        worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
     /// The document that the page's code reads.

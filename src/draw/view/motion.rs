@@ -1,10 +1,17 @@
 //! Paths, and motions in time.
 
-use super::round::Grain;
-use crate::draw::page::path_pen;
+use super::numbers::{Chain, Grain};
+use crate::draw::color::{self, INK, Rgb};
+use crate::draw::figure::Pen;
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Path};
 use serde::Serialize;
+
+/// Poses shown between the ends of a path.
+const GHOSTS: usize = 5;
+/// Width of a line that is looked at, and of one that is not, pixels.
+const WIDE: f64 = 2.4;
+const THIN: f64 = 1.6;
 
 /// A path in a world.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -13,26 +20,78 @@ pub struct PathView {
     pub world: usize,
     /// Colour, unless it is drawn in ink.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<String>,
-    pub dash: Vec<f64>,
-    /// Unwrapped configurations, one value after the other.
-    pub points: Vec<f64>,
+    color: Option<Rgb>,
+    /// Pixels.
+    width: f64,
+    /// Lengths of dashes and gaps in turn.
+    dash: &'static [f64],
+    /// Unwrapped configurations.
+    pub points: Chain,
+    /// Configurations that divide it into equal parts.
+    pub ghosts: Chain,
+    /// The number of the step that it is in a task.
+    #[serde(skip)]
+    pub step: usize,
 }
 
 impl PathView {
-    pub fn of_picture(paths: &[(String, &Path)], grain: Grain) -> Vec<Self> {
-        let view = |(index, (name, path)): (usize, &(String, &Path))| {
-            let pen = path_pen(index, paths.len());
-            Self {
-                name: name.clone(),
-                world: 0,
-                color: (paths.len() > 1).then(|| pen.color.to_string()),
-                dash: pen.dash.to_vec(),
-                points: grain.configurations(path.waypoints()),
-            }
-        };
-        paths.iter().enumerate().map(view).collect()
+    /// Path `index` out of `count`: a single one is drawn in ink.
+    pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: Grain) -> Self {
+        let (color, dash) = color::path(index);
+        let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
+        Self {
+            name: name.to_owned(),
+            world: 0,
+            color,
+            width: WIDE,
+            dash,
+            points: grain.configurations(path.waypoints()),
+            ghosts: grain.configurations(&between(path, GHOSTS)),
+            step: 0,
+        }
     }
+
+    /// The path of a step, in the colour of what is carried.
+    pub fn of_step(name: String, path: &Path, world: usize, step: usize, carried: Option<Rgb>, grain: Grain) -> Self {
+        let color = carried.map(|color| color.darker(0.25));
+        let width = if carried.is_some() { WIDE } else { THIN };
+        Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
+    }
+
+    /// How it is drawn.
+    pub fn pen(&self) -> Pen {
+        Pen { color: self.color.unwrap_or(INK), width: self.width, dash: self.dash }
+    }
+
+    /// Whether something is carried along it.
+    pub fn is_colored(&self) -> bool {
+        self.color.is_some()
+    }
+
+    /// Where it begins.
+    pub fn start(&self) -> Configuration {
+        self.points.0[0]
+    }
+
+    /// Where it ends.
+    pub fn goal(&self) -> Configuration {
+        self.points.0[self.points.0.len() - 1]
+    }
+}
+
+/// Configurations that divide the path into `count + 1` equal parts.
+fn between(path: &Path, count: usize) -> Vec<Configuration> {
+    let total = path.length();
+    let mut wanted = (1..=count).map(|k| total * k as f64 / (count + 1) as f64).peekable();
+    let (mut found, mut done) = (Vec::new(), 0.0);
+    for (a, b) in path.segments() {
+        let length = (b - a).norm();
+        while let Some(s) = wanted.next_if(|&s| s <= done + length) {
+            found.push(a + (b - a) * ((s - done) / length));
+        }
+        done += length;
+    }
+    found
 }
 
 /// A motion from rest to rest.
@@ -58,24 +117,42 @@ impl MotionView {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Clock {
     time: Vec<f64>,
-    /// Of both joints, one after the other; radians or metres.
-    position: Vec<f64>,
+    /// Of both joints; radians or metres.
+    position: Chain,
     /// The same a second.
-    velocity: Vec<f64>,
+    velocity: Chain,
     /// The same a second squared, at the beginning of the interval that begins here.
-    acceleration: Vec<f64>,
+    acceleration: Chain,
 }
 
 impl Clock {
     pub fn new(trajectory: &Trajectory, grain: Grain) -> Self {
-        let flat = |values: &[[f64; 2]]| -> Vec<f64> {
-            values.iter().flat_map(|&q| grain.configuration(Configuration::from(q))).collect()
-        };
+        let chain = |values: &[[f64; 2]]| Chain(values.iter().map(|&q| grain.configuration(q.into()).into()).collect());
         Self {
             time: trajectory.time.iter().map(|&t| (t * 1e6).round() / 1e6).collect(),
-            position: flat(&trajectory.position),
-            velocity: flat(&trajectory.velocity),
-            acceleration: flat(&trajectory.acceleration),
+            position: chain(&trajectory.position),
+            velocity: chain(&trajectory.velocity),
+            acceleration: chain(&trajectory.acceleration),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ghosts_are_equally_spaced() {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 3.0), (0.5, 3.0)];
+        let path = Path::new(corners.iter().map(|c| Configuration::new(c.0, c.1)).collect());
+        let all = between(&path, 8);
+        let expected: Vec<Configuration> =
+            [(0.5, 0.0), (1.0, 0.0), (1.0, 0.5), (1.0, 1.0), (1.0, 1.5), (1.0, 2.0), (1.0, 2.5), (1.0, 3.0)]
+                .iter()
+                .map(|c| Configuration::new(c.0, c.1))
+                .collect();
+        assert_eq!(all.len(), expected.len());
+        assert!(all.iter().zip(&expected).all(|(a, b)| (a - b).norm() < 1e-12), "{all:?}");
+        assert!(between(&Path::new(vec![Configuration::zeros()]), 3).is_empty());
     }
 }

@@ -1,63 +1,136 @@
-//! The view of a task: its worlds, and what happens when.
+//! A task: its worlds, what happens when, and which motions a still picture shows together.
 
-use super::View;
-use super::arm::ArmView;
+use super::arm;
 use super::motion::{Clock, MotionView, PathView};
-use super::round::Grain;
-use super::world::WorldView;
-use crate::draw::task::{describe, motion_pen, words};
-use crate::draw::{TaskPicture, extent};
-use crate::engine::task::{Event, Impossible, Leg, Sequence};
+use super::numbers::Grain;
+use super::states::{PayloadState, describe, payload_states, rounds};
+use super::steps::{rows, words};
+use super::world::{ContourView, ObstacleView, WorldView, contours};
+use super::{PanelView, Still, View, extent};
+use crate::cspace::CObstacle;
+use crate::draw::color;
+use crate::engine::task::{Event, Impossible, Leg, Sequence, TaskAnswer};
 use crate::geometry::Pose;
-use crate::model::{Scene, Status, Task};
+use crate::model::{Obstacle, Scene, Status, Task};
 use std::sync::Arc;
 
-/// See [`View::of_task`].
-pub fn view(picture: &TaskPicture, ending: Option<Status>, facts: Vec<[String; 2]>) -> View {
+/// Poses nearer than this, metres and radians, look the same; rounding of those that are.
+const SAME: f64 = 1e-6;
+
+/// What there is to show of a task. Objects count as obstacles, numbered after those that stay: they have the same
+/// colour wherever they are, and in every world.
+#[derive(Debug, Clone)]
+pub struct TaskPicture<'a> {
+    /// The first line is the title; the others follow in smaller type.
+    pub title: Vec<String>,
+    /// How it ended, in a word or two. Where a step fails, its number comes before, and the reason below the title.
+    pub status: String,
+    /// The same for colours and symbols.
+    pub ending: Option<Status>,
+    /// What is to be said of the result: names and values.
+    pub facts: Vec<[String; 2]>,
+    /// What was asked.
+    pub task: &'a Task,
+    /// What came of it.
+    pub answer: &'a TaskAnswer,
+    /// Contours of a scene in joint space. Asked for each world, and once more where link 2 reaches into an object.
+    pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
+}
+
+impl View {
+    /// The view of a task: a world for each set of motions that share one.
+    #[must_use]
+    pub fn of_task(picture: &TaskPicture) -> Self {
+        let (task, legs) = (picture.task, &picture.answer.legs);
+        let grain = Grain::of(&task.arm);
+        let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
+        let (mut paths, mut motions) = (Vec::new(), Vec::new());
+        let mut from = 0.0;
+        for leg in legs {
+            let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
+            let world = worlds.of(&leg.scene);
+            motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone() });
+            let carried = leg.carried.map(|object| color::obstacle(task.obstacle_number(object)));
+            let outline = leg.timed.curve.curve().outline();
+            paths.push(PathView::of_step(name, &outline, world, leg.step.number, carried, grain));
+            from = leg.event_time().unwrap_or_else(|| leg.end());
+        }
+        let (world, label) = match picture.answer.impossible() {
+            Some(fails) => {
+                let label = format!("{}. {} fails", fails.step.number, fails.step.action.describe(&task.objects));
+                (worlds.failing(fails), label)
+            }
+            None => {
+                let scene = Scene::trusted(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
+                (worlds.of(&Arc::new(scene)), "done".to_owned())
+            }
+        };
+        motions.push(MotionView { world, path: None, from, label });
+        let placed = placed(task, legs);
+        let at_first: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
+        let mut everything = task.obstacles(&at_first);
+        everything.obstacles.extend(placed.iter().map(|(_, obstacle)| obstacle.clone()));
+        let overview = Scene::trusted(task.arm.clone(), everything);
+        let ends = legs.iter().map(|leg| leg.timed.curve.curve().path().goal());
+        let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();
+        let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
+        let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
+        let still = Still {
+            panels: panels(picture, &paths, world, grain),
+            placed: placed.collect(),
+            // What was let go of at the end lies there.
+            end: last
+                .zip(paths.last())
+                .map(|((leg, world), path)| (path.goal().into(), if leg.event.is_some() { 0 } else { world })),
+            steps: rows(picture),
+        };
+        let (title, status) = words(picture);
+        Self {
+            title,
+            status,
+            ending: picture.ending,
+            facts: picture.facts.clone(),
+            arm: arm::empty_handed(&overview, grain),
+            frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
+            start: grain.configuration(task.start),
+            goals: Vec::new(),
+            goal_lines: Vec::new(),
+            worlds: worlds.views,
+            paths,
+            motions,
+            clock: Sequence::of(legs).map(|sequence| Clock::new(&sequence.trajectory, grain)),
+            frames: Vec::new(),
+            still,
+        }
+    }
+}
+
+/// A configuration space for each payload state, then that of the step that fails, in the world `last`.
+fn panels(picture: &TaskPicture, paths: &[PathView], last: usize, grain: Grain) -> Vec<PanelView> {
     let (task, legs) = (picture.task, &picture.answer.legs);
-    let grain = Grain::of(&task.arm);
-    let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
-    let (mut paths, mut motions) = (Vec::new(), Vec::new());
-    let mut from = 0.0;
-    for leg in legs {
-        let name = format!("{}. {}", leg.step.number, leg.step.action.describe(&task.objects));
-        let world = worlds.of(&leg.scene);
-        motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone() });
-        paths.push(path(task, leg, name, world, grain));
-        from = leg.event_time().unwrap_or_else(|| leg.end());
-    }
-    let last = match picture.answer.impossible() {
-        Some(fails) => {
-            let label = format!("{}. {} fails", fails.step.number, fails.step.action.describe(&task.objects));
-            MotionView { world: worlds.failing(fails), path: None, from, label }
-        }
-        None => {
-            let scene = Scene::trusted(task.arm.clone(), task.obstacles(&at_the_end(task, legs)));
-            MotionView { world: worlds.of(&Arc::new(scene)), path: None, from, label: "done".to_owned() }
-        }
+    let states = payload_states(legs, &task.arm.topology());
+    let rounds = rounds(legs);
+    let panel = |state: &PayloadState| {
+        let numbers: Vec<usize> = state.motions.iter().map(|(index, _)| *index).collect();
+        let worlds = numbers.iter().map(|&index| paths[index].world).collect();
+        let start = paths[numbers[0]].start().into();
+        PanelView { title: state.title(rounds), worlds, paths: numbers, start, fails: None }
     };
-    motions.push(last);
-    let ends = legs.iter().map(|leg| leg.timed.curve.curve().path().goal());
-    let shown: Vec<_> = [task.start].into_iter().chain(ends).collect();
-    let at_first: Vec<_> = task.objects.iter().map(|object| Some(object.at)).collect();
-    let overview = Scene::trusted(task.arm.clone(), task.obstacles(&at_first));
-    let (title, status) = words(picture);
-    View {
-        title,
-        status,
-        ending,
-        facts,
-        arm: ArmView::new(&overview, grain),
-        frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
-        start: grain.configuration(task.start),
-        goals: Vec::new(),
-        goal_lines: Vec::new(),
-        worlds: worlds.views,
-        paths,
-        motions,
-        clock: Sequence::of(legs).map(|sequence| Clock::new(&sequence.trajectory, grain)),
-        frames: Vec::new(),
+    let mut panels: Vec<PanelView> = states.iter().map(panel).collect();
+    let fails = picture.answer.impossible();
+    if let Some(fails) = fails {
+        let payload = describe(fails.scene.payload().map(|payload| payload.object.as_str()));
+        let (number, cycle) = (fails.step.number, fails.step.cycle);
+        let round = if cycle > 1 { format!(", round {cycle}") } else { String::new() };
+        let title = format!("{number} fails: {payload}{round}");
+        let start = grain.configuration(fails.from);
+        panels.push(PanelView { title, worlds: vec![last], paths: Vec::new(), start, fails: Some(number) });
     }
+    if panels.is_empty() {
+        let start = grain.configuration(task.start);
+        panels.push(PanelView { title: describe(None), worlds: vec![last], paths: Vec::new(), start, fails: None });
+    }
+    panels
 }
 
 /// The worlds of a task, each once.
@@ -76,11 +149,35 @@ impl Worlds<'_> {
     }
 
     fn add(&mut self, scene: &Arc<Scene>) -> usize {
-        let contours = (self.picture.c_obstacles)(scene);
+        let c_obstacles = (self.picture.c_obstacles)(scene);
         let label = describe(scene.payload().map(|payload| payload.object.as_str()));
-        self.views.push(WorldView::new(scene, label, &contours, self.grain));
+        let open = self.open(scene);
+        self.views.push(WorldView { open, ..WorldView::new(scene, label, &c_obstacles, self.grain) });
         self.scenes.push(scene.clone());
         self.views.len() - 1
+    }
+
+    /// What link 2 may reach into, as it were if it may not.
+    fn open(&self, scene: &Scene) -> Vec<ContourView> {
+        let mut workspace = scene.workspace().clone();
+        let whole = |workspace| {
+            Scene::handling_trusted(self.picture.task.arm.clone(), workspace, scene.payload().cloned(), &[])
+        };
+        let closed = whole(workspace.clone());
+        let pairs = |scene: &Scene, obstacle| scene.pairs().iter().filter(|pair| pair.obstacle == obstacle).count();
+        let mut any = false;
+        for (number, obstacle) in workspace.obstacles.iter_mut().enumerate() {
+            if pairs(scene, number) < pairs(&closed, number) {
+                any = true;
+            } else {
+                obstacle.pieces.clear();
+            }
+        }
+        if !any {
+            return Vec::new();
+        }
+        let all = (self.picture.c_obstacles)(&whole(workspace));
+        contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
     /// The world of the step that fails, with what proves that.
@@ -88,19 +185,8 @@ impl Worlds<'_> {
         let world = self.add(&fails.scene);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
         let unreached = fails.ik_solutions.iter().map(|to| self.grain.configuration(to.ik_solution)).collect();
-        self.views[world] = self.views[world].clone().proven(proofs, self.grain).without(unreached);
+        self.views[world] = WorldView { unreached, ..self.views[world].clone().proven(proofs, self.grain) };
         world
-    }
-}
-
-/// The path of a step.
-fn path(task: &Task, leg: &Leg, name: String, world: usize, grain: Grain) -> PathView {
-    PathView {
-        name,
-        world,
-        color: leg.carried.map(|_| motion_pen(task, leg).color.to_string()),
-        dash: Vec::new(),
-        points: grain.configurations(leg.timed.curve.curve().outline().waypoints()),
     }
 }
 
@@ -114,4 +200,21 @@ fn at_the_end(task: &Task, legs: &[Leg]) -> Vec<Option<Pose>> {
         };
     }
     poses
+}
+
+/// Where objects are put, by the object's number; each place once, and none where the object lay at first.
+fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
+    let mut seen: Vec<(usize, Pose)> = task.objects.iter().map(|object| object.at).enumerate().collect();
+    let first = seen.len();
+    for leg in legs {
+        let Some(Event::Release { object, pose }) = leg.event else { continue };
+        let same = |known: &(usize, Pose)| {
+            let by = known.1.inv_mul(&pose);
+            known.0 == object && by.translation.vector.norm() <= SAME && by.rotation.angle().abs() <= SAME
+        };
+        if !seen.iter().any(same) {
+            seen.push((object, pose));
+        }
+    }
+    seen[first..].iter().map(|(object, pose)| (*object, task.objects[*object].lying(Some(pose)))).collect()
 }

@@ -1,105 +1,121 @@
 //! A world that the arm moves in: obstacles, what it carries, which pairs can meet, and the C-obstacles.
 
-use super::arm::ShapeView;
-use super::round::Grain;
+use super::numbers::{Chain, Grain, ShapeView, number, outline};
 use super::trace::TraceView;
 use crate::check::CheckedProof;
 use crate::cspace::CObstacle;
-use crate::draw::color;
-use crate::geometry::Convex;
-use crate::model::{Grip, Obstacle, Pair, Region, Scene, Shape};
-use crate::planner::Trace;
-use crate::space::{Configuration, Topology};
-use serde::Serialize;
+use crate::draw::color::{self, Rgb};
+use crate::geometry::{Convex, Point};
+use crate::model::{Grip, Obstacle, Pair, Preference, Region, Scene, Shape};
+use crate::space::Configuration;
+use serde::{Serialize, Serializer};
 
-/// An obstacle's shape as the user gave it; without one, it is the union of its pieces.
+/// An obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum OutlineView {
-    Polygon(Vec<f64>),
-    Circle([f64; 3]),
-    Polyline(Vec<f64>),
-    Pieces,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct ObstacleView {
-    name: String,
-    color: String,
-    outline: OutlineView,
+pub struct ObstacleView {
+    pub name: String,
+    /// The same in both spaces.
+    pub color: Rgb,
+    /// As the user gave it; without a shape of its own, it is the union of its pieces.
+    #[serde(serialize_with = "outline")]
+    pub outline: Shape,
     /// How many of the pieces are the obstacle itself; those that follow are what a payload meets in their place: what
     /// a level one makes of them, which the tip must not enter, and supports, nearer than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }
 
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum GripView {
-    /// Coordinates and angle in link 2's frame.
-    Rigid([f64; 3]),
-    /// Angle in the plane, and the point at the tip.
-    Level([f64; 3]),
+impl ObstacleView {
+    /// One that is number `number` in its world.
+    pub fn new(obstacle: &Obstacle, number: usize, grain: Grain) -> Self {
+        Self {
+            name: obstacle.name.clone(),
+            color: color::obstacle(number),
+            outline: grain.outline(&obstacle.shape),
+            own: obstacle.pieces.len(),
+            pieces: obstacle.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        }
+    }
+
+    /// The obstacle itself as convex pieces; without any it lies nowhere: it is carried.
+    pub fn own(&self) -> impl Iterator<Item = &Convex> {
+        self.pieces[..self.own].iter().map(|piece| &piece.0)
+    }
+
+    /// Whether it lies somewhere.
+    pub fn lies(&self) -> bool {
+        self.own > 0
+    }
 }
 
+/// What is carried.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct PayloadView {
-    object: String,
-    color: String,
+pub struct PayloadView {
+    pub object: String,
+    /// That of the obstacle which it is while it lies somewhere, or the one after all others.
+    pub color: Rgb,
     /// In its own frame.
-    pieces: Vec<ShapeView>,
-    grip: GripView,
+    pub pieces: Vec<ShapeView>,
+    #[serde(serialize_with = "grip")]
+    pub grip: Grip,
     /// What it is to link 2, in whose frame these are: parts that follow the link's own.
     parts: Vec<ShapeView>,
 }
 
-/// The contour of a part of a C-obstacle, one value after the other.
+/// Rigid: coordinates and angle in link 2's frame. Level: angle in the plane, and the point at the tip.
+fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
+    let (index, name, numbers) = match *grip {
+        Grip::Rigid(pose) => (0, "rigid", [pose.translation.x, pose.translation.y, pose.rotation.angle()]),
+        Grip::Level { angle, point } => (1, "level", [angle, point.x, point.y]),
+    };
+    serializer.serialize_newtype_variant("Grip", index, name, &numbers.map(number))
+}
+
+/// The contour of a part of a C-obstacle.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct ContourView {
-    obstacle: usize,
+pub struct ContourView {
+    pub obstacle: usize,
     link: usize,
-    contour: Vec<f64>,
+    pub contour: Chain,
 }
 
 /// A region that fields prefer (negative) or avoid.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct RegionView {
+pub struct RegionView {
     name: String,
-    epsilon: f64,
+    pub epsilon: f64,
     /// Whether the corners are configurations, rather than places of the tip.
-    joints: bool,
-    corners: Vec<f64>,
+    pub joints: bool,
+    pub corners: Chain,
 }
 
-/// A world as the page draws it.
+/// A world as it is drawn.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WorldView {
     /// What there is to say of it, in a word or two.
-    label: String,
-    clearance: f64,
-    obstacles: Vec<ObstacleView>,
+    pub label: String,
+    pub clearance: f64,
+    pub obstacles: Vec<ObstacleView>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    payload: Option<PayloadView>,
+    pub payload: Option<PayloadView>,
     /// Which shapes can meet: link, part, obstacle, first piece, and the one after the last.
-    pairs: Vec<[usize; 5]>,
-    c_obstacles: Vec<ContourView>,
-    regions: Vec<RegionView>,
+    pub pairs: Vec<[usize; 5]>,
+    pub c_obstacles: Vec<ContourView>,
+    /// What the obstacles would block that link 2 may reach into here. Pages show one world at a time, and do without.
+    #[serde(skip)]
+    pub open: Vec<ContourView>,
+    pub regions: Vec<RegionView>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    trace: Option<TraceView>,
+    pub trace: Option<TraceView>,
     /// Boxes that prove that there is no path: least and greatest values of each.
-    proof: Vec<f64>,
+    pub proof: Chain,
     /// Configurations that were to be reached and are not.
-    unreached: Vec<[f64; 2]>,
+    pub unreached: Vec<[f64; 2]>,
 }
 
 impl WorldView {
     /// A scene, what there is to say of it, and the contours of its C-obstacles.
     pub fn new(scene: &Scene, label: String, c_obstacles: &[CObstacle], grain: Grain) -> Self {
-        let contour = |c: &CObstacle| ContourView {
-            obstacle: c.obstacle,
-            link: c.link,
-            contour: grain.configurations(c.contour.iter().map(|p| &p.coords)),
-        };
         let obstacles = scene.workspace().obstacles.iter().enumerate();
         Self {
             label,
@@ -107,68 +123,53 @@ impl WorldView {
             obstacles: obstacles.map(|(number, o)| obstacle(scene, number, o, grain)).collect(),
             payload: payload(scene, grain),
             pairs: ranges(scene.pairs()),
-            c_obstacles: c_obstacles.iter().map(contour).collect(),
-            regions: regions(scene, grain),
+            c_obstacles: contours(c_obstacles, grain),
+            open: Vec::new(),
+            regions: scene.workspace().preferences.iter().map(|preference| region(preference, grain)).collect(),
             trace: None,
-            proof: Vec::new(),
+            proof: Chain::default(),
             unreached: Vec::new(),
         }
     }
 
-    /// The same with what a planner saw.
-    pub fn traced(self, trace: &Trace, topology: &Topology, grain: Grain) -> Self {
-        Self { trace: TraceView::new(trace, topology, grain), ..self }
-    }
-
-    /// The same with configurations that are not reached.
-    pub fn without(self, unreached: Vec<[f64; 2]>) -> Self {
-        Self { unreached, ..self }
-    }
-
     /// The same with proofs.
     pub fn proven<'a>(self, proofs: impl IntoIterator<Item = &'a CheckedProof>, grain: Grain) -> Self {
-        let boxes =
-            proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]);
-        Self { proof: boxes.flat_map(|corner| grain.configuration(Configuration::from(corner))).collect(), ..self }
+        let boxes = proofs.into_iter().flat_map(CheckedProof::stuck).flat_map(|s| [s.cell.lower, s.cell.upper]);
+        let corners: Vec<_> = boxes.map(Configuration::from).collect();
+        Self { proof: grain.configurations(&corners), ..self }
     }
 }
 
+/// Contours as they are drawn.
+pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Grain) -> Vec<ContourView> {
+    let contour = |c: &CObstacle| ContourView {
+        obstacle: c.obstacle,
+        link: c.link,
+        contour: grain.configurations(c.contour.iter().map(|p| &p.coords)),
+    };
+    all.into_iter().map(contour).collect()
+}
+
 fn obstacle(scene: &Scene, number: usize, obstacle: &Obstacle, grain: Grain) -> ObstacleView {
-    let own = obstacle.pieces.len();
+    let mut view = ObstacleView::new(obstacle, number, grain);
     let last = scene.pairs().iter().filter(|pair| pair.obstacle == number).map(|pair| pair.piece + 1).max();
-    let made = (own..last.unwrap_or(own)).map(|piece| scene.piece(Pair { link: 1, part: 0, obstacle: number, piece }));
-    ObstacleView {
-        name: obstacle.name.clone(),
-        color: color::obstacle(number).to_string(),
-        outline: match &obstacle.shape {
-            Shape::Polygon(corners) => OutlineView::Polygon(grain.points(corners)),
-            Shape::Circle { center, radius } => {
-                let [x, y] = grain.point(*center);
-                OutlineView::Circle([x, y, grain.length(*radius)])
-            }
-            Shape::Polyline(points) => OutlineView::Polyline(grain.points(points)),
-            Shape::Pieces => OutlineView::Pieces,
-        },
-        own,
-        pieces: obstacle.pieces.iter().chain(made).map(|piece| ShapeView::new(piece, grain)).collect(),
-    }
+    let made = (view.own..last.unwrap_or(view.own))
+        .map(|piece| scene.piece(Pair { link: 1, part: 0, obstacle: number, piece }));
+    view.pieces.extend(made.map(|piece| grain.shape(piece)));
+    view
 }
 
 fn payload(scene: &Scene, grain: Grain) -> Option<PayloadView> {
     let payload = scene.payload()?;
-    let shapes = |pieces: &[Convex]| pieces.iter().map(|piece| ShapeView::new(piece, grain)).collect();
+    let obstacles = &scene.workspace().obstacles;
+    let lying = obstacles.iter().position(|o| o.name == payload.object);
     let own = scene.own_parts(1).len();
     Some(PayloadView {
         object: payload.object.clone(),
-        color: crate::draw::arm::payload_color(scene).to_string(),
-        pieces: shapes(&payload.pieces),
-        grip: match payload.grip {
-            Grip::Rigid(pose) => GripView::Rigid(
-                [pose.translation.x, pose.translation.y, pose.rotation.angle()].map(|x| grain.number(x)),
-            ),
-            Grip::Level { angle, point } => GripView::Level([angle, point.x, point.y].map(|x| grain.number(x))),
-        },
-        parts: scene.arm().links[1].parts[own..].iter().map(|part| ShapeView::new(&part.shape, grain)).collect(),
+        color: color::obstacle(lying.unwrap_or(obstacles.len())),
+        pieces: payload.pieces.iter().map(|piece| grain.shape(piece)).collect(),
+        grip: payload.grip,
+        parts: scene.arm().links[1].parts[own..].iter().map(|part| grain.shape(&part.shape)).collect(),
     })
 }
 
@@ -188,16 +189,12 @@ fn ranges(pairs: &[Pair]) -> Vec<[usize; 5]> {
     ranges
 }
 
-fn regions(scene: &Scene, grain: Grain) -> Vec<RegionView> {
-    let preferences = scene.workspace().preferences.iter();
-    let region = |preference: &crate::model::Preference| {
-        let (joints, corners) = match &preference.region {
-            Region::Configurations(polygon) => {
-                (true, grain.configurations(polygon.corners().iter().map(|p| &p.coords)))
-            }
-            Region::Tip(polygon) => (false, grain.points(polygon.corners())),
-        };
-        RegionView { name: preference.name.clone(), epsilon: preference.epsilon, joints, corners }
+fn region(preference: &Preference, grain: Grain) -> RegionView {
+    let (joints, polygon) = match &preference.region {
+        Region::Configurations(polygon) => (true, polygon),
+        Region::Tip(polygon) => (false, polygon),
     };
-    preferences.map(region).collect()
+    let corner = |p: &Point| if joints { grain.configuration(p.coords).into() } else { grain.point(*p).coords };
+    let corners = Chain(polygon.corners().iter().map(corner).collect());
+    RegionView { name: preference.name.clone(), epsilon: preference.epsilon, joints, corners }
 }

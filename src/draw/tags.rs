@@ -1,8 +1,9 @@
 //! Numbers beside places, none over another where there is room.
 
-use crate::draw::color::{INK, WHITE};
-use crate::draw::figure::{Anchor, Item, Rect, Spot, Style, rectangle, shortened, text_width};
-use crate::draw::page::label;
+use super::color::{INK, WHITE};
+use super::figure::{Anchor, Item, Rect, Spot, Style, rectangle, shortened, text_width};
+use super::page::label;
+use super::view::ranges;
 
 const SIZE: f64 = 12.0;
 /// Widest text, pixels.
@@ -53,7 +54,7 @@ pub fn items(tags: &[Tag], within: Rect, shapes: &[Rect], spots: &[Spot]) -> Vec
     let mut taken: Vec<Rect> = tags.iter().map(|tag| around(tag.at, [8.0, 8.0])).collect();
     let mut items = Vec::new();
     for tag in tags {
-        let text = shortened(&super::states::ranges(&tag.numbers), SIZE, WIDEST);
+        let text = shortened(&ranges(&tag.numbers), SIZE, WIDEST);
         let size = [text_width(&text, SIZE) + 6.0, LINE];
         let boxes = RINGS.iter().flat_map(|&(ring, extra)| {
             SIDES.iter().zip(0..).map(move |(side, index)| {

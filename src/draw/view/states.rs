@@ -10,8 +10,8 @@ const SAME: f64 = 1e-6;
 /// Motions with the same payload in the same world, one after the other.
 #[derive(Debug, Clone)]
 pub struct PayloadState<'a> {
-    /// The motions; those that are repeated once.
-    pub motions: Vec<&'a Leg>,
+    /// The motions, each with its number among all; those that are repeated once.
+    pub motions: Vec<(usize, &'a Leg)>,
     /// How often this comes about.
     pub times: usize,
 }
@@ -21,18 +21,19 @@ pub struct PayloadState<'a> {
 #[must_use]
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
     let mut states: Vec<PayloadState> = Vec::new();
-    for run in legs.chunk_by(same_world) {
-        let mut motions: Vec<&Leg> = Vec::new();
-        for leg in run {
-            if !motions.iter().any(|known| same_motion(known, leg, topology)) {
-                motions.push(leg);
+    let numbered: Vec<(usize, &Leg)> = legs.iter().enumerate().collect();
+    for run in numbered.chunk_by(|a, b| same_world(a.1, b.1)) {
+        let mut motions: Vec<(usize, &Leg)> = Vec::new();
+        for &(index, leg) in run {
+            if !motions.iter().any(|known| same_motion(known.1, leg, topology)) {
+                motions.push((index, leg));
             }
         }
-        let rounds = |number| run.iter().filter(|leg| leg.step.number == number).count();
-        let times = motions.iter().map(|leg| rounds(leg.step.number)).max().unwrap_or(0);
+        let rounds = |number| run.iter().filter(|(_, leg)| leg.step.number == number).count();
+        let times = motions.iter().map(|(_, leg)| rounds(leg.step.number)).max().unwrap_or(0);
+        let same = |a: &Leg, b: &Leg| same_motion(a, b, topology) && same_world(a, b);
         let known = states.iter_mut().find(|state| {
-            state.motions.len() == motions.len()
-                && state.motions.iter().zip(&motions).all(|(a, b)| same_motion(a, b, topology) && same_world(a, b))
+            state.motions.len() == motions.len() && state.motions.iter().zip(&motions).all(|(a, b)| same(a.1, b.1))
         });
         match known {
             Some(state) => state.times += times,
@@ -62,7 +63,7 @@ impl PayloadState<'_> {
     #[must_use]
     pub fn numbers(&self) -> Vec<usize> {
         let mut numbers: Vec<usize> = Vec::new();
-        for number in self.motions.iter().map(|leg| leg.step.number) {
+        for number in self.motions.iter().map(|(_, leg)| leg.step.number) {
             if !numbers.contains(&number) {
                 numbers.push(number);
             }
@@ -74,7 +75,7 @@ impl PayloadState<'_> {
     /// `4 empty-handed, round 2`.
     #[must_use]
     pub fn title(&self, rounds: usize) -> String {
-        let first = self.motions.first();
+        let first = self.motions.first().map(|(_, leg)| leg);
         let payload = first.and_then(|leg| leg.scene.payload()).map(|payload| payload.object.as_str());
         let times = match first {
             _ if self.times > 1 => format!(" (\u{d7}{})", self.times),

@@ -1,11 +1,11 @@
 //! The configuration spaces, side by side.
 
-use super::TaskPicture;
-use super::panel::Panel;
-use crate::draw::chart::{self, Chart};
-use crate::draw::color::GREY;
-use crate::draw::figure::{Anchor, Item, Rect};
-use crate::draw::page::label;
+use super::chart::{self, Chart};
+use super::color::{GREY, INK};
+use super::cspace;
+use super::figure::{Anchor, Item, Rect, shortened};
+use super::page::label;
+use super::view::{PanelView, View};
 use crate::model::Arm;
 
 /// Between columns, for the values at their ends, and between rows, for the titles; pixels.
@@ -60,12 +60,13 @@ impl Grid {
 
     /// Draws the panels; values stand at the left and at the lowest of each column, titles of the axes once.
     #[must_use]
-    pub fn items(&self, picture: &TaskPicture, panels: &[Panel], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
-        let arm = &picture.task.arm;
+    pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
+        let arm = &view.arm;
         let mut items = Vec::new();
         let charts: Vec<Chart> = (0..panels.len()).map(|index| Chart::new(arm, self.area(index, corner))).collect();
         for (index, (panel, chart)) in panels.iter().zip(&charts).enumerate() {
-            items.extend(panel.items(picture, chart));
+            items.extend(cspace::items(view, panel, chart));
+            items.push(title(&panel.title, chart.frame.rect));
             let values = [index + self.columns >= panels.len(), index % self.columns == 0];
             items.extend(chart.frame.tick_marks(chart.units, values));
         }
@@ -82,4 +83,12 @@ impl Grid {
         }
         items
     }
+}
+
+/// Above a frame.
+fn title(text: &str, frame: Rect) -> Item {
+    const SIZE: f64 = 14.0;
+    // Somewhat wider than the frame: less than half of what lies between neighbours on each side.
+    let text = shortened(text, SIZE, frame.width + 24.0);
+    label([frame.x + frame.width / 2.0, frame.y - 9.0], text, SIZE, Anchor::Middle, INK)
 }

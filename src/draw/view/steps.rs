@@ -1,0 +1,78 @@
+//! What is done, step by step, in words.
+
+use super::TaskPicture;
+use super::states::rounds;
+use crate::draw::color::{BARRED, GREY, INK, Rgb};
+use crate::engine::task::TaskVerdict;
+
+/// More rows than this are not shown.
+const MOST: usize = 26;
+/// More lines than this on why a step fails are not shown.
+const MOST_REASONS: usize = 4;
+
+/// A row: the step's number, what it does, and when it is over.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    pub number: String,
+    pub text: String,
+    pub time: String,
+    pub color: Rgb,
+}
+
+impl Row {
+    fn new(number: impl ToString, text: impl Into<String>, time: impl Into<String>, color: Rgb) -> Self {
+        Self { number: number.to_string(), text: text.into(), time: time.into(), color }
+    }
+}
+
+/// What the columns are called, then each step once, as it is done the first time; then the one that fails.
+#[must_use]
+pub fn rows(picture: &TaskPicture) -> Vec<Row> {
+    let objects = &picture.task.objects;
+    let rounds = rounds(&picture.answer.legs);
+    let which = if rounds > 1 { format!("end, first of {rounds} rounds") } else { "end".to_owned() };
+    let mut seen = std::collections::BTreeSet::new();
+    let mut rows = vec![Row::new("", "step", which, GREY)];
+    for leg in picture.answer.legs.iter().filter(|leg| seen.insert(leg.step.number)) {
+        let (text, time) = (leg.step.action.describe(objects), format!("{:.2} s", leg.end()));
+        rows.push(Row::new(leg.step.number, text, time, INK));
+    }
+    if rows.len() > 1 + MOST {
+        let text = format!("and {} further steps", rows.len() - 1 - MOST);
+        rows.truncate(1 + MOST);
+        rows.push(Row::new("", text, "", GREY));
+    }
+    if let Some(impossible) = picture.answer.impossible() {
+        let time = match picture.answer.verdict {
+            TaskVerdict::Infeasible(_) => "impossible",
+            _ => "unknown",
+        };
+        let step = &impossible.step;
+        rows.push(Row::new(step.number, step.action.describe(objects), time, BARRED));
+    }
+    rows
+}
+
+/// The lines of the title and the status.
+#[must_use]
+pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
+    let mut lines = picture.title.clone();
+    let Some(impossible) = picture.answer.impossible() else { return (lines, picture.status.clone()) };
+    let step = &impossible.step;
+    let round = if step.cycle > 1 { format!(", round {}", step.cycle) } else { String::new() };
+    let status = format!("step {}{round} fails: {}", step.number, picture.status);
+    let what = step.action.describe(&picture.task.objects);
+    let heading = format!("step {}, {what}:", step.number);
+    let reasons = &impossible.reasons;
+    if let [reason] = &reasons[..] {
+        lines.push(format!("{heading} {reason}"));
+        return (lines, status);
+    }
+    lines.push(heading);
+    let shown = if reasons.len() > MOST_REASONS { MOST_REASONS - 1 } else { reasons.len() };
+    lines.extend(reasons[..shown].iter().cloned());
+    if shown < reasons.len() {
+        lines.push(format!("and {} further reasons", reasons.len() - shown));
+    }
+    (lines, status)
+}
