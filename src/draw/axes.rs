@@ -1,7 +1,7 @@
 //! Coordinate frames: from values to the page, with ticks.
 
-use super::color::{FAINT, GREY, INK, PALE, Rgb};
-use super::figure::{Anchor, Item, Label, Rect, Spot, Step, Style};
+use super::color::{FAINT, GREY, INK, PALE};
+use super::figure::{Anchor, Item, Rect, Spot, Step, Style, label as text, upwards};
 
 /// Lower and upper value along an axis.
 pub type Range = (f64, f64);
@@ -134,12 +134,12 @@ impl Frame {
         for (value, name) in x_ticks {
             let [x, _] = self.at(value, self.y.0);
             items.push(mark([x, bottom], [x, bottom + 5.0]));
-            items.extend(values[0].then(|| text([x, bottom + 19.0], name, 13.0, Anchor::Middle, false, GREY)));
+            items.extend(values[0].then(|| text([x, bottom + 19.0], name, 13.0, Anchor::Middle, GREY)));
         }
         for (value, name) in y_ticks {
             let [_, y] = self.at(self.x.0, value);
             items.push(mark([left - 5.0, y], [left, y]));
-            items.extend(values[1].then(|| text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, false, GREY)));
+            items.extend(values[1].then(|| text([left - 8.0, y + 4.5], name, 13.0, Anchor::End, GREY)));
         }
         items
     }
@@ -152,8 +152,8 @@ impl Frame {
         let widest = y_ticks.iter().map(|(_, name)| super::figure::text_width(name, 13.0)).fold(0.0, f64::max);
         let middle = [around.x + around.width / 2.0, around.y + around.height / 2.0];
         [
-            text([middle[0], around.bottom() + 38.0], x_title, 14.0, Anchor::Middle, false, INK),
-            text([around.x - 16.0 - widest, middle[1]], y_title, 14.0, Anchor::Middle, true, INK),
+            text([middle[0], around.bottom() + 38.0], x_title, 14.0, Anchor::Middle, INK),
+            upwards([around.x - 16.0 - widest, middle[1]], y_title, 14.0, INK),
         ]
     }
 
@@ -163,10 +163,6 @@ impl Frame {
             ticks(self.y, units[1], (self.rect.height / 45.0) as usize),
         ]
     }
-}
-
-fn text(at: Spot, text: String, size: f64, anchor: Anchor, upwards: bool, color: Rgb) -> Item {
-    Item::Text(Label { at, text, size, anchor, upwards, color })
 }
 
 /// Round values in the range with their labels: at most `at_most`, but more where that would leave less than two.

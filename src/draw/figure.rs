@@ -202,6 +202,18 @@ pub fn chain(spots: impl IntoIterator<Item = Spot>, closed: bool) -> Vec<Step> {
     steps
 }
 
+/// A text that reads to the right.
+#[must_use]
+pub fn label(at: Spot, text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
+    Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color })
+}
+
+/// A text that reads upwards, about its middle.
+#[must_use]
+pub fn upwards(at: Spot, text: impl Into<String>, size: f64, color: Rgb) -> Item {
+    Item::Text(Label { at, text: text.into(), size, anchor: Anchor::Middle, upwards: true, color })
+}
+
 /// The outline of a rectangle.
 #[must_use]
 pub fn rectangle(rect: Rect) -> Vec<Step> {

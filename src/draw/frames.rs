@@ -2,7 +2,7 @@
 
 use super::axes::Frame;
 use super::color::{self, INK, WHITE};
-use super::figure::{Anchor, Item, Label, Spot, Step, Style};
+use super::figure::{Anchor, Item, Spot, Step, Style, label};
 use super::view::FrameView;
 use crate::geometry::{Vector, perpendicular};
 
@@ -25,10 +25,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
         let (color, _) = color::path(k);
         // The page's y goes down.
         let shadow = Vector::new(u, -v);
-        let text = |at: Spot| {
-            let text = LETTERS[k].to_owned();
-            Item::Text(Label { at, text, size: 14.0, anchor: Anchor::Middle, upwards: false, color })
-        };
+        let text = |at: Spot| label(at, LETTERS[k], 14.0, Anchor::Middle, color);
         if shadow.norm() < STANDING {
             items.extend(standing(at, w > 0.0, Style::line(color, 1.8)));
             items.push(text([at[0] - 15.0, at[1] + 5.0]));
@@ -42,9 +39,7 @@ fn one(panel: &Frame, frame: &FrameView) -> Vec<Item> {
         items.push(Item::Outline(vec![Step::Move(barb(1.0)), Step::Line(tip), Step::Line(barb(-1.0))], pen));
         items.push(text(moved(tip, shadow.normalize() * 12.0 + Vector::new(0.0, 5.0))));
     }
-    let text = frame.name.clone();
-    let place = [at[0] + 9.0, at[1] + 21.0];
-    items.push(Item::Text(Label { at: place, text, size: 13.0, anchor: Anchor::Start, upwards: false, color: INK }));
+    items.push(label([at[0] + 9.0, at[1] + 21.0], &frame.name, 13.0, Anchor::Start, INK));
     items
 }
 

@@ -3,8 +3,7 @@
 use super::chart::{self, Chart};
 use super::color::{GREY, INK};
 use super::cspace;
-use super::figure::{Anchor, Item, Rect, shortened};
-use super::page::label;
+use super::figure::{Anchor, Item, Rect, label, shortened};
 use super::view::{PanelView, View};
 use crate::model::Arm;
 

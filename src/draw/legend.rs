@@ -1,7 +1,7 @@
 //! What the signs mean.
 
 use super::color::{BARRED, GREY, INK, PALE, Rgb};
-use super::figure::{Anchor, Item, Label, Pen, Rect, Step, Style, rectangle, shortened, text_width};
+use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::view::{PathView, View};
 use super::{boxes, cspace, preferences, shapes, trace};
 
@@ -108,8 +108,7 @@ pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
         for key in row {
             items.extend(sign(&key.0, x, y));
             let at = [x + SIGN + 8.0, y + 4.5];
-            let text = key.1.clone();
-            items.push(Item::Text(Label { at, text, size: SIZE, anchor: Anchor::Start, upwards: false, color: INK }));
+            items.push(label(at, &key.1, SIZE, Anchor::Start, INK));
             x += width(key) + GAP;
         }
     }

@@ -1,7 +1,7 @@
 //! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
 
-use super::color::{self, GREY, INK, Rgb};
-use super::figure::{Anchor, Figure, Item, Label, Pen, Rect, Step, Style, shortened, text_width};
+use super::color::{GREY, INK, WHITE};
+use super::figure::{Anchor, Figure, Item, Pen, Rect, Step, Style, label, shortened, text_width};
 use super::grid::Grid;
 use super::legend::{self, Key};
 use super::view::{PanelView, View};
@@ -70,7 +70,7 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
     items.extend(grid.items(view, &shown, left_out, [RIGHT.x, top]));
     items.extend(steps::items(&view.still.steps, list));
     items.push(heading(LEFT, top - 32.0, "Workspace"));
-    let note = "objects where they lie at first, and dashed where they are placed".to_owned();
+    let note = "objects where they lie at first, and dashed where they are placed";
     items.push(label([LEFT.x + LEFT.width / 2.0, top - 9.0], note, 14.0, Anchor::Middle, GREY));
     items.push(heading(RIGHT, top - 32.0, "Configuration space of each payload state"));
     items.extend(legend::items(keys, WIDTH / 2.0, height - legend));
@@ -105,7 +105,7 @@ fn layout(top: f64, grid: f64, list: f64, legend: f64) -> Layout {
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
     for (steps, pen) in outlines {
-        halos.push(Item::Outline(steps.clone(), Style::line(color::WHITE, pen.width + 2.6).faded(0.85)));
+        halos.push(Item::Outline(steps.clone(), Style::line(WHITE, pen.width + 2.6).faded(0.85)));
         lines.push(Item::Outline(steps, Style { pen: Some(pen), ..Style::line(pen.color, pen.width) }));
     }
     halos.extend(lines);
@@ -113,23 +113,18 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
 }
 
 fn heading(column: Rect, y: f64, text: &str) -> Item {
-    label([column.x + column.width / 2.0, y], text.to_owned(), 16.0, Anchor::Middle, INK)
+    label([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
 }
 
 /// The title and the lines below it, and the status in the opposite corner.
 fn titles(lines: &[String], status: &str) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);
-    items.push(label([WIDTH - MARGIN, 36.0], status.to_owned(), 18.0, Anchor::End, INK));
+    items.push(label([WIDTH - MARGIN, 36.0], status, 18.0, Anchor::End, INK));
     for (i, line) in lines.iter().enumerate() {
         let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
         let room = WIDTH - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
         items.push(label([MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
     }
     items
-}
-
-/// A text that reads to the right.
-pub fn label(at: [f64; 2], text: String, size: f64, anchor: Anchor, color: Rgb) -> Item {
-    Item::Text(Label { at, text, size, anchor, upwards: false, color })
 }

@@ -1,7 +1,6 @@
 //! What is done, step by step.
 
-use super::figure::{Anchor, Item, Rect, shortened, text_width};
-use super::page::label;
+use super::figure::{Anchor, Item, Rect, label, shortened, text_width};
 use super::view::Row;
 
 /// Height of a row, pixels.
@@ -15,9 +14,9 @@ pub fn items(rows: &[Row], area: Rect) -> Vec<Item> {
     for (i, Row { number, text, time, color }) in rows.iter().enumerate() {
         let y = area.y + ROW * (i as f64 + 0.75);
         let room = area.width - 34.0 - text_width(time, SIZE) - 16.0;
-        items.push(label([area.x + 24.0, y], number.clone(), SIZE, Anchor::End, *color));
+        items.push(label([area.x + 24.0, y], number, SIZE, Anchor::End, *color));
         items.push(label([area.x + 34.0, y], shortened(text, SIZE, room), SIZE, Anchor::Start, *color));
-        items.push(label([area.right(), y], time.clone(), SIZE, Anchor::End, *color));
+        items.push(label([area.right(), y], time, SIZE, Anchor::End, *color));
     }
     items
 }

@@ -1,8 +1,7 @@
 //! Numbers beside places, none over another where there is room.
 
 use super::color::{INK, WHITE};
-use super::figure::{Anchor, Item, Rect, Spot, Style, rectangle, shortened, text_width};
-use super::page::label;
+use super::figure::{Anchor, Item, Rect, Spot, Style, label, rectangle, shortened, text_width};
 use super::view::ranges;
 
 const SIZE: f64 = 12.0;

@@ -3,7 +3,7 @@
 use super::boxes;
 use super::chart::Chart;
 use super::color::{self, GREY, INK, PALE, Rgb};
-use super::figure::{Anchor, Item, Label, Pen, Raster, Rect, Style, chain};
+use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::legend::{Key, Sign};
 use super::view::{Chain, LEVELS, TraceView, Waves};
 
@@ -86,10 +86,6 @@ pub fn color_bar(trace: &TraceView, frame: &Rect) -> Vec<Item> {
     };
     let (x, height) = (frame.right() + 16.0, frame.height.min(200.0));
     let rect = Rect { x, y: frame.bottom() - height, width: 12.0, height };
-    let label = |at, text, upwards| {
-        let (anchor, color) = if upwards { (Anchor::Middle, INK) } else { (Anchor::Start, GREY) };
-        Item::Text(Label { at, text, size: 13.0, anchor, upwards, color })
-    };
     vec![
         Item::Raster(Raster {
             rect,
@@ -97,9 +93,9 @@ pub fn color_bar(trace: &TraceView, frame: &Rect) -> Vec<Item> {
             palette: palette(white),
             levels: (0..SHADES).map(Some).collect(),
         }),
-        label([x + 18.0, rect.y + 10.0], top, false),
-        label([x + 18.0, rect.bottom()], bottom, false),
-        label([x + 30.0, rect.y + height / 2.0], title.to_owned(), true),
+        label([x + 18.0, rect.y + 10.0], top, 13.0, Anchor::Start, GREY),
+        label([x + 18.0, rect.bottom()], bottom, 13.0, Anchor::Start, GREY),
+        upwards([x + 30.0, rect.y + height / 2.0], title, 13.0, INK),
     ]
 }
 

@@ -3,7 +3,7 @@
 use super::arm::{self, GHOST, GOAL, START, UNREACHED};
 use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
-use super::figure::{Anchor, Item, Label, Rect, Spot, Step, Style, chain};
+use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, around};
 use super::{frames, page, preferences, shapes};
@@ -99,7 +99,7 @@ fn hidden_note<'a>(frame: &Frame, obstacles: impl Iterator<Item = &'a ObstacleVi
         n => format!("{n} obstacles lie outside this picture"),
     };
     let at = [frame.rect.x + 10.0, frame.rect.bottom() - 10.0];
-    Some(Item::Text(Label { at, text, size: 13.0, anchor: Anchor::Start, upwards: false, color: GREY }))
+    Some(label(at, text, 13.0, Anchor::Start, GREY))
 }
 
 /// What lies below everything: grid and reach.

@@ -60,7 +60,8 @@ impl PathView {
 
     /// How it is drawn.
     pub fn pen(&self) -> Pen {
-        Pen { color: self.color.unwrap_or(INK), width: self.width, dash: self.dash }
+        let ink = if self.width < WIDE { INK.lighter(0.3) } else { INK };
+        Pen { color: self.color.unwrap_or(ink), width: self.width, dash: self.dash }
     }
 
     /// Whether something is carried along it.

@@ -17,23 +17,19 @@ use std::f64::consts::PI;
 
 /// Writes the picture if someone wants to look, checks what holds for every picture, and returns it.
 fn checked(name: &str, picture: &Picture) -> String {
-    #[cfg(feature = "png")]
-    let png = || cplan::draw::png(&svg(picture), 1.0).unwrap();
-    #[cfg(not(feature = "png"))]
-    let png = Vec::new;
-    pages::inspected(name, &View::of_picture(picture, None, Vec::new(), None));
-    inspected(name, || svg(picture), png)
+    let view = View::of_picture(picture);
+    pages::inspected(name, &view);
+    inspected(name, &view)
 }
 
-/// The same for anything that draws: an SVG document, and the same as PNG.
-fn inspected(name: &str, svg: impl Fn() -> String, png: impl Fn() -> Vec<u8>) -> String {
-    let text = svg();
+/// The same for any view.
+fn inspected(name: &str, view: &View) -> String {
+    let text = svg(view);
     if let Some(folder) = std::env::var_os("CPLAN_PICTURES") {
         let file = |extension: &str| std::path::Path::new(&folder).join(format!("{name}.{extension}"));
         std::fs::write(file("svg"), &text).unwrap();
-        if cfg!(feature = "png") {
-            std::fs::write(file("png"), png()).unwrap();
-        }
+        #[cfg(feature = "png")]
+        std::fs::write(file("png"), cplan::draw::png(&text, 1.0).unwrap()).unwrap();
     }
     let tree = roxmltree::Document::parse(&text).expect("well-formed");
     for node in tree.descendants().filter(|n| n.is_element()) {
@@ -41,7 +37,7 @@ fn inspected(name: &str, svg: impl Fn() -> String, png: impl Fn() -> Vec<u8>) ->
             assert!(!attribute.value().contains("NaN") && !attribute.value().contains("inf"), "{attribute:?}");
         }
     }
-    assert_eq!(text, svg(), "drawing twice gives the same bytes");
+    assert_eq!(text, svg(view), "drawing twice gives the same bytes");
     text
 }
 
@@ -128,13 +124,11 @@ fn planned(
     let picture = Picture {
         title: vec![format!("{name}: a picture of a plan"), format!("length {:.2}", path.length())],
         status: "found".to_owned(),
-        scene,
-        start: path.start(),
         goals: &[path.goal().into()],
         paths: vec![("wavefront".to_owned(), &path)],
         trace: Some(&trace),
-        proof: None,
         c_obstacles: &c_obstacles,
+        ..Picture::new(scene, path.start())
     };
     checked(name, &picture)
 }
@@ -203,13 +197,10 @@ fn a_comparison_tells_paths_apart() {
     let picture = Picture {
         title: vec!["Comparison".to_owned(), "one line".to_owned(), "and another".to_owned()],
         status: "3 of 3 found".to_owned(),
-        scene: &scene,
-        start: walk.start(),
         goals: &[walk.goal().into()],
         paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
-        trace: None,
-        proof: None,
         c_obstacles: &c_obstacles,
+        ..Picture::new(&scene, walk.start())
     };
     let words = words(&checked("comparison", &picture));
     for word in ["Comparison", "and another", "visibility", "trapezoid", "wavefront", "3 of 3 found"] {
@@ -228,13 +219,9 @@ fn a_crowd_without_a_path() {
     let picture = Picture {
         title: vec!["A crowd".to_owned()],
         status: "infeasible: proven".to_owned(),
-        scene: &scene,
-        start: at(-2.0, 2.4),
         goals: &[at(1.0, -2.4).into(), at(2.0, 2.4).into()],
-        paths: Vec::new(),
-        trace: None,
-        proof: None,
         c_obstacles: &c_obstacles,
+        ..Picture::new(&scene, at(-2.0, 2.4))
     };
     let words = words(&checked("crowd", &picture));
     assert!(words.contains("infeasible: proven") && !words.contains("o17"));
@@ -244,13 +231,8 @@ fn bare<'a>(scene: &'a Scene, goals: &'a [Segment]) -> Picture<'a> {
     Picture {
         title: vec!["<&> \"title\"".to_owned()],
         status: "unknown".to_owned(),
-        scene,
-        start: at(0.0, 0.0),
         goals,
-        paths: Vec::new(),
-        trace: None,
-        proof: None,
-        c_obstacles: &[],
+        ..Picture::new(scene, at(0.0, 0.0))
     }
 }
 
@@ -304,11 +286,15 @@ mod raster {
     use cplan::draw::{DrawError, png};
     use std::collections::BTreeSet;
 
+    fn drawn(picture: &Picture) -> String {
+        svg(&View::of_picture(picture))
+    }
+
     #[test]
     fn a_png_has_its_size_and_is_not_blank() {
         let scene = three();
         let goals = [at(1.0, 1.0).into()];
-        let bytes = png(&svg(&bare(&scene, &goals)), 0.5).unwrap();
+        let bytes = png(&drawn(&bare(&scene, &goals)), 0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         let pixels = resvg::tiny_skia::Pixmap::decode_png(&bytes).unwrap();
         assert_eq!((pixels.width(), pixels.height()), (700, 360));
@@ -323,7 +309,7 @@ mod raster {
         let dark = |title: &str| {
             let mut picture = bare(&scene, &[]);
             picture.title = vec![title.to_owned()];
-            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&svg(&picture), 1.0).unwrap()).unwrap();
+            let pixels = resvg::tiny_skia::Pixmap::decode_png(&png(&drawn(&picture), 1.0).unwrap()).unwrap();
             pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
         };
         assert!(dark("A title of some length") > dark("") + 300);
@@ -333,7 +319,7 @@ mod raster {
     fn scales_that_make_no_picture_are_refused() {
         let scene = three();
         for scale in [0.0, -1.0, 1e-9, 1e3, f64::NAN, f64::INFINITY] {
-            assert!(matches!(png(&svg(&bare(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
+            assert!(matches!(png(&drawn(&bare(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
         }
     }
 }
@@ -348,20 +334,8 @@ fn preference_regions_are_dashed_and_explained() {
     let with = |preferences: Vec<Preference>| {
         let (arm, workspace) = torus().into_parts();
         let scene = placed(arm, Workspace { preferences, ..workspace });
-        let text = checked(
-            "preferences",
-            &Picture {
-                title: vec!["preferences".into()],
-                status: String::new(),
-                scene: &scene,
-                start: at(0.0, 0.0),
-                goals: &[],
-                paths: Vec::new(),
-                trace: None,
-                proof: None,
-                c_obstacles: &[],
-            },
-        );
+        let picture = Picture { title: vec!["preferences".into()], ..Picture::new(&scene, at(0.0, 0.0)) };
+        let text = checked("preferences", &picture);
         let dashes = text.matches("stroke-dasharray=\"7 4\"").count();
         (dashes, words(&text))
     };

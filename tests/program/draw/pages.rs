@@ -4,7 +4,7 @@ use super::{at, bare, three, torus};
 use crate::common::{Benchmark, benchmark};
 use cplan::check::certify;
 use cplan::cspace::c_obstacles;
-use cplan::draw::{ArmPicture, AxesFrame, Picture, View, page};
+use cplan::draw::{AxesFrame, Picture, View, page};
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
@@ -67,14 +67,15 @@ fn a_plan_is_shown_as_it_is() {
     let goals = [path.goal().into()];
     let picture = Picture {
         title: vec!["plan </script><script>alert(1)</script>".to_owned()],
+        ending: Some(Status::Found),
+        facts: vec![["length".to_owned(), "0.9 rad".to_owned()]],
         start: path.start(),
         paths: vec![("by hand".to_owned(), &path)],
+        trajectory: Some(&timed.trajectory),
         c_obstacles: &contours,
         ..bare(&scene, &goals)
     };
-    let facts = vec![["length".to_owned(), "0.9 rad".to_owned()]];
-    let value =
-        inspected("page_plan", &View::of_picture(&picture, Some(Status::Found), facts, Some(&timed.trajectory)));
+    let value = inspected("page_plan", &View::of_picture(&picture));
     assert_eq!(value["ending"], "found");
     assert_eq!(value["facts"][0][1], "0.9 rad");
     near(&pairs(&value["paths"][0]["points"]), path.waypoints().iter().map(|q| [q[0], q[1]]));
@@ -101,8 +102,8 @@ fn a_wavefront_is_written_in_letters() {
     let n = 400;
     let labels: Vec<u32> = (0..n * n).map(|k| if k / n < 100 { u32::MAX } else { (k / n - 100) as u32 }).collect();
     let trace = Trace::Wavefront { cells: [n; 2], labels };
-    let picture = Picture { trace: Some(&trace), ..bare(&scene, &[]) };
-    let value = inspected("page_wavefront", &View::of_picture(&picture, Some(Status::Unknown), Vec::new(), None));
+    let picture = Picture { trace: Some(&trace), ending: Some(Status::Unknown), ..bare(&scene, &[]) };
+    let value = inspected("page_wavefront", &View::of_picture(&picture));
     let seen = &value["worlds"][0]["trace"];
     assert_eq!((seen["kind"].as_str(), seen["farthest"].as_u64()), (Some("wavefront"), Some(299)));
     let blocks: Vec<usize> = seen["blocks"].as_array().unwrap().iter().map(|x| x.as_u64().unwrap() as usize).collect();
@@ -120,7 +121,7 @@ fn other_traces_keep_their_parts() {
     let scene = torus();
     let shown = |trace: &Trace| {
         let picture = Picture { trace: Some(trace), ..bare(&scene, &[]) };
-        let mut value = inspected("page_trace", &View::of_picture(&picture, None, Vec::new(), None));
+        let mut value = inspected("page_trace", &View::of_picture(&picture));
         value["worlds"][0]["trace"].take()
     };
     let roadmap = shown(&Trace::Roadmap { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], whole: false });
@@ -159,8 +160,8 @@ fn a_proof_is_shown_where_it_is() {
     let proof = claim.checked(&scene, start, &goal.into(), 0.0).expect("the proof holds");
     let corners = proof.stuck().iter().flat_map(|stuck| [stuck.cell.lower, stuck.cell.upper]).flatten();
     let corners: Vec<f64> = corners.collect();
-    let picture = Picture { proof: Some(&proof), ..bare(&scene, &[]) };
-    let value = inspected("page_proof", &View::of_picture(&picture, Some(Status::Infeasible), Vec::new(), None));
+    let picture = Picture { proof: Some(&proof), ending: Some(Status::Infeasible), ..bare(&scene, &[]) };
+    let value = inspected("page_proof", &View::of_picture(&picture));
     let shown: Vec<f64> = value["worlds"][0]["proof"].as_array().unwrap().iter().filter_map(Value::as_f64).collect();
     assert_eq!(shown.len(), corners.len());
     assert!(shown.iter().zip(&corners).all(|(a, b)| (a - b).abs() < 1e-4), "{shown:?} {corners:?}");
@@ -175,10 +176,13 @@ fn an_arm_is_shown_with_its_frames() {
         at: Point::new(0.5, -0.25),
         axes: [Vector3::x(), Vector3::y(), Vector3::z()],
     };
-    let title = vec!["posture".to_owned()];
-    let arm_picture = ArmPicture { title, status: String::new(), scene: &scene, at: at(0.5, 0.5), frames: vec![frame] };
-    let value = inspected("page_posture", &View::of_arm(&arm_picture));
+    let picture = Picture { title: vec!["posture".to_owned()], ..Picture::new(&scene, at(0.5, 0.5)) };
+    let view = View::of_arm(&picture, &[frame]);
+    let value = inspected("page_posture", &view);
     assert_eq!(value["frames"][0]["at"], serde_json::json!([0.5, -0.25]));
     assert_eq!(value["frames"][0]["axes"][2], serde_json::json!([0.0, 0.0, 1.0]));
     assert_eq!(value["start"], serde_json::json!([0.5, 0.5]));
+    // Pictures of it have its name, and no configuration space.
+    let words = super::words(&super::inspected("posture", &view));
+    assert!(words.contains("tool0") && !words.contains("Configuration space"), "{words}");
 }

@@ -4,7 +4,7 @@ use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
 use crate::common::{convex, disc};
 use cplan::cspace::{CObstacle, c_obstacles};
-use cplan::draw::{Picture, TaskPicture, View, svg, task_svg};
+use cplan::draw::{Picture, TaskPicture, View};
 use cplan::engine::Method;
 use cplan::engine::task::{Event, TaskAnswer, TaskVerdict, plan};
 use cplan::geometry::{Point, Pose};
@@ -102,32 +102,37 @@ fn drawn(name: &str, task: &Task, answer: &TaskAnswer) -> String {
         TaskVerdict::Unknown(_) => "unknown",
     };
     let title = vec![format!("{name}: test arm"), format!("visibility: {:.2} s", answer.duration())];
-    let picture = TaskPicture { title, status: status.into(), task, answer, c_obstacles: contours };
-    #[cfg(feature = "png")]
-    let png = || cplan::draw::png(&task_svg(&picture), 1.0).unwrap();
-    #[cfg(not(feature = "png"))]
-    let png = Vec::new;
-    follows(name, &picture);
-    inspected(name, || task_svg(&picture), png)
+    let (ending, facts) = (Some(answer.verdict.status()), Vec::new());
+    let view = View::of_task(&TaskPicture {
+        title,
+        status: status.into(),
+        ending,
+        facts,
+        task,
+        answer,
+        c_obstacles: contours,
+    });
+    follows(name, task, answer, &view);
+    inspected(name, &view)
 }
 
 /// A page of the task shows every motion in the world that it has, when it is made.
-fn follows(name: &str, picture: &TaskPicture) {
-    let legs = &picture.answer.legs;
-    let value = pages::inspected(name, &View::of_task(picture, None, Vec::new()));
+fn follows(name: &str, task: &Task, answer: &TaskAnswer, view: &View) {
+    let legs = &answer.legs;
+    let value = pages::inspected(name, view);
     let list = |key: &str| value[key].as_array().unwrap().clone();
     let (motions, paths, worlds) = (list("motions"), list("paths"), list("worlds"));
     assert_eq!((paths.len(), motions.len()), (legs.len(), legs.len() + 1), "and one after the last step");
-    let mut poses: Vec<Option<Pose>> = picture.task.objects.iter().map(|object| Some(object.at)).collect();
+    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(|object| Some(object.at)).collect();
     let mut from = 0.0;
     for (leg, motion) in legs.iter().zip(&motions) {
         assert!((motion["from"].as_f64().unwrap() - from).abs() < 1e-9);
         from = leg.event_time().unwrap_or(leg.end());
         let world = &worlds[motion["world"].as_u64().unwrap() as usize];
-        let carried = leg.carried.map(|object| picture.task.objects[object].name.as_str());
+        let carried = leg.carried.map(|object| task.objects[object].name.as_str());
         assert_eq!(world["payload"]["object"].as_str(), carried);
         let numbers = world["obstacles"].as_array().unwrap();
-        for (object, pose) in picture.task.objects.iter().zip(&poses) {
+        for (object, pose) in task.objects.iter().zip(&poses) {
             let lies = numbers.iter().any(|o| o["name"] == object.name.as_str() && o["own"].as_u64() > Some(0));
             assert_eq!(lies, pose.is_some(), "{name}: {} lies somewhere unless it is carried", object.name);
         }
@@ -139,10 +144,10 @@ fn follows(name: &str, picture: &TaskPicture) {
     }
     // After all steps nothing is carried; where one fails, its world shows the configurations that were tried.
     let last = &worlds[motions[legs.len()]["world"].as_u64().unwrap() as usize];
-    if picture.answer.impossible().is_none() {
+    if answer.impossible().is_none() {
         assert!(last["payload"].is_null() && motions[legs.len()]["path"].is_null());
     } else {
-        let tried = picture.answer.impossible().map_or(0, |fails| fails.ik_solutions.len());
+        let tried = answer.impossible().map_or(0, |fails| fails.ik_solutions.len());
         assert_eq!(last["unreached"].as_array().unwrap().len(), tried);
     }
 }
@@ -424,20 +429,12 @@ fn pictures_of_one_motion_show_what_is_carried() {
     let path = leg.timed.curve.curve().outline();
     let picture = Picture {
         title: vec!["carrying".into()],
-        status: String::new(),
-        scene: &leg.scene,
-        start: path.start(),
         goals: &[path.goal().into()],
         paths: vec![("visibility".into(), &path)],
-        trace: None,
-        proof: None,
         c_obstacles: &contours(&leg.scene),
+        ..Picture::new(&leg.scene, path.start())
     };
-    #[cfg(feature = "png")]
-    let png = || cplan::draw::png(&svg(&picture), 1.0).unwrap();
-    #[cfg(not(feature = "png"))]
-    let png = Vec::new;
-    let text = inspected("carrying", || svg(&picture), png);
+    let text = inspected("carrying", &View::of_picture(&picture));
     let words = words(&text);
     assert!(words.contains("part, carried") && !words.lines().any(|line| line.trim() == "part"), "{words}");
     assert!(!words.contains("outside this picture"));

@@ -166,23 +166,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  /** Configurations that divide a path into equal parts, its ends included. */
-  function along(flat, count) {
-    const points = [...pointsOf(flat)];
-    const lengths = points.map((p, i) => (i > 0 ? Math.hypot(p[0] - points[i - 1][0], p[1] - points[i - 1][1]) : 0));
-    const total = lengths.reduce((sum, x) => sum + x, 0);
-    const found = [];
-    let [done, next] = [0, 0];
-    for (let i = 1; i < points.length && total > 0; i += 1) {
-      while (next <= count && (next * total) / count <= done + lengths[i] * (1 + 1e-12)) {
-        const t = lengths[i] > 0 ? ((next * total) / count - done) / lengths[i] : 0;
-        found.push([0, 1].map((k) => points[i - 1][k] + t * (points[i][k] - points[i - 1][k])));
-        next += 1;
-      }
-      done += lengths[i];
-    }
-    return total > 0 ? found : points.slice(0, 1);
-  }
-
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, separation, contacts, wrap, moving, pointsOf, along };
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, separation, contacts, wrap, moving, pointsOf };
 })();

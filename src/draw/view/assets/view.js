@@ -74,15 +74,13 @@ class View {
     this.headings();
     this.choices();
     const { workspace, cspace } = this.panels;
-    const { joints, plane } = model.arm;
+    const { joints, plane, one_scale: alike } = model.arm;
     [workspace.x, workspace.y] = model.frame;
     workspace.titles = plane;
     [cspace.x, cspace.y] = joints.map((joint) => joint.domain);
     cspace.degrees = joints.map((joint) => joint.unit === 'rad');
     cspace.seams = joints.map((joint) => joint.circle);
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
-    const [width, height] = joints.map(({ domain }) => domain[1] - domain[0]);
-    const alike = joints[0].unit === joints[1].unit && width <= 2.2 * height && height <= 2.2 * width;
     cspace.scale = alike ? 'fit' : 'free';
     for (const panel of [workspace, cspace]) panel.layout();
     const moves = Boolean(model.clock);

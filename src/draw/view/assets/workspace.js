@@ -2,7 +2,7 @@
 'use strict';
 
 const Workspace = (() => {
-  const { poses, tipAt, elbowAt, payloadPose, placed, along, pointsOf } = Geometry;
+  const { poses, tipAt, elbowAt, payloadPose, placed, pointsOf } = Geometry;
 
   /** Length of a straight piece of a tip's trace, as a part of a turn. */
   const FINE = 0.0125;
@@ -188,7 +188,7 @@ const Workspace = (() => {
     if (view.shows('poses')) {
       const shown = view.pathsHere();
       if (shown.length === 1 && !view.light) {
-        for (const q of along(shown[0].points, 6).slice(1, -1)) {
+        for (const q of pointsOf(shown[0].ghosts)) {
           arm(context, panel, view, world, q, { fill: theme.faint, line: theme.pale, width: 0.8, alpha: 0.7 });
         }
       }
@@ -260,7 +260,7 @@ const Workspace = (() => {
 /** A path or trace: in its colour, visible on any ground by the broad line of paper under it. */
 function pathLine(context, theme, path, stroke) {
   context.lineCap = 'round';
-  for (const [color, width, dash] of [[theme.paper, 5, []], [path.color ?? theme.ink, 2.4, path.dash]]) {
+  for (const [color, width, dash] of [[theme.paper, path.width + 2.6, []], [path.color ?? theme.ink, path.width, path.dash]]) {
     context.strokeStyle = color;
     context.lineWidth = width;
     context.setLineDash(dash);
