@@ -4,10 +4,8 @@ use super::chart::{self, Chart};
 use super::color::{INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::shapes::DASH;
-use super::tags::{self, Tag};
-use super::view::{ContourView, PanelView, PathView, View, WorldView};
-use super::{boxes, page, preferences, trace};
-use crate::space::Configuration;
+use super::view::{ContourView, PanelView, View, WorldView};
+use super::{boxes, page, preferences, tags, trace};
 
 /// The pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
@@ -27,7 +25,7 @@ pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
 pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let frame = &chart.frame;
     let worlds: Vec<&WorldView> = panel.worlds.iter().map(|&index| &view.worlds[index]).collect();
-    let paths = || panel.paths.iter().map(|&index| &view.paths[index]);
+    let paths = panel.paths.iter().map(|&index| &view.paths[index]);
     let world = worlds[0];
     let mut inside = frame.grid(chart.units);
     inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
@@ -36,36 +34,21 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.push(boxes::proof(&world.proof, frame));
     inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));
-    inside.extend(page::lines(paths().map(|path| (chart.outline(&path.points.0), path.pen()))));
+    inside.extend(page::lines(paths.map(|path| (chart.outline(&path.points.0), path.pen()))));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.sides(chart.seams()));
     items.extend(world.trace.iter().flat_map(|trace| trace::color_bar(trace, &frame.rect)));
     // Where paths were found, the goals that none of them reached are hollow.
-    let alone = panel.paths.is_empty();
-    let mut goal = |q: Configuration, reached| items.extend(goal_marker(chart.place(q), reached));
-    view.goals.iter().for_each(|&q| goal(q.into(), alone));
-    paths().for_each(|path| goal(path.goal(), true));
-    world.unreached.iter().for_each(|&q| goal(q.into(), false));
+    let mut numbers = Vec::new();
+    for (q, number, reached) in view.ends(panel) {
+        items.extend(goal_marker(chart.place(q), reached));
+        tags::add(&mut numbers, chart.place(q), number);
+    }
     items.extend(start_marker(chart.place(panel.start.into())));
-    if view.is_task() {
-        items.extend(numbers(panel, world, paths(), chart));
+    if view.is_task() && numbers.len() > 1 {
+        items.extend(tags::items(&numbers, frame.rect, &[], &[]));
     }
     items
-}
-
-/// The numbers of the steps that end here, or were to, where there are several.
-fn numbers<'a>(
-    panel: &PanelView,
-    world: &WorldView,
-    paths: impl Iterator<Item = &'a PathView>,
-    chart: &Chart,
-) -> Vec<Item> {
-    let mut tags: Vec<Tag> = Vec::new();
-    paths.for_each(|path| tags::add(&mut tags, chart.place(path.goal()), path.step));
-    for (number, &q) in panel.fails.iter().flat_map(|number| world.unreached.iter().map(move |q| (*number, q))) {
-        tags::add(&mut tags, chart.place(q.into()), number);
-    }
-    if tags.len() > 1 { tags::items(&tags, chart.frame.rect, &[], &[]) } else { Vec::new() }
 }
 
 /// What is blocked; of the obstacles that link 2 may reach into in one of the worlds, what they would else block is dashed.

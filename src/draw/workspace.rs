@@ -4,9 +4,8 @@ use super::arm::{self, GHOST, GOAL, START, UNREACHED};
 use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
-use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, around};
-use super::{frames, page, preferences, shapes};
+use super::{frames, page, preferences, shapes, tags};
 use crate::geometry::{Convex, cross};
 use crate::model::{Arm, JointType, Plane};
 use crate::space::Configuration;
@@ -32,13 +31,13 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     view.unreached().for_each(|(world, q)| pose(world, q, &UNREACHED));
     pose(0, view.start.into(), &START);
     still.end.into_iter().for_each(|(q, world)| pose(world, q.into(), &GOAL));
-    let paths = || still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
-    let traces: Vec<_> = paths().map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
+    let paths = still.panels.iter().flat_map(|panel| &panel.paths).map(|&index| &view.paths[index]);
+    let traces: Vec<_> = paths.map(|path| (tip_trace(&frame, arm, path), path.pen())).collect();
     let spots: Vec<Spot> = traces.iter().flat_map(|(steps, _)| steps.iter().filter_map(end)).collect();
     inside.extend(page::lines(traces));
     if view.is_task() {
         let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
-        inside.extend(numbers(view, &frame, paths(), &boxes, &spots));
+        inside.extend(numbers(view, &frame, &boxes, &spots));
     }
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
@@ -48,25 +47,14 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
 }
 
 /// A dot where each step ends, or was to end, with its number.
-fn numbers<'a>(
-    view: &View,
-    frame: &Frame,
-    paths: impl Iterator<Item = &'a PathView>,
-    boxes: &[Rect],
-    spots: &[Spot],
-) -> Vec<Item> {
-    let place = |q| {
+fn numbers(view: &View, frame: &Frame, boxes: &[Rect], spots: &[Spot]) -> Vec<Item> {
+    let (mut items, mut tags) = (Vec::new(), Vec::new());
+    for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
         let tip = view.arm.tip_at(q);
-        frame.at(tip.x, tip.y)
-    };
-    let mut tags: Vec<Tag> = Vec::new();
-    paths.for_each(|path| tags::add(&mut tags, place(path.goal()), path.step));
-    let dot = Style::line(WHITE, 1.2).filled(INK);
-    let mut items: Vec<Item> = tags.iter().map(|tag| Item::Disc(tag.at, 3.6, dot)).collect();
-    let fails = view.still.panels.iter().find_map(|panel| panel.fails);
-    for (number, (_, q)) in fails.into_iter().flat_map(|number| view.unreached().map(move |to| (number, to))) {
-        items.push(Item::Disc(place(q), 3.6, Style::line(BARRED, 1.4).filled(WHITE)));
-        tags::add(&mut tags, place(q), number);
+        let spot = frame.at(tip.x, tip.y);
+        let (line, fill) = if reached { (Style::line(WHITE, 1.2), INK) } else { (Style::line(BARRED, 1.4), WHITE) };
+        items.push(Item::Disc(spot, 3.6, line.filled(fill)));
+        tags::add(&mut tags, spot, number);
     }
     items.extend(tags::items(&tags, frame.rect, boxes, spots));
     items

@@ -133,6 +133,15 @@ impl View {
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
+    /// Where motions end in a panel or were to, the number of the step, and whether one ends there (or none was found).
+    pub(super) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
+        let goals = self.goals.iter().map(|&q| (q.into(), 0, panel.paths.is_empty()));
+        let unreached = &self.worlds[panel.worlds[0]].unreached;
+        let unreached = unreached.iter().map(|&q| (q.into(), panel.fails.unwrap_or(0), false));
+        let paths = panel.paths.iter().map(|&index| &self.paths[index]);
+        goals.chain(unreached).chain(paths.map(|path| (path.goal(), path.step, true))).collect()
+    }
+
     /// The document that the page's code reads.
     ///
     /// # Panics
