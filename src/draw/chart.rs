@@ -60,12 +60,15 @@ impl Chart {
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
-    /// A closed outline with its copies.
+    /// A closed outline with its copies, where it repeats as paths do.
     #[must_use]
-    pub fn polygon(&self, corners: &Chain) -> Vec<Step> {
-        let copy =
-            |s: Configuration| chain(corners.0.iter().map(move |q| self.frame.at(q[0] + s[0], q[1] + s[1])), true);
-        self.paths.shifts(&corners.0).into_iter().flat_map(copy).collect()
+    pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
+        self.copies(corners, &self.paths)
+    }
+
+    fn copies(&self, corners: &[Configuration], window: &Window) -> Vec<Step> {
+        let copy = |s: Configuration| chain(corners.iter().map(move |q| self.frame.at(q[0] + s[0], q[1] + s[1])), true);
+        window.shifts(corners).into_iter().flat_map(copy).collect()
     }
 
     /// Contours with their copies as one outline; in a style whose pen lies below they look like their union.
@@ -74,14 +77,12 @@ impl Chart {
         let mut steps = Vec::new();
         for Chain(contour) in contours.map(|c| &c.contour) {
             let twice: f64 = (0..contour.len()).map(|i| cross(contour[i], contour[(i + 1) % contour.len()])).sum();
+            let mut ordered = contour.clone();
             // The non-zero rule unites contours of one orientation only.
-            let mut ordered: Vec<&Configuration> = contour.iter().collect();
             if twice < 0.0 {
                 ordered.reverse();
             }
-            for shift in self.obstacles.shifts(contour) {
-                steps.extend(chain(ordered.iter().map(|p| self.frame.at(p[0] + shift[0], p[1] + shift[1])), true));
-            }
+            steps.extend(self.copies(&ordered, &self.obstacles));
         }
         Item::Outline(steps, style)
     }

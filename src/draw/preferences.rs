@@ -3,10 +3,9 @@
 use super::axes::Frame;
 use super::chart::Chart;
 use super::color::Rgb;
-use super::figure::{Item, Pen, Style, chain};
+use super::figure::{Item, Pen, Step, Style, chain};
 use super::legend::{Key, Sign};
 use super::view::RegionView;
-use crate::space::Configuration;
 
 /// Of regions with a positive epsilon.
 const AVOIDED: Rgb = Rgb(0xc4, 0x6a, 0x1d);
@@ -17,15 +16,14 @@ const DASH: &[f64] = &[7.0, 4.0];
 /// Those of the workspace.
 #[must_use]
 pub fn in_workspace(regions: &[RegionView], frame: &Frame) -> Vec<Item> {
-    let regions = regions.iter().filter(|region| !region.joints);
-    regions.map(|region| item(region, &[Configuration::zeros()], frame)).collect()
+    let corners = |region: &RegionView| chain(region.corners.0.iter().map(|p| frame.at(p[0], p[1])), true);
+    regions.iter().filter(|region| !region.joints).map(|region| item(region, corners(region))).collect()
 }
 
 /// Those of the configuration space, with their copies on circles.
 #[must_use]
 pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
-    let regions = regions.iter().filter(|region| region.joints);
-    regions.map(|region| item(region, &chart.paths.shifts(&region.corners.0), &chart.frame)).collect()
+    regions.iter().filter(|region| region.joints).map(|r| item(r, chart.polygon(&r.corners))).collect()
 }
 
 /// What the dashes mean.
@@ -37,11 +35,7 @@ pub fn keys(regions: &[RegionView]) -> Vec<Key> {
     avoided.into_iter().chain(any(false).then(|| (line(PREFERRED), "region, epsilon below 0".to_owned()))).collect()
 }
 
-fn item(region: &RegionView, shifts: &[Configuration], frame: &Frame) -> Item {
+fn item(region: &RegionView, steps: Vec<Step>) -> Item {
     let color = if region.epsilon > 0.0 { AVOIDED } else { PREFERRED };
-    let copy = |shift: &Configuration| {
-        let corners = region.corners.0.iter().map(|p| p + shift);
-        chain(corners.map(|p| frame.at(p[0], p[1])).collect::<Vec<_>>(), true)
-    };
-    Item::Outline(shifts.iter().flat_map(copy).collect(), Style::line(color, 1.4).dashed(DASH))
+    Item::Outline(steps, Style::line(color, 1.4).dashed(DASH))
 }
