@@ -1,7 +1,10 @@
 //! How grids come about.
 
+use serde::{Deserialize, Serialize};
+
 /// How the cells of a grid are decided.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum GridSpace {
     /// By exact slices: cells that are wholly free, then cells whose centres are ([`Proves`](crate::cspace::Proves) says which).
     #[default]

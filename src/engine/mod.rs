@@ -48,6 +48,7 @@ mod problem;
 mod rungs;
 mod settle;
 mod shortest;
+mod stored;
 mod subdivision;
 pub mod task;
 mod thinned;

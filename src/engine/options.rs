@@ -6,10 +6,12 @@ use crate::model::{Arm, Joint};
 use crate::motion::{Drive, SHORTEST_INTERVAL};
 use crate::planner::{FieldPlanner, GridSearch, PathKind, Wavefront};
 use crate::space::Metric;
+use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
 /// What makes a path short.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Criterion {
     /// Square root of the sum of squares, radians and metres as they come.
     #[default]
@@ -33,7 +35,8 @@ impl Criterion {
 }
 
 /// A planner with what it can be told. [`Planner::named`] has the defaults.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Planner {
     /// The shortest path, from exact slices, with a proven bound on the optimum.
     Shortest {
@@ -287,7 +290,8 @@ fn wrong_margin(margin: f64) -> Option<String> {
 }
 
 /// Joints that ROS 2 messages name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum NamedJoints {
     /// Every movable joint of the robot.
     #[default]
@@ -304,7 +308,8 @@ pub enum NamedJoints {
 /// let options = Options { planner: Planner::First, ..Options::default() };
 /// assert_eq!(options.levels, Options::default().levels);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Options {
     /// Which planner, with options of its own.
     pub planner: Planner,

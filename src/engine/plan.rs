@@ -247,6 +247,14 @@ impl Plan {
         }
     }
 
+    /// The same as a value.
+    pub(super) fn result_value(&self) -> serde_json::Result<serde_json::Value> {
+        match &self.made {
+            Made::Motion(plan) => serde_json::to_value(&plan.report),
+            Made::Task(plan) => serde_json::to_value(&plan.report),
+        }
+    }
+
     /// The result's fields, of a single motion.
     #[must_use]
     pub fn report(&self) -> Option<&Report> {

@@ -131,7 +131,7 @@ impl Problem {
         &self.notes
     }
 
-    fn read(what: Asked, robot: RobotReport, notes: Vec<String>) -> Self {
+    pub(super) fn read(what: Asked, robot: RobotReport, notes: Vec<String>) -> Self {
         Self { what: Arc::new(what), robot: Arc::new(robot), notes: notes.into(), read_in: None }
     }
 }

@@ -1,7 +1,8 @@
 //! The one shape that everything is made of: a convex polygon grown by a radius.
 
 use super::predicates::{Orientation, orientation};
-use super::{Bounds, Point, Pose, Vector};
+use super::{Bounds, Point, Pose, Vector, hull};
+use serde::{Deserialize, Serialize};
 
 /// Why corners and a radius are no convex shape. Corners are counted from 1 in messages, from 0 here.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -43,10 +44,63 @@ pub enum ConvexError {
 ///
 /// The core is counter-clockwise and has no repeated corners. Within a scene what may be come nearer to than the clearance has a
 /// negative radius, see `receding`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Corners", into = "Corners")]
 pub struct Convex {
     core: Vec<Point>,
     radius: f64,
+}
+
+/// What a shape is made of, as data.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Corners {
+    core: Vec<Point>,
+    radius: f64,
+}
+
+impl From<Convex> for Corners {
+    fn from(Convex { core, radius }: Convex) -> Self {
+        Self { core, radius }
+    }
+}
+
+impl TryFrom<Corners> for Convex {
+    type Error = ConvexError;
+
+    /// As [`Convex::new`], but that corners may be bent by what moving a shape rounds: [`Convex::at`] makes such, too.
+    fn try_from(Corners { core, radius }: Corners) -> Result<Self, ConvexError> {
+        match Self::new(core.clone(), radius) {
+            Err(ConvexError::NotConvex { .. }) if is_hull_up_to_rounding(&core) => Ok(Self { core, radius }),
+            made => made,
+        }
+    }
+}
+
+/// By how much rounding may bend a corner, as a share of the greatest coordinate.
+const BENT: f64 = 16.0 * f64::EPSILON;
+
+/// Whether the corners go once round their convex hull, those that are none of its corners as near to its sides as rounding
+/// puts them.
+fn is_hull_up_to_rounding(core: &[Point]) -> bool {
+    let hull = hull(core);
+    let bent = BENT * core.iter().fold(0.0_f64, |most, p| most.max(p.coords.amax()));
+    let n = core.len();
+    let Some(first) = core.iter().position(|p| hull.len() > 2 && *p == hull[0]) else { return false };
+    // The side that the corner before lies on, and how far along.
+    let (mut side, mut last) = (0, 0.0);
+    let follows = (1..n).all(|k| {
+        let p = core[(first + k) % n];
+        if hull.get(side + 1) == Some(&p) {
+            (side, last) = (side + 1, 0.0);
+            return true;
+        }
+        let [a, b] = [hull[side], hull[(side + 1) % hull.len()]];
+        let (along, to) = (b - a, p - a);
+        let before = std::mem::replace(&mut last, along.dot(&to));
+        super::cross(along, to) <= bent * along.norm() && before < last && last < along.norm_squared()
+    });
+    follows && side + 1 == hull.len()
 }
 
 impl Convex {

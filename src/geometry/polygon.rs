@@ -3,6 +3,7 @@
 use super::planar::first_meeting;
 use super::predicates::{Orientation, orientation, point_on_segment, segments_cross};
 use super::{Convex, Point, cross, decompose};
+use serde::{Deserialize, Serialize};
 
 /// Why a list of corners is no simple polygon.
 ///
@@ -59,9 +60,24 @@ pub enum PolygonError {
 /// A polygon whose boundary neither crosses nor touches itself; counter-clockwise.
 ///
 /// Corners in the middle of a straight side are allowed and kept.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Point>", into = "Vec<Point>")]
 pub struct SimplePolygon {
     corners: Vec<Point>,
+}
+
+impl TryFrom<Vec<Point>> for SimplePolygon {
+    type Error = PolygonError;
+
+    fn try_from(corners: Vec<Point>) -> Result<Self, PolygonError> {
+        Self::new(corners)
+    }
+}
+
+impl From<SimplePolygon> for Vec<Point> {
+    fn from(polygon: SimplePolygon) -> Self {
+        polygon.corners
+    }
 }
 
 impl SimplePolygon {

@@ -70,10 +70,12 @@ pub use values::{JointValues, Overrides, TipPoint};
 pub use world::World;
 
 use crate::model::{AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// What the user should know of how the robot was read.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RobotReport {
     /// For the summary: the plane, the outline of each link, joints held still, defaults taken, things ignored.
     pub notes: Vec<String>,

@@ -4,9 +4,11 @@ use super::{Joint, JointType, Link};
 use crate::geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use crate::space::{Configuration, Topology};
 use nalgebra::{Isometry2, Translation2, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// The plane of motion in the URDF's root frame: plane coordinates of a root point `x` are `(x . u, x . v)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Plane {
     /// First basis vector.
     pub u: Vector3<f64>,
@@ -28,7 +30,8 @@ pub struct Plane {
 /// ```
 ///
 /// All frames are parallel to the plane's axes at the zero configuration.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Arm {
     /// The robot's name.
     pub name: String,

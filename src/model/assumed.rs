@@ -1,6 +1,6 @@
 //! Limits that a motion keeps although nobody gives them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Top speed of a joint that turns, without one of its own; rad/s.
@@ -19,7 +19,8 @@ pub(crate) fn assumed_acceleration(velocity: f64) -> f64 {
 
 /// Defaults that were taken for want of limits, by joint: rad/s or m/s, rad/s2 or m/s2. Only timing depends on them; path,
 /// certificate and proof do not.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
 pub struct AssumedLimits {
     /// The top speeds that were assumed, by joint.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]

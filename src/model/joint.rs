@@ -3,9 +3,11 @@
 use super::{SLIDING_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::geometry::Vector;
 use crate::space::JointRange;
+use serde::{Deserialize, Serialize};
 
 /// How a joint moves its link in the plane.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum JointType {
     /// Turns. `sign` is +1 when positive joint values turn counter-clockwise in plane coordinates, else -1.
     Revolute {
@@ -28,7 +30,8 @@ impl JointType {
 }
 
 /// One joint: its motion, range and limits. Radians or metres, and seconds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Joint {
     /// Name in the URDF.
     pub name: String,

@@ -2,9 +2,11 @@
 
 use super::Heights;
 use crate::geometry::{Convex, ConvexError, Point};
+use serde::{Deserialize, Serialize};
 
 /// Where a link's outline comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum OutlineSource {
     /// The URDF's `<collision>` geometry.
     Collision,
@@ -18,7 +20,8 @@ pub enum OutlineSource {
 
 /// One convex piece of a link's outline, in the link's frame: origin at the joint that carries the link, axes parallel
 /// to the plane's at the zero configuration.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Part {
     /// Projection on the plane.
     pub shape: Convex,
@@ -29,7 +32,8 @@ pub struct Part {
 }
 
 /// Everything that one joint moves and the next does not, fixed children included.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Link {
     /// The URDF link that the joint carries.
     pub name: String,

@@ -29,9 +29,11 @@ mod record;
 mod robot_joints;
 mod scene;
 mod scene_error;
+mod scene_record;
 mod stroke;
 mod stuck_along;
 mod task;
+mod task_error;
 mod workspace;
 
 pub use arm::{Arm, Plane};
@@ -54,4 +56,5 @@ pub use scene_error::SceneError;
 pub use stroke::{Stroke, ToolJoint};
 pub use stuck_along::BlockedStretch;
 pub use task::{Action, Holding, Item, Object, Step, Task, Wrist};
+pub use task_error::TaskError;
 pub use workspace::{Heights, Obstacle, Shape, Workspace};

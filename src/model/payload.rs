@@ -4,9 +4,11 @@ use super::{Arm, Heights};
 use crate::geometry::{Convex, Point, Pose};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
+use serde::{Deserialize, Serialize};
 
 /// How an object hangs on the arm.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Grip {
     /// It turns with link 2: its pose in link 2's frame.
     Rigid(Pose),
@@ -35,7 +37,8 @@ impl Grip {
 }
 
 /// An object while the arm carries it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Payload {
     /// The object's name.
     pub object: String,

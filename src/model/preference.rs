@@ -3,9 +3,11 @@
 use super::Arm;
 use crate::geometry::{Point, SimplePolygon};
 use crate::space::Configuration;
+use serde::{Deserialize, Serialize};
 
 /// Where a preference holds.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Region {
     /// These configurations; on circles their copies too.
     Configurations(SimplePolygon),
@@ -15,7 +17,8 @@ pub enum Region {
 
 /// A region of the world that field planners may treat differently: softly, unlike an obstacle. Other planners do not
 /// look at it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Preference {
     /// The user's name for it, or `preference 3`.
     pub name: String,

@@ -1,11 +1,14 @@
 //! A planning problem.
 
 use super::Scene;
+use super::scene_record::MotionRecord;
 use crate::geometry::Point;
 use crate::space::{Configuration, GoalSet};
+use serde::{Deserialize, Serialize};
 
 /// Where to go.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Goal {
     /// These joint values.
     Joints(Configuration),
@@ -57,7 +60,8 @@ pub enum MotionProblemError {
 ///
 /// The start lies within the joint limits and is free. There is at least one goal; goals lie within the limits. Single
 /// configurations among them are free; of a segment only a part may be.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "MotionRecord", into = "MotionRecord")]
 pub struct MotionProblem {
     scene: Scene,
     start: Configuration,
@@ -108,6 +112,12 @@ impl MotionProblem {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The same without start and goals.
+    #[must_use]
+    pub fn into_scene(self) -> Scene {
+        self.scene
     }
 
     /// Where the arm is.

@@ -1,9 +1,11 @@
 //! All joints of a robot that can move, for those who have to name each of them.
 
 use super::{Stroke, ToolJoint};
+use serde::{Deserialize, Serialize};
 
 /// What sets a joint's value.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Driver {
     /// The planner: it is one of the two joints of the arm, 0 or 1.
     Planned(usize),
@@ -16,7 +18,8 @@ pub enum Driver {
 }
 
 /// A joint whose value is `factor * x + offset`, where `x` is what its driver says: itself, or the joint that it mimics.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RobotJoint {
     /// Name in the URDF.
     pub name: String,
@@ -29,7 +32,8 @@ pub struct RobotJoint {
 }
 
 /// The joints of a robot that can move, in the order of the URDF.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RobotJoints {
     /// The joints, in the order of the URDF.
     pub joints: Vec<RobotJoint>,

@@ -1,10 +1,12 @@
 //! The arm among its obstacles.
 
 use super::scene_error::{check, check_clearance};
+use super::scene_record::SceneRecord;
 use super::{Arm, Grip, Joint, Obstacle, Part, Payload, SceneError, Workspace};
 use crate::geometry::{Convex, Separation, seams, separation};
 use crate::space::Configuration;
 use nalgebra::{Isometry2, Translation2};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A part of a link and a piece of an obstacle that can meet: their heights do. Indices into the scene.
@@ -34,7 +36,8 @@ pub struct Contact {
 ///
 /// A payload is a part of link 2. One that a wrist keeps level only translates with the tip: it meets a piece exactly
 /// when the tip lies in their Minkowski difference, so its part is the tip, a point, and its pieces are these differences.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "SceneRecord", into = "SceneRecord")]
 pub struct Scene {
     arm: Arm,
     workspace: Workspace,
@@ -155,6 +158,12 @@ impl Scene {
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
         (self.arm, self.workspace)
+    }
+
+    /// Obstacles that link 2 itself is free to meet, by their number.
+    #[must_use]
+    pub fn allowed_contacts(&self) -> &[usize] {
+        &self.allowed_contacts
     }
 
     /// The arm, with what it carries.

@@ -133,14 +133,9 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
 
 fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     let name = || joint.name.clone();
-    match joint.range {
-        JointRange::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
-            return Err(SceneError::Range { joint: name(), lower, upper });
-        }
-        JointRange::Circle if !joint.joint_type.is_revolute() => {
-            return Err(SceneError::SlidesOnCircle { joint: name() });
-        }
-        JointRange::Interval { .. } | JointRange::Circle => {}
+    check_range(&joint.name, joint.range)?;
+    if joint.range.is_circle() && !joint.joint_type.is_revolute() {
+        return Err(SceneError::SlidesOnCircle { joint: name() });
     }
     let is_unit = match joint.joint_type {
         JointType::Revolute { sign } => sign.abs() == 1.0,
@@ -153,6 +148,15 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     match limits.into_iter().find_map(|(limit, value)| Some((limit, value.filter(|v| !(v.is_finite() && *v > 0.0))?))) {
         Some((limit, value)) => Err(SceneError::Limit { joint: name(), limit, value }),
         None => Ok(()),
+    }
+}
+
+pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
+    match range {
+        JointRange::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
+            Err(SceneError::Range { joint: joint.to_owned(), lower, upper })
+        }
+        JointRange::Interval { .. } | JointRange::Circle => Ok(()),
     }
 }
 

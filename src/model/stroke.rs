@@ -2,9 +2,11 @@
 
 use super::{Arm, Heights, Object};
 use crate::space::JointRange;
+use serde::{Deserialize, Serialize};
 
 /// A joint of the tool: it moves along the plane's normal, or about it, and so changes nothing in the plane but what it carries.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ToolJoint {
     /// Name in the URDF.
     pub name: String,
@@ -17,7 +19,8 @@ pub struct ToolJoint {
 }
 
 /// How a tool is lowered and raised at picks and places, while the arm stands still.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Stroke {
     /// The joint that does it; raised at rest.
     pub joint: ToolJoint,

@@ -3,9 +3,11 @@
 use super::{Arm, Goal, Grip, Heights, Obstacle, Payload, Shape, Stroke, Workspace};
 use crate::geometry::{Convex, Point, Pose};
 use crate::space::Configuration;
+use serde::{Deserialize, Serialize};
 
 /// What becomes of an object's orientation while the arm carries it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Holding {
     /// It turns with link 2.
     Rigid,
@@ -14,7 +16,8 @@ pub enum Holding {
 }
 
 /// Something that can be moved: an obstacle while it lies somewhere, a payload while it is carried.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Object {
     /// The user's name for it; no other object or obstacle has it.
     pub name: String,
@@ -33,7 +36,8 @@ pub struct Object {
 }
 
 /// What a step does.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Action {
     /// The tip goes to an object and takes it.
     Pick {
@@ -58,7 +62,8 @@ pub enum Action {
 }
 
 /// A step: what to do, and how fast.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Step {
     /// What it does.
     pub action: Action,
@@ -75,7 +80,8 @@ pub struct Step {
 }
 
 /// Part of a task.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Item {
     /// A step in its place in the order.
     Step(Step),
@@ -86,7 +92,8 @@ pub enum Item {
 }
 
 /// A wrist's limits; positive, radians and seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Wrist {
     /// The top speed, radians a second.
     pub velocity: f64,
@@ -96,7 +103,8 @@ pub struct Wrist {
 
 /// What a user asks of an arm over time. Objects that are picked lie somewhere, places follow picks, and numbers of
 /// objects and obstacles are valid.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Task {
     /// The arm, empty-handed.
     pub arm: Arm,

@@ -2,13 +2,17 @@
 
 use super::Preference;
 use crate::geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
+use serde::{Deserialize, Serialize};
 
 /// Extent along the plane's normal, metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Heights {
     /// The lower end of the extent.
+    #[serde(with = "crate::text::number")]
     pub lower: f64,
     /// The upper end of the extent.
+    #[serde(with = "crate::text::number")]
     pub upper: f64,
 }
 
@@ -24,7 +28,8 @@ impl Heights {
 }
 
 /// An obstacle's shape as the user gave it, for pictures and messages.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// Corners of a simple polygon, counter-clockwise.
     Polygon(Vec<Point>),
@@ -56,7 +61,8 @@ impl Shape {
 }
 
 /// Something the arm must not touch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// The user's name for it, or `obstacle 3`.
     pub name: String,
@@ -69,7 +75,8 @@ pub struct Obstacle {
 }
 
 /// The obstacles, the distance to keep from them, and where to be rather than elsewhere.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Workspace {
     /// The title of the world.
     pub name: String,

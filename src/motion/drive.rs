@@ -3,15 +3,18 @@
 use super::{Limits, Timed, TimingError, TipSpeed, time};
 use crate::check::{CertifiedCurve, CertifiedPath, blend};
 use crate::model::Scene;
+use serde::{Deserialize, Serialize};
 
 /// How to drive along a path.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Drive {
     /// Time between two samples, seconds.
     pub period: f64,
     /// Greatest distance from a corner at which the motion may leave the path to round it, in joint space; 0 to stop at
     /// every corner, infinite to let the clearance and the path decide. Where a joint's jerk has a limit every corner is
     /// stopped at.
+    #[serde(with = "crate::text::number")]
     pub blend: f64,
     /// Greatest speed of the tip, metres a second; none if only the joints have limits.
     pub tip_speed: Option<f64>,

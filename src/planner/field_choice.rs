@@ -3,10 +3,12 @@
 use super::PathKind;
 use crate::cspace::ZonedGrid;
 use crate::field::{Difference, Direction, Equation, Khatib, Limits, Relaxation};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Which equation; arrays over the cells are made of the zones when a grid is there.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum EquationChoice {
     /// Laplace's equation.
     Harmonic,
@@ -41,7 +43,8 @@ pub enum EquationChoice {
 }
 
 /// What a field is made of.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FieldChoice {
     /// An equation that is relaxed.
     Relaxed {
@@ -64,7 +67,8 @@ pub enum FieldChoice {
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
 /// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
 /// [`Proposal::NoPath`](super::Proposal::NoPath) says that the cells hold none.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct FieldPlanner {
     /// The field whose gradient is followed.
     pub field: FieldChoice,

@@ -1,9 +1,11 @@
 //! Which of a planner's two paths is wanted.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// A path of a planner that has two.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PathKind {
     /// The planner's own: along the gradient of a field, from cell to cell of a wavefront, through the middles of portals
     /// between the cells of a decomposition.

@@ -5,11 +5,13 @@ use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::field::search::{Order, Search, Ties};
 use crate::field::{FreeCells, Neighborhood, StepLabels, UNREACHED};
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
 /// How the cells of a grid are searched. All begin at the goal, like the wave, so that a label counts the moves to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum GridSearch {
     /// Labels the goal's whole component, then descends: a path of fewest moves. All moves count alike.
     #[default]

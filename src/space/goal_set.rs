@@ -1,13 +1,15 @@
 //! Where a motion may end.
 
 use super::{Configuration, Measure, Metric, Segment, Topology};
+use serde::{Deserialize, Serialize};
 
 /// A set of configurations to reach any of: single ones, and straight segments of them.
 ///
 /// A goal of the tip leaves a joint free where the tip is on that joint's axis, or where the tip's goal is on the axis of joint
 /// 1: then all values of the joint within its limits will do, which is a segment. On a circle copies by whole turns belong to
 /// the set.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
 pub struct GoalSet {
     pieces: Vec<Segment>,
 }

@@ -2,9 +2,11 @@
 
 use super::{Configuration, Measure};
 use crate::geometry::{Orientation, Point, cross, orientation};
+use serde::{Deserialize, Serialize};
 
 /// All configurations on a straight line from one to another; a single one where both ends are the same.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "[Configuration; 2]", into = "[Configuration; 2]")]
 pub struct Segment {
     from: Configuration,
     to: Configuration,
@@ -153,6 +155,18 @@ impl Segment {
     #[must_use]
     pub fn distance(&self, measure: Measure, p: Configuration) -> f64 {
         measure.norm(self.nearest(measure, p) - p)
+    }
+}
+
+impl From<[Configuration; 2]> for Segment {
+    fn from([from, to]: [Configuration; 2]) -> Self {
+        Self { from, to }
+    }
+}
+
+impl From<Segment> for [Configuration; 2] {
+    fn from(segment: Segment) -> Self {
+        segment.ends()
     }
 }
 

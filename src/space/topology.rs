@@ -1,6 +1,7 @@
 //! Intervals and circles: the only code that wraps configurations.
 
 use super::Configuration;
+use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// What the double [`TAU`] lacks of a whole turn, to double precision: after 80 000 turns (half a million radians) it
@@ -33,7 +34,8 @@ fn turned(value: f64, turns: f64) -> f64 {
 }
 
 /// The values one joint can take.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum JointRange {
     /// From `lower` to `upper`, both included. For a revolute joint it may be longer than a full turn: then poses
     /// repeat within it, but configurations do not.

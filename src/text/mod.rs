@@ -1,7 +1,8 @@
-//! Text for people: what is shown of names, markup, numbers of things, two columns. Imports nothing, and all may import it.
+//! Text for people: what is shown of names, markup, numbers of things, two columns; and infinite numbers in data. Imports nothing, and all may import it.
 
 mod columns;
 mod markup;
+pub mod number;
 mod plain;
 
 pub use columns::Columns;

@@ -20,6 +20,7 @@ mod search;
 mod shortest;
 mod slabs;
 mod solve;
+mod stored;
 mod task_optimum;
 mod tasks;
 mod twins;

@@ -5,10 +5,12 @@ use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
 use crate::cspace::Grid;
 use crate::space::Configuration;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How strongly the nearest goal attracts at a distance `d`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Attraction {
     /// Force `c` at any distance; potential `c d`, a cone.
     Constant(f64),
@@ -17,7 +19,8 @@ pub enum Attraction {
 }
 
 /// How strongly an obstacle repels at a distance `p`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Repulsion {
     /// The nearest obstacle: potential `k (1/p - 1/p0)^2 / 2` within the range `p0`, nothing beyond.
     Ranged {
@@ -33,7 +36,8 @@ pub enum Repulsion {
 }
 
 /// The two laws.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Khatib {
     /// Of the goal.
     pub attraction: Attraction,

@@ -1,6 +1,7 @@
 //! Where a field equation is to be solved: cells, what they are, and what lies beyond the limits.
 
 use crate::cspace::Grid;
+use serde::{Deserialize, Serialize};
 
 /// What a cell is to a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -25,7 +26,8 @@ pub enum Boundary {
 }
 
 /// The limits of intervals; circles have none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Limits {
     /// As high as obstacles: [`Boundary::High`].
     #[default]

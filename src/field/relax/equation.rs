@@ -4,10 +4,12 @@
 //! expect of the values of obstacles and goals. Lengths are counted in cells, so `epsilon` is a number per cell.
 
 use super::Domain;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// How the slope in a drift term is discretised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Difference {
     /// `(p_+ - p_-) / 2`: of second order, monotone only for `|b_k| < 2` along each axis. Beyond that a value is no mean
     /// of its neighbours' any more: relaxations may diverge, fields may have minima inside.
@@ -26,9 +28,29 @@ impl fmt::Display for Difference {
     }
 }
 
+/// The length of a direction may be off by this: some roundings.
+const UNIT_ROUNDING: f64 = 1e-15;
+
 /// A direction in the plane of joint values: a unit vector.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "[f64; 2]", into = "[f64; 2]")]
 pub struct Direction([f64; 2]);
+
+impl TryFrom<[f64; 2]> for Direction {
+    type Error = &'static str;
+
+    /// Of a vector of length 1 itself, so that one that was written is read as it was.
+    fn try_from(vector: [f64; 2]) -> Result<Self, &'static str> {
+        let length = vector[0].hypot(vector[1]);
+        ((length - 1.0).abs() <= UNIT_ROUNDING).then_some(Self(vector)).ok_or("a direction is a vector of length 1")
+    }
+}
+
+impl From<Direction> for [f64; 2] {
+    fn from(direction: Direction) -> Self {
+        direction.0
+    }
+}
 
 impl Direction {
     /// The direction of a vector; none of one without length, and of what is no number.

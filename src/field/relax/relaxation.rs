@@ -1,12 +1,14 @@
 //! How cells take turns and how far each goes.
 
+use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::fmt;
 
 /// A relaxation: in a sweep every free cell goes towards the value that its neighbours ask for.
 ///
 /// Jacobi's has no order, since all cells go at once; so an order for it cannot be written down.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Relaxation {
     /// Who goes when, and how far.
     pub scheme: Scheme,
@@ -17,7 +19,8 @@ pub struct Relaxation {
 }
 
 /// With how many digits values are kept from one update to the next. Updates themselves are reckoned in doubles.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// All digits of a double.
     #[default]
@@ -28,7 +31,8 @@ pub enum Precision {
 }
 
 /// Who goes when, and how far: a cell's new value is `old + factor * (asked for - old)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Scheme {
     /// All cells at once, from the values of the sweep before (Jacobi; weighted if the factor is not 1).
     Simultaneous {
@@ -45,7 +49,8 @@ pub enum Scheme {
 }
 
 /// Factor of a successive relaxation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Factor {
     /// The factor that is given.
     Given(f64),
@@ -70,7 +75,8 @@ impl Factor {
 }
 
 /// In which order cells go. Whatever the order, every cell goes once a sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Order {
     /// Line by line, the same in every sweep.
     Lines(Scan),
@@ -83,7 +89,8 @@ pub enum Order {
 }
 
 /// What a line is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Lines {
     /// Cells with one value of the first joint.
     #[default]
@@ -93,7 +100,8 @@ pub enum Lines {
 }
 
 /// A way through all cells, line by line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scan {
     /// Cells of a line follow one another.
     pub lines: Lines,

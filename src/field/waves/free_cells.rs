@@ -1,9 +1,11 @@
 //! The free cells of a grid as packed bits, and the moves between them.
 
 use crate::cspace::Grid;
+use serde::{Deserialize, Serialize};
 
 /// Which cells a move leads to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Neighborhood {
     /// The cells that share a side.
     #[default]

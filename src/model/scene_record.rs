@@ -1,0 +1,59 @@
+//! Scenes and problems as data: what they are made of. Reading makes them anew, by the constructors that check.
+
+use super::{Arm, MotionProblem, MotionProblemError, Payload, Scene, SceneError, Workspace};
+use crate::space::{Configuration, GoalSet};
+use serde::{Deserialize, Serialize};
+
+/// What a [`Scene`] is made of.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SceneRecord {
+    /// Without what it carries.
+    arm: Arm,
+    workspace: Workspace,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    payload: Option<Payload>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    allowed_contacts: Vec<usize>,
+}
+
+impl From<Scene> for SceneRecord {
+    fn from(scene: Scene) -> Self {
+        let (payload, allowed_contacts) = (scene.payload().cloned(), scene.allowed_contacts().to_vec());
+        let (arm, workspace) = scene.into_parts();
+        Self { arm, workspace, payload, allowed_contacts }
+    }
+}
+
+impl TryFrom<SceneRecord> for Scene {
+    type Error = SceneError;
+
+    fn try_from(record: SceneRecord) -> Result<Self, SceneError> {
+        let SceneRecord { arm, workspace, payload, allowed_contacts } = record;
+        Self::handling(arm, workspace, payload, &allowed_contacts)
+    }
+}
+
+/// What a [`MotionProblem`] is made of.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionRecord {
+    scene: Scene,
+    start: Configuration,
+    goals: GoalSet,
+}
+
+impl From<MotionProblem> for MotionRecord {
+    fn from(problem: MotionProblem) -> Self {
+        let (start, goals) = (problem.start(), problem.goals().clone());
+        Self { scene: problem.into_scene(), start, goals }
+    }
+}
+
+impl TryFrom<MotionRecord> for MotionProblem {
+    type Error = MotionProblemError;
+
+    fn try_from(MotionRecord { scene, start, goals }: MotionRecord) -> Result<Self, MotionProblemError> {
+        Self::new(scene, start, goals)
+    }
+}

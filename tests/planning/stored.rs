@@ -1,0 +1,219 @@
+//! Problems and plans as data: what is read is what was written, and what nobody could plan is refused.
+
+use cplan::geometry::Convex;
+use cplan::model::{Heights, MotionProblem, Scene, Task};
+use cplan::{Arm, Obstacle, Options, Outcome, Plan, Planner, Problem, Status, Workspace, plan};
+use serde_json::{Value, json};
+use std::path::Path;
+
+/// Every shipped world with the robot that it names, in the order of their names.
+fn shipped() -> Vec<(String, Problem)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = |folder: &str| std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
+    let mut worlds: Vec<_> = files("workspaces").chain(files("workspaces/tasks")).collect();
+    worlds.sort();
+    let problem = |world: &Path| {
+        let text = std::fs::read_to_string(world).ok()?;
+        let robot = text.lines().find_map(|line| line.strip_prefix("# robot:"))?.trim();
+        let problem = Problem::load(root.join(format!("robots/{robot}.urdf")), world).unwrap();
+        Some((world.file_stem().unwrap().display().to_string(), problem))
+    };
+    let problems: Vec<_> = worlds.iter().filter(|world| world.is_file()).filter_map(|world| problem(world)).collect();
+    assert!(problems.len() >= 40, "only {} worlds", problems.len());
+    problems
+}
+
+fn world(name: &str) -> Problem {
+    shipped().into_iter().find(|(other, _)| other == name).unwrap().1
+}
+
+/// As a file has it.
+fn value(data: &impl serde::Serialize) -> Value {
+    serde_json::from_str(&serde_json::to_string(data).unwrap()).unwrap()
+}
+
+/// Why a plan is refused that differs from a valid one there.
+fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
+    let mut tampered = valid.clone();
+    *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
+    serde_json::from_value::<Plan>(tampered).expect_err(pointer).to_string()
+}
+
+#[test]
+fn every_shipped_problem_is_read_as_it_was_written() {
+    for (name, problem) in shipped() {
+        let text = serde_json::to_string(&problem).unwrap();
+        let read: Problem = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
+        assert!(read.scene() == problem.scene() && read.motion() == problem.motion(), "{name}");
+        assert!(read.task() == problem.task() && read.robot() == problem.robot(), "{name}");
+        assert_eq!(read.notes(), problem.notes(), "{name}");
+        assert_eq!(format!("{:?}", read.scene()), format!("{:?}", problem.scene()), "{name}: bit for bit");
+    }
+}
+
+#[test]
+fn every_shipped_plan_is_read_as_it_was_written() {
+    for (name, problem) in shipped() {
+        // Timings are there, and differ from run to run; they are no part of what is compared.
+        let made = plan(&problem, &Options { timings: true, ..Options::default() }).unwrap();
+        let text = serde_json::to_string(&made).unwrap();
+        let read: Plan = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!((read.status(), read.options()), (made.status(), made.options()), "{name}");
+        assert_eq!(read.trajectory(), made.trajectory(), "{name}");
+        assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
+    }
+}
+
+#[test]
+fn options_are_read_as_they_were_written() {
+    for method in cplan::engine::Method::ALL {
+        let options = Options { jerk: Some([Some(200.0), None]), ..Options::from(method) };
+        assert_eq!(options.drive.blend, f64::INFINITY);
+        let read: Options = serde_json::from_str(&serde_json::to_string(&options).unwrap()).unwrap();
+        assert_eq!(read, options);
+    }
+    let shelf = world("shelf");
+    let made = plan(&shelf, &Options::from(Planner::named("trapezoid".parse().unwrap()))).unwrap();
+    let read: Plan = serde_json::from_value(value(&made)).unwrap();
+    assert_eq!(read.to_json(), made.to_json());
+}
+
+#[test]
+fn infinite_heights_and_the_sign_of_zero_are_kept() {
+    let mut post = Obstacle::circle("post", [1.2, -0.0], 0.1).unwrap();
+    post.heights = Heights { lower: f64::NEG_INFINITY, upper: 0.3 };
+    let world = Workspace::new([post]);
+    let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06).unwrap(), world, [2.0, 0.1 + 0.2], [-2.0, -0.3]).unwrap();
+    let written = value(&problem);
+    assert_eq!(
+        written.pointer("/asked/motion/scene/workspace/obstacles/0/heights"),
+        Some(&json!({"lower": "-inf", "upper": 0.3}))
+    );
+    let read: Problem = serde_json::from_value(written).unwrap();
+    let post = &read.scene().workspace().obstacles[0];
+    assert_eq!((post.heights.lower, post.pieces[0].core()[0].y.is_sign_negative()), (f64::NEG_INFINITY, true));
+    assert_eq!(read.motion().unwrap().start()[1].to_bits(), (0.1_f64 + 0.2).to_bits());
+}
+
+#[test]
+fn a_changed_result_is_refused_and_said_where() {
+    let made = plan(&world("shelf"), &Options::default()).unwrap();
+    assert!(matches!(made.outcome(), Outcome::Found(_)));
+    let valid = value(&made);
+    // Straight from start to goal is through the shelf.
+    let ends = json!([valid["result"]["path"][0], valid["result"]["path"].as_array().unwrap().last().unwrap()]);
+    let refused = refusal(&valid, "/result/path", ends);
+    assert!(refused.contains("result.path has 2 entries, and planning gives"), "{refused}");
+    let refused = refusal(&valid, "/result/path/1/0", json!(0.5));
+    assert!(refused.contains("result.path[1][0] is 0.5, and planning gives"), "{refused}");
+    let refused = refusal(&valid, "/result/status", json!("infeasible"));
+    assert!(refused.contains("result.status is \"infeasible\", and planning gives \"found\""), "{refused}");
+    let refused = refusal(&valid, "/result/trajectory/velocity/3/1", json!(9.0));
+    assert!(refused.contains("result.trajectory.velocity[3][1]"), "{refused}");
+    let refused = refusal(&valid, "/result/clearance", json!(0.5));
+    assert!(refused.contains("result.clearance is 0.5"), "{refused}");
+    // A faster joint would have another motion.
+    let refused = refusal(&valid, "/problem/asked/motion/scene/arm/joints/0/velocity", json!(50.0));
+    assert!(refused.contains("result."), "{refused}");
+    let refused = refusal(&valid, "/options/drive/period", json!(0.02));
+    assert!(refused.contains("result."), "{refused}");
+    for (place, field) in [("/result", "clearance"), ("/problem/asked/motion", "start"), ("/options", "levels")] {
+        let mut tampered = valid.clone();
+        tampered.pointer_mut(place).unwrap().as_object_mut().unwrap().remove(field).unwrap();
+        let refused = serde_json::from_value::<Plan>(tampered).expect_err(field).to_string();
+        assert!(refused.contains(field) && refused.contains("missing"), "{refused}");
+    }
+}
+
+#[test]
+fn an_infeasible_problem_cannot_be_made_found() {
+    let closed = plan(&world("singular_closed"), &Options::default()).unwrap();
+    assert_eq!(closed.status(), Status::Infeasible);
+    let valid = value(&closed);
+    assert!(refusal(&valid, "/result/status", json!("found")).contains("result.status"));
+    assert!(refusal(&valid, "/result/proof", json!([])).contains("result.proof"));
+}
+
+#[test]
+fn what_no_constructor_makes_is_no_problem() {
+    let valid = value(&plan(&world("shelf"), &Options::default()).unwrap());
+    let scene = "/problem/asked/motion/scene";
+    for (place, other, why) in [
+        ("/problem/asked/motion/start/0".to_owned(), json!(100.0), "outside the limits"),
+        ("/problem/asked/motion/start/0".to_owned(), Value::Null, "null"),
+        ("/problem/asked/motion/start".to_owned(), json!(["NaN", 0.0]), "invalid type"),
+        ("/problem/asked/motion/goals".to_owned(), json!([]), "no goal"),
+        (format!("{scene}/workspace/clearance"), json!(-1.0), "clearance must be finite"),
+        (format!("{scene}/workspace/obstacles/0/heights/lower"), json!("NaN"), "\"inf\""),
+        (format!("{scene}/workspace/obstacles/0/heights/lower"), json!("inf"), "no heights"),
+        (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(-0.1), "radius"),
+        (format!("{scene}/workspace/obstacles/0/pieces/0/core"), json!([]), "no corner"),
+        (
+            format!("{scene}/workspace/obstacles/0/pieces/0/core"),
+            json!([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]]),
+            "does not turn left",
+        ),
+        (format!("{scene}/arm/joints/0/velocity"), json!(0.0), "positive and finite"),
+        (format!("{scene}/arm/plane/u"), json!([1.0, 1.0, 0.0]), "plane's vectors"),
+        ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "planned ones are 0 and 1"),
+        ("/options/levels".to_owned(), json!(0), "levels"),
+        ("/options/planner".to_owned(), json!("magic"), "unknown variant"),
+    ] {
+        let refused = refusal(&valid, &place, other);
+        assert!(refused.contains(why), "{place}: {refused}");
+    }
+    assert!(serde_json::from_str::<Plan>("{").is_err());
+    assert!(serde_json::from_str::<Problem>("[]").is_err());
+}
+
+#[test]
+fn what_no_world_says_is_no_task() {
+    let mission = world("table_mission");
+    let valid = value(&mission);
+    let first = "/asked/task/items/0";
+    let refused = |pointer: &str, other: Value| {
+        let mut tampered = valid.clone();
+        *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
+        serde_json::from_value::<Problem>(tampered).expect_err(pointer).to_string()
+    };
+    let task: &Task = mission.task().unwrap();
+    assert!(task.check().is_ok());
+    let place = json!({"step": {"action": {"place": {"at": [0.1, 0.1], "angle": null, "supports": []}}, "number": 1, "cycle": 1,
+        "place": "x:1:1", "speed": 1.0, "dwell": 0.0}});
+    assert!(refused(first, place).contains("nothing is carried"));
+    assert!(refused("/asked/task/objects/0/lift", json!(-1.0)).contains("lift"));
+    assert!(refused("/asked/task/objects/0/at/rotation", json!([2.0, 0.0])).contains("no finite pose"));
+    assert!(refused("/asked/task/start", json!([100.0, 0.0])).contains("outside the limits"));
+    assert!(refused("/asked/task/items", json!([{"renew": [99]}])).contains("renewed"));
+    let name = json!(task.workspace.obstacles[0].name);
+    assert!(refused("/asked/task/objects/0/name", name).contains("has this name"));
+}
+
+#[test]
+fn corners_that_rounding_has_bent_are_read() {
+    let flat = [[0.0, 0.0], [0.1, 0.0], [0.7, 0.0], [1.0, 0.0], [1.0, 0.3], [0.0, 0.3]];
+    let shape = Convex::new(flat.map(Into::into).to_vec(), 0.01).unwrap();
+    for turn in 0..100 {
+        let moved = shape.at(&cplan::nalgebra::Isometry2::new([0.3, -0.2].into(), 0.1 * f64::from(turn)));
+        let read: Convex = serde_json::from_str(&serde_json::to_string(&moved).unwrap()).unwrap();
+        assert_eq!(read, moved);
+    }
+    let bent = r#"{"core": [[0.0, 0.0], [0.5, 0.000001], [1.0, 0.0], [1.0, 0.3]], "radius": 0.0}"#;
+    assert!(serde_json::from_str::<Convex>(bent).is_err());
+    let there_and_back = r#"{"core": [[0.0, 0.0], [0.6, 0.0], [0.4, 0.0], [1.0, 0.0], [1.0, 0.3]], "radius": 0.0}"#;
+    assert!(serde_json::from_str::<Convex>(there_and_back).is_err());
+}
+
+#[test]
+fn a_scene_with_a_payload_is_data_too() {
+    let made = plan(&world("table_mission"), &Options::default()).unwrap();
+    let legs = &made.task().unwrap().answer.legs;
+    let leg = legs.iter().find(|leg| leg.carried.is_some()).unwrap();
+    let read: Scene = serde_json::from_str(&serde_json::to_string(&*leg.scene).unwrap()).unwrap();
+    assert!(read == *leg.scene);
+    let ends = [leg.timed.curve.curve().path().start(), leg.timed.curve.curve().path().goal()];
+    let motion = MotionProblem::new(read, ends[0], ends[1]).unwrap();
+    let again: MotionProblem = serde_json::from_str(&serde_json::to_string(&motion).unwrap()).unwrap();
+    assert!(again == motion);
+}
