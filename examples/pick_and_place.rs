@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // IK solutions, grips and turns of the wrist are chosen together, for the least time of the whole.
     let plan = plan(&problem, &Options::default())?;
-    let TaskPlan { task, answer, .. } = plan.task().ok_or("the world has no steps")?;
+    let TaskPlan { task, answer } = plan.task().ok_or("the world has no steps")?;
 
     // Of a task that cannot be done: the steps before the one that fails.
     for leg in &answer.legs {

@@ -10,7 +10,8 @@ mod shipped;
 use cplan::input::{LoadedScene, Overrides, load, load_scene};
 use cplan::Options;
 use cplan::engine::Method;
-use cplan::engine::task::{TaskReport, plan};
+use cplan::engine::Report;
+use cplan::engine::task::plan;
 use files::Files;
 use libfuzzer_sys::fuzz_target;
 use shipped::shipped;
@@ -34,7 +35,7 @@ fn task(scene: LoadedScene) {
     let options = Options { levels: 1, boxes: 200, ..Method::Visibility.into() };
     let answer = plan(&task, &options, &mut |_| {});
     assert!(answer.impossible().is_none() || !answer.impossible().unwrap().reasons.is_empty(), "no reason");
-    assert!(!TaskReport::new("visibility", &task, &answer).json().is_empty());
+    assert!(!Report::of_task("visibility", &task, &answer).json().is_empty());
 }
 
 fuzz_target!(|bytes: &[u8]| {

@@ -20,11 +20,11 @@ mod names;
 mod plan;
 mod planner_args;
 mod recheck;
+mod result_files;
 mod schema;
 #[cfg(feature = "serve")]
 mod serve;
 mod sinks;
-mod task_files;
 mod variant;
 mod verify;
 

@@ -2,14 +2,12 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
+use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
-use super::task_files::TaskFiles;
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, InputError, LoadedScene};
 use crate::model::Status;
-use crate::motion::write_whole;
-use crate::output::FileFormat;
 use std::time::Instant;
 
 /// Plans, writes what was asked for, and returns the exit code.
@@ -37,7 +35,8 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     if let Some(lack) = args.options.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
-    let files = problem.task().map(|task| TaskFiles::new(&sinks, args.per_step, task.steps().count())).transpose()?;
+    let steps = problem.task().map_or(1, |task| task.steps().count());
+    let files = ResultFiles::new(&sinks, args.per_step, steps)?;
     let say = |text: &str| {
         if !args.quiet {
             sinks::say(text);
@@ -46,7 +45,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     problem.robot().warnings.iter().for_each(|w| say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| say(text))?;
     let begun = Instant::now();
-    let written = written(&plan, &sinks, files.as_ref())?;
+    let written = written(&plan, &sinks, &files)?;
     let after = [("write", begun.elapsed())];
     if args.json {
         sinks::print_json(&plan.to_json())?;
@@ -60,29 +59,16 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     })
 }
 
-/// Writes the files, and says on stderr which have no room for a result without a trajectory. The names of those that are
-/// written, for people.
+/// Writes results, then pictures. The names of the files that are written, for people.
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
-fn written(plan: &Plan, sinks: &[Sink], files: Option<&TaskFiles>) -> Result<Vec<String>, Failure> {
-    let mut written = match (files, plan.task()) {
-        (Some(files), Some(task)) => files.write(&task.report)?,
-        _ => Vec::new(),
-    };
+fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<String>, Failure> {
+    let mut written = files.write(plan.report())?;
     for sink in sinks {
-        let format = match *sink {
-            // Those of a task are written as a set.
-            Sink::Result(..) if files.is_some() => continue,
-            Sink::Result(format, _) => FileFormat::Result(format),
-            Sink::Picture(format, _) => FileFormat::Picture(format),
-        };
-        match plan.bytes(format)? {
-            Some(bytes) => {
-                write_whole(sink.path(), &bytes)?;
-                written.push(sink.path().display().to_string());
-            }
-            None => sinks::warn_unwritten(sink.path()),
+        if let Sink::Picture(format, path) = sink {
+            sinks::save_picture(*format, path, plan)?;
+            written.push(path.display().to_string());
         }
     }
     Ok(written)

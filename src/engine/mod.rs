@@ -45,6 +45,7 @@ mod motion_plan;
 mod options;
 mod plan;
 mod problem;
+mod result;
 mod rungs;
 mod settle;
 mod shortest;
@@ -62,6 +63,7 @@ pub use options::{CELLS, Criterion, FIRST_CELLS, LEVELS, MOST_MARGIN, NamedJoint
 pub(crate) use plan::Made;
 pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
 pub use problem::{Problem, ProblemError};
+pub use result::{Choice, Report, TaskFigures};
 pub use settle::decide;
 
 use crate::check::{CertifiedPath, CheckedProof};

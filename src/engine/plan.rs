@@ -4,11 +4,12 @@ use super::clock::Clock;
 use super::motion_plan::MotionPlan;
 use super::options::Options;
 use super::problem::{Asked, Problem};
-use super::task::{FailedStep, MessageError, TaskAnswer, TaskReport, plan as plan_task};
-use super::{GridSpace, Verdict, percent, solve};
+use super::result::Report;
+use super::task::{FailedStep, MessageError, TaskAnswer, plan as plan_task};
+use super::{Answer, GridSpace, percent, solve};
 use crate::check::CheckedProof;
-use crate::model::{MotionProblem, Outcome, RobotJoints, Status, Task};
-use crate::motion::{AccelerationJump, Report, SearchUsed, TimingError, Trajectory};
+use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
+use crate::motion::{SearchUsed, TimingError, Trajectory};
 use std::borrow::Cow;
 use thiserror::Error;
 
@@ -21,10 +22,7 @@ pub enum PlanError {
     /// The trajectory cannot be made as asked.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// Accelerations that would mislead their readers.
-    #[error(transparent)]
-    Accelerations(#[from] AccelerationJump),
-    /// Joints that messages cannot name as asked.
+    /// Joints that messages cannot name as asked, or accelerations that would mislead their readers.
     #[error(transparent)]
     Joints(#[from] MessageError),
 }
@@ -42,11 +40,32 @@ pub enum Refutation<'a> {
 ///
 /// It is made by [`plan`] and immutable. [`Plan::outcome`] has the answer itself; `to_json`, `svg`, `html`, `bytes`, `save` and
 /// `summary` are what the program writes.
+///
+/// It is data for serde: the problem, the options and the result. Nothing that such data states is believed; reading plans again, and
+/// refuses a result that differs, but for the times that it took. So a plan that is read is as certified as one that was just made.
+///
+/// ```
+/// use cplan::{Arm, Obstacle, Options, Plan, Problem, Workspace, plan};
+///
+/// let post = Obstacle::circle("post", [1.6, 0.0], 0.1)?;
+/// let problem = Problem::new(Arm::rr([1.0, 0.8], 0.06)?, Workspace::new([post]), [1.0, 0.2], [-1.0, -0.2])?;
+/// let made = plan(&problem, &Options::default())?;
+/// let stored = serde_json::to_string(&made)?;
+///
+/// let read: Plan = serde_json::from_str(&stored)?;
+/// assert_eq!(read.trajectory(), made.trajectory());
+///
+/// let tampered = stored.replace("\"certified\":true", "\"certified\":false");
+/// let refused = serde_json::from_str::<Plan>(&tampered).expect_err("planning says otherwise");
+/// assert!(refused.to_string().contains("result.certified is false, and planning gives true"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Plan {
     problem: Problem,
     options: Options,
     made: Made,
+    report: Report,
     clock: Clock,
 }
 
@@ -66,8 +85,6 @@ pub struct TaskPlan {
     pub task: Task,
     /// The answer.
     pub answer: TaskAnswer,
-    /// What is to be said of it.
-    pub report: TaskReport,
 }
 
 /// Plans: a certified motion, a proof that there is none, or neither within the options' effort. Milliseconds, as a rule.
@@ -87,28 +104,44 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
         return Err(PlanError::Options(error));
     }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
-    let made = match problem.asked() {
+    let (made, mut report) = match problem.asked() {
         Asked::Motion(motion) => {
-            let plan = plan_motion(problem, motion, options, &mut clock, progress)?;
-            Made::Motion(Box::new(plan))
+            let (motion, answer) = solve_with(motion, options, &mut clock, progress);
+            let (made, mut report) = MotionPlan::timed(motion, answer, options)?;
+            report.name_joints(&named(problem, options), options.accelerations)?;
+            clock.stage("trajectory");
+            (Made::Motion(Box::new(made)), report)
         }
-        Asked::Task(asked) => Made::Task(Box::new(plan_steps(problem, &asked.0, options, &mut clock, progress)?)),
+        Asked::Task(asked) => {
+            let mut task = asked.0.clone();
+            options.override_limits(&mut task.arm.joints);
+            let answer = plan_task(&task, options, progress);
+            clock.stage("plan");
+            let mut report = Report::of_task(options.planner.method().name(), &task, &answer);
+            report.name_all(&named(problem, options), &task, &answer, options.accelerations)?;
+            clock.stage("report");
+            (Made::Task(Box::new(TaskPlan { task, answer })), report)
+        }
     };
-    Ok(Plan { problem: problem.clone(), options: *options, made, clock })
+    report.search = SearchUsed::of(&options.planner);
+    report.space = options.planner.space().and_then(GridSpace::told);
+    report.assumed = problem.robot().assumed.clone();
+    if options.timings {
+        report.timings = clock.milliseconds();
+    }
+    Ok(Plan { problem: problem.clone(), options: *options, made, report, clock })
 }
 
-fn plan_motion(
-    problem: &Problem,
+/// The problem with the limits asked for, and its answer.
+fn solve_with(
     motion: &MotionProblem,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
-) -> Result<MotionPlan, PlanError> {
-    let mut asked = Cow::Borrowed(motion);
-    if options.jerk.is_some() {
-        options.override_limits(asked.to_mut().joints_mut());
-    }
-    let answer = solve(&asked, options, progress);
+) -> (MotionProblem, Answer) {
+    let mut motion = motion.clone();
+    options.override_limits(motion.joints_mut());
+    let answer = solve(&motion, options, progress);
     clock.solved(&answer.stages);
     if let (Some(bound), Some(gap)) = (&answer.bound, options.planner.gap())
         && bound.gap() > gap
@@ -121,49 +154,17 @@ fn plan_motion(
             options.levels
         ));
     }
-    let mut plan = MotionPlan::timed(asked.into_owned(), answer, options)?;
-    plan.report.assumed = problem.robot().assumed.clone();
-    plan.report.robot = named(problem, options, &plan.report.joints).into_owned();
-    plan.report.accelerations = options.accelerations;
-    if let Some(trajectory) = plan.report.trajectory.as_ref().filter(|_| options.accelerations) {
-        trajectory.check_accelerations()?;
-    }
-    clock.stage("trajectory");
-    if options.timings {
-        plan.report.timings = clock.milliseconds();
-    }
-    Ok(plan)
-}
-
-fn plan_steps(
-    problem: &Problem,
-    task: &Task,
-    options: &Options,
-    clock: &mut Clock,
-    progress: &mut dyn FnMut(&str),
-) -> Result<TaskPlan, PlanError> {
-    let mut task = task.clone();
-    options.override_limits(&mut task.arm.joints);
-    let answer = plan_task(&task, options, progress);
-    clock.stage("plan");
-    let mut report = TaskReport::new(options.planner.method().name(), &task, &answer);
-    let robot = named(problem, options, report.joints()).into_owned();
-    report.name_joints(&robot, &task, &answer, options.accelerations)?;
-    report.search = SearchUsed::of(&options.planner);
-    report.space = options.planner.space().and_then(GridSpace::told);
-    report.assumed = problem.robot().assumed.clone();
-    clock.stage("report");
-    if options.timings {
-        report.timings = clock.milliseconds();
-    }
-    Ok(TaskPlan { task, answer, report })
+    (motion, answer)
 }
 
 /// The joints that messages name.
-fn named<'a>(problem: &'a Problem, options: &Options, planned: &[String; 2]) -> Cow<'a, RobotJoints> {
+fn named<'a>(problem: &'a Problem, options: &Options) -> Cow<'a, RobotJoints> {
     match options.joints {
         super::NamedJoints::All => Cow::Borrowed(&problem.robot().joints),
-        super::NamedJoints::Planned => Cow::Owned(RobotJoints::planned(planned)),
+        super::NamedJoints::Planned => {
+            let names = problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
+            Cow::Owned(RobotJoints::planned(&names))
+        }
     }
 }
 
@@ -171,37 +172,25 @@ impl Plan {
     /// The answer: a certified motion; a proof that there is none; or why neither is known.
     #[must_use]
     pub fn outcome(&self) -> Outcome<&Trajectory, Refutation<'_>, &str> {
-        match &self.made {
-            Made::Motion(plan) => match (&plan.answer.verdict, &plan.report.trajectory) {
-                (Verdict::Found(_), Some(trajectory)) => Outcome::Found(trajectory),
-                (Verdict::Infeasible(proof), _) => Outcome::Infeasible(Refutation::Motion(proof)),
-                (Verdict::Unknown(why), _) => Outcome::Unknown(why),
-                (Verdict::Found(_), None) => unreachable!("what is found is timed before it is a plan"),
-            },
-            Made::Task(plan) => match (plan.answer.verdict.status(), plan.report.trajectory(), plan.report.failed()) {
-                (Status::Found, Some(trajectory), _) => Outcome::Found(trajectory),
-                (Status::Infeasible, _, Some(step)) => Outcome::Infeasible(Refutation::Step(step)),
-                _ => Outcome::Unknown(plan.report.reason().unwrap_or_default()),
-            },
+        let Report { trajectory, proof, task, reason, .. } = &self.report;
+        let step = task.as_ref().and_then(|task| task.failed.as_ref()).map(Refutation::Step);
+        match (self.status(), trajectory, proof.as_ref().map(Refutation::Motion).or(step)) {
+            (Status::Found, Some(trajectory), _) => Outcome::Found(trajectory),
+            (Status::Infeasible, _, Some(refutation)) => Outcome::Infeasible(refutation),
+            _ => Outcome::Unknown(reason.as_deref().unwrap_or_default()),
         }
     }
 
     /// Which of the three answers it is.
     #[must_use]
     pub fn status(&self) -> Status {
-        match &self.made {
-            Made::Motion(plan) => plan.answer.verdict.status(),
-            Made::Task(plan) => plan.answer.verdict.status(),
-        }
+        self.report.status()
     }
 
     /// The motion, if there is one.
     #[must_use]
     pub fn trajectory(&self) -> Option<&Trajectory> {
-        match &self.made {
-            Made::Motion(plan) => plan.report.trajectory.as_ref(),
-            Made::Task(plan) => plan.report.trajectory(),
-        }
+        self.report.trajectory.as_ref()
     }
 
     /// What was asked.
@@ -222,13 +211,13 @@ impl Plan {
         self.clock.stages()
     }
 
-    /// Verdict, bound, path, trace and figures of a single motion.
+    /// Verdict, bound, path and trace of a single motion.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionPlan> {
         if let Made::Motion(plan) = &self.made { Some(plan) } else { None }
     }
 
-    /// Steps, events and figures of a task.
+    /// Steps and their motions, of a task.
     #[must_use]
     pub fn task(&self) -> Option<&TaskPlan> {
         if let Made::Task(plan) = &self.made { Some(plan) } else { None }
@@ -238,26 +227,23 @@ impl Plan {
         &self.made
     }
 
+    /// The arm, with the limits asked for.
+    pub(crate) fn arm(&self) -> &Arm {
+        match &self.made {
+            Made::Motion(plan) => plan.problem.scene().arm(),
+            Made::Task(plan) => &plan.task.arm,
+        }
+    }
+
     /// The result as a JSON object, a line a field, as interface and book describe it.
     #[must_use]
     pub fn to_json(&self) -> String {
-        match &self.made {
-            Made::Motion(plan) => plan.report.json(),
-            Made::Task(plan) => plan.report.json(),
-        }
+        self.report.json()
     }
 
-    /// The same as a value.
-    pub(super) fn result_value(&self) -> serde_json::Result<serde_json::Value> {
-        match &self.made {
-            Made::Motion(plan) => serde_json::to_value(&plan.report),
-            Made::Task(plan) => serde_json::to_value(&plan.report),
-        }
-    }
-
-    /// The result's fields, of a single motion.
+    /// The result's fields.
     #[must_use]
-    pub fn report(&self) -> Option<&Report> {
-        self.motion().map(|plan| &plan.report)
+    pub fn report(&self) -> &Report {
+        &self.report
     }
 }

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// A robot, its world, and what it is to do there: a motion from a start to a goal, or the steps of a task. Checked, and
-/// cheap to clone.
+/// cheap to clone. For serde it is its model; what is read is checked as what is made in code, and numbers keep all their bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
     what: Arc<Asked>,

@@ -110,7 +110,7 @@ impl<'de> Deserialize<'de> for Plan {
 
 /// The result without the times that it took, which differ from run to run.
 fn result(plan: &Plan) -> serde_json::Result<Value> {
-    let mut result = plan.result_value()?;
+    let mut result = serde_json::to_value(plan.report())?;
     if let Value::Object(fields) = &mut result {
         fields.remove("timings");
     }

@@ -44,6 +44,9 @@ pub enum TaskError {
         /// What is wrong with it.
         why: &'static str,
     },
+    /// There is nothing to do.
+    #[error("there are no steps")]
+    NoSteps,
     /// Objects begin anew that cannot.
     #[error("an object is renewed that does not exist, or is carried then")]
     Renewed,
@@ -65,6 +68,9 @@ impl Task {
             return Err(TaskError::Object { object: object.name.clone(), why: "something else has this name" });
         }
         self.check_tool()?;
+        if self.steps().next().is_none() {
+            return Err(TaskError::NoSteps);
+        }
         let mut state =
             Gripper { task: self, carried: None, turned: self.objects.iter().map(angle_at_first).collect() };
         self.items.iter().try_for_each(|item| state.item(item))?;

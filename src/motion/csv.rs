@@ -9,19 +9,11 @@ use std::fmt::Write;
 ///
 /// Fields are quoted as RFC 4180 says; lines end in a single line feed, which every reader takes and text tools prefer.
 /// Numbers have as many digits as it takes to read the same `f64` back.
+///
+/// With `steps`, as many numbers as there are samples, there is one more column, `step`: the number of the step that each sample
+/// belongs to.
 #[must_use]
-pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool) -> String {
-    table(joints, trajectory, accelerations, None)
-}
-
-/// The same with one more column, `step`: the number of the step that each sample belongs to. There are as many numbers as
-/// samples.
-#[must_use]
-pub fn csv_with_steps(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: &[usize]) -> String {
-    table(joints, trajectory, accelerations, Some(steps))
-}
-
-fn table(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
+pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
     for suffix in ["", "_velocity", "_acceleration"].into_iter().take(if accelerations { 3 } else { 2 }) {
         for joint in joints {

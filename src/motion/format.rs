@@ -1,8 +1,5 @@
 //! Which file extension means what.
 
-#[cfg(feature = "mcap")]
-use super::mcap::mcap;
-use super::{JointMotion, Report, csv, ros_yaml};
 use std::path::Path;
 use thiserror::Error;
 
@@ -56,20 +53,6 @@ impl Format {
             #[cfg(not(feature = "mcap"))]
             Some("mcap") => Err(FormatError::WithoutMcap { file: file() }),
             _ => Err(FormatError::Unknown { file: file() }),
-        }
-    }
-
-    /// The report in this format, as a file holds it; none if the format holds nothing but a trajectory and there is none.
-    /// All but MCAP are text in UTF-8.
-    #[must_use]
-    pub fn bytes(self, report: &Report) -> Option<Vec<u8>> {
-        let motion = || Some(JointMotion::new(&report.robot, report.trajectory.as_ref()?, report.accelerations));
-        match self {
-            Self::Json => Some(report.json().into_bytes()),
-            Self::Csv => Some(csv(&report.joints, report.trajectory.as_ref()?, report.accelerations).into_bytes()),
-            Self::Yaml => Some(ros_yaml(&motion()?).into_bytes()),
-            #[cfg(feature = "mcap")]
-            Self::Mcap => Some(mcap(&[(&motion()?, 0.0)])),
         }
     }
 }

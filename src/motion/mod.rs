@@ -1,7 +1,7 @@
 //! From a certified path to a motion in time, and to files.
 //!
-//! [`time`] puts a path with its blends under a clock within the joints' limits, [`Report`] collects what a run found,
-//! [`Format`] writes either as JSON, CSV, ROS 2 YAML or MCAP, and [`write_whole`] puts that into a file, whole or not at all.
+//! [`time`] puts a path with its blends under a clock within the joints' limits; [`csv`], [`ros_yaml`] and (a feature) `mcap` write
+//! motions, [`Format`] tells which a file's name asks for, and [`write_whole`] makes a file of it, whole or not at all.
 //!
 //! What each format promises to those who read it, by the way in which they join samples:
 //!
@@ -81,7 +81,7 @@ pub use self::mcap::mcap;
 pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use clock::whole_nanoseconds;
 pub(crate) use clock::{nanoseconds, seconds};
-pub use csv::{csv, csv_with_steps};
+pub use csv::csv;
 pub use drive::Drive;
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
@@ -89,7 +89,7 @@ pub(crate) use json::{as_map, line_a_field};
 pub use limits::Limits;
 pub use message::{AccelerationJump, JointMotion};
 pub(crate) use result::interpolation;
-pub use result::{Blends, Optimum, Report, SearchUsed};
+pub use result::{Blends, Optimum, SearchUsed};
 pub use ros::ros_yaml;
 pub use sample::{LONGEST_MOTION, MOST_SAMPLES, SHORTEST_INTERVAL, Timed, TimingError, Trajectory, time};
 pub use single::single;

@@ -2,7 +2,7 @@
 
 use super::picture::{PictureFormat, PictureFormatError};
 use crate::draw::DrawError;
-use crate::engine::{Made, Plan};
+use crate::engine::Plan;
 use crate::motion::{Format, FormatError, WriteError, write_whole};
 use std::path::Path;
 use thiserror::Error;
@@ -60,10 +60,9 @@ impl Plan {
     /// # Errors
     /// A picture that cannot be made of pixels.
     pub fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
-        match (format, self.made()) {
-            (FileFormat::Result(format), Made::Motion(plan)) => Ok(format.bytes(&plan.report)),
-            (FileFormat::Result(format), Made::Task(plan)) => Ok(plan.report.bytes(format)),
-            (FileFormat::Picture(format), _) => format.bytes(&self.view()).map(Some),
+        match format {
+            FileFormat::Result(format) => Ok(self.report().bytes(format)),
+            FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
         }
     }
 

@@ -4,6 +4,7 @@
 //! `summary` for a terminal.
 
 mod file;
+mod motion_summary;
 mod picture;
 mod step_lines;
 mod summary;

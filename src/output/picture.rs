@@ -1,7 +1,5 @@
 //! Pictures and pages of a plan.
 
-use super::summary::facts;
-use super::task_summary;
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, DrawError, Picture, TaskPicture, View};
 use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
@@ -111,7 +109,7 @@ impl Plan {
     }
 
     fn motion_view(&self, plan: &MotionPlan, contours: &[CObstacle]) -> View {
-        let MotionPlan { problem, answer, curve, report } = plan;
+        let (MotionPlan { problem, answer, curve }, report) = (plan, self.report());
         let scene = problem.scene();
         let outline = curve.as_ref().map(|curve| curve.curve().outline());
         let detail = match report.length {
@@ -122,7 +120,7 @@ impl Plan {
             title: vec![title_of(scene), detail],
             status: status(&answer.verdict).into(),
             ending: Some(self.status()),
-            facts: facts(plan, self.options()),
+            facts: self.facts(),
             goals: problem.goals().pieces(),
             paths: outline.iter().map(|path| (answer.method.to_string(), path)).collect(),
             trajectory: report.trajectory.as_ref(),
@@ -135,21 +133,21 @@ impl Plan {
 
     /// What a picture of a task shows.
     fn task_picture<'a>(&'a self, plan: &'a TaskPlan) -> TaskPicture<'a> {
-        let TaskPlan { task, answer, report } = plan;
+        let (TaskPlan { task, answer }, report) = (plan, self.report());
         let steps = counted(answer.legs.len(), "step");
-        let (status, detail) = match (answer.verdict.status(), report.clearance()) {
+        let (status, detail) = match (answer.verdict.status(), report.clearance) {
             (Status::Found, clearance) => {
-                let (planner, seconds) = (report.planner(), answer.duration());
+                let (planner, seconds) = (&report.planner, answer.duration());
                 ("done, certified", format!("{planner}: {steps} in {seconds:.3} s, {}", kept(clearance)))
             }
-            (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner())),
-            (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner())),
+            (Status::Infeasible, _) => ("proven", format!("{}: {steps} before it", report.planner)),
+            (Status::Unknown, _) => ("unknown", format!("{}: {steps} before it", report.planner)),
         };
         TaskPicture {
             title: vec![title_of(self.problem().scene()), detail],
             status: status.into(),
             ending: Some(self.status()),
-            facts: task_summary::facts(plan),
+            facts: self.facts(),
             task,
             answer,
             c_obstacles: contours,

@@ -1,11 +1,10 @@
 //! The summary for people.
 
-use super::task_summary;
-use crate::check::CertifiedCurve;
-use crate::engine::{Bound, Made, MotionPlan, Options, Plan, Verdict, percent};
-use crate::model::{Arm, Joint, Scene};
-use crate::space::{Configuration, JointRange, Metric, Segment};
-use crate::text::{Columns, counted};
+use super::{motion_summary, task_summary};
+use crate::engine::{Made, Options, Plan};
+use crate::model::{Arm, Joint};
+use crate::space::{Configuration, JointRange, Segment};
+use crate::text::Columns;
 use std::time::Duration;
 
 /// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
@@ -54,10 +53,11 @@ impl Plan {
     /// The same with the files that were written and the stages, in milliseconds, that came after planning.
     #[must_use]
     pub(crate) fn summary_with(&self, files: &[String], after: &[(&'static str, Duration)]) -> String {
-        let mut lines = match self.made() {
-            Made::Motion(plan) => motion_lines(self, plan),
-            Made::Task(plan) => task_summary::lines(self, plan),
-        };
+        let Told { asked, found } = self.told();
+        let notes = self.problem().robot().notes.iter().chain(self.problem().notes());
+        let mut lines = arm_lines(self.arm());
+        lines.extend(notes.map(|note| ("", note.clone())));
+        lines.extend(asked.into_iter().chain(found));
         lines.extend(files.iter().map(|file| ("file", file.clone())));
         let stages = self.timings().iter().chain(after);
         let stages: Vec<String> =
@@ -65,78 +65,34 @@ impl Plan {
         lines.push(("time", format!("{} ms", stages.join(", "))));
         laid_out(&lines)
     }
-}
 
-fn motion_lines(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
-    let (problem, scene) = (&plan.problem, plan.problem.scene());
-    let arm = scene.arm();
-    let mut lines = arm_lines(arm);
-    lines.extend(notes(whole));
-    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
-    lines.push(("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))));
-    lines.push(("start", configuration(arm, problem.start())));
-    lines.extend(problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
-    lines.extend(outcome(plan, whole.options()));
-    lines
-}
-
-/// How robot and world were read.
-pub(super) fn notes(plan: &Plan) -> impl Iterator<Item = Line> + '_ {
-    plan.problem().robot().notes.iter().chain(plan.problem().notes()).map(|note| ("", note.clone()))
-}
-
-/// What a page says of it: arm and outcome.
-pub(super) fn facts(plan: &MotionPlan, options: &Options) -> Vec<[String; 2]> {
-    named(arm_lines(plan.problem.scene().arm()).into_iter().chain(outcome(plan, options)))
-}
-
-/// Lines for a page.
-pub(super) fn named(lines: impl IntoIterator<Item = Line>) -> Vec<[String; 2]> {
-    lines.into_iter().map(|(key, text)| [key.to_owned(), text]).collect()
-}
-
-/// What the planner did and found.
-fn outcome(plan: &MotionPlan, options: &Options) -> Vec<Line> {
-    let MotionPlan { problem, answer, curve, report } = plan;
-    let mut lines = Vec::new();
-    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
-    let space = report.space.map(|space| format!(", {space}"));
-    let how = search.unwrap_or_default() + &space.unwrap_or_default();
-    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
-    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
-    lines.extend(field(options));
-    match &answer.verdict {
-        Verdict::Found(certified) => {
-            let path = certified.path();
-            let segments = path.segments().count();
-            let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
-            let found = format!("found and certified: {segments} straight pieces, length {:.4}{kind}", path.length());
-            lines.push(("result", found));
-            if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
-                lines.push(("reached", configuration(problem.scene().arm(), path.goal())));
-            }
-            if let Some(bound) = &answer.bound {
-                lines.push(("optimum", optimum(bound)));
-            }
-        }
-        Verdict::Infeasible(_) => {
-            lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));
-        }
-        Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
+    /// What a page says of it: arm and outcome.
+    pub(super) fn facts(&self) -> Vec<[String; 2]> {
+        let lines = arm_lines(self.arm()).into_iter().chain(self.told().found);
+        lines.map(|(key, text)| [key.to_owned(), text]).collect()
     }
-    if let (Some(curve), Some(trajectory)) = (curve, &report.trajectory) {
-        lines.push(("clearance", clearance(problem.scene(), curve)));
-        let (samples, corners) = (trajectory.time.len(), corners(curve));
-        lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
+
+    fn told(&self) -> Told {
+        match self.made() {
+            Made::Motion(plan) => motion_summary::told(self, plan),
+            Made::Task(plan) => task_summary::told(self, plan),
+        }
     }
-    lines
+}
+
+/// Lines that a single motion and a task have for themselves.
+pub(super) struct Told {
+    /// What was asked.
+    pub asked: Vec<Line>,
+    /// What was found, which a page says, too.
+    pub found: Vec<Line>,
 }
 
 /// A line of the summary: its key, empty if it goes on with what the line before is about, and its text.
 pub type Line = (&'static str, String);
 
 /// The arm and its joints.
-pub(super) fn arm_lines(arm: &Arm) -> Vec<Line> {
+fn arm_lines(arm: &Arm) -> Vec<Line> {
     let mut lines = vec![("arm", format!("{} ({}), tip \"{}\"", arm.name, arm.kind(), arm.tip_name))];
     for joint in &arm.joints {
         let unit = joint.unit();
@@ -157,45 +113,6 @@ pub fn laid_out(lines: &[Line]) -> String {
     let mut columns = Columns::default();
     lines.iter().for_each(|(key, line)| columns.add(key, line));
     columns.into_text()
-}
-
-/// What the motion keeps, and where it comes nearest.
-fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
-    match curve.nearest() {
-        Some(nearest) => format!(
-            "{:.6} m proven; closest: {} at {}",
-            curve.clearance(),
-            scene.describe(nearest.contact.pair),
-            configuration(scene.arm(), nearest.at)
-        ),
-        None => "nothing can be hit".into(),
-    }
-}
-
-/// What becomes of the path's corners, if it has any.
-fn corners(curve: &CertifiedCurve) -> String {
-    let radii = curve.curve().radii();
-    let corners = radii.len().saturating_sub(2);
-    let blended = radii.iter().filter(|radius| **radius > 0.0).count();
-    match blended {
-        _ if corners == 0 => String::new(),
-        0 => format!("; stops at {corners} corners"),
-        _ => {
-            let largest = radii.iter().copied().fold(0.0, f64::max);
-            format!("; {blended} of {corners} corners blended, radius up to {largest:.4}")
-        }
-    }
-}
-
-/// How near the path is to the optimum.
-fn optimum(bound: &Bound) -> String {
-    let Bound { metric, lower, upper } = *bound;
-    let measure = match metric {
-        Metric::Euclidean => format!("length {upper:.4}"),
-        Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
-        Metric::Time { .. } => format!("{upper:.4} s at top speed"),
-    };
-    format!("{measure}; proven: none below {lower:.4}, so at most {} longer than the shortest", percent(bound.gap()))
 }
 
 /// A title, or words for none.

@@ -1,33 +1,27 @@
 //! The summary of a task for people.
 
 use super::step_lines::{StepLine, step_lines};
-use super::summary::{Line, arm_lines, configuration, field, named, non_empty, notes};
-use crate::engine::task::{Leg, TaskAnswer, TaskReport};
-use crate::engine::{Plan, TaskPlan, percent};
+use super::summary::{Line, Told, configuration, field, non_empty};
+use crate::engine::task::{Leg, TaskAnswer};
+use crate::engine::{Plan, Report, TaskPlan, percent};
 use crate::model::Task;
 use crate::text::counted;
 
-/// What was found, a line a step.
-pub(super) fn lines(whole: &Plan, plan: &TaskPlan) -> Vec<Line> {
-    let TaskPlan { task, answer, report } = plan;
-    let mut lines = arm_lines(&task.arm);
-    lines.extend(notes(whole));
+/// Start and steps; what came of them.
+pub(super) fn told(whole: &Plan, plan: &TaskPlan) -> Told {
+    let (TaskPlan { task, answer }, report) = (plan, whole.report());
     let things = [counted(task.workspace.obstacles.len(), "obstacle"), counted(task.objects.len(), "object")];
-    lines.push(("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))));
-    lines.push(("start", configuration(&task.arm, task.start)));
     let (motions, states) = (counted(answer.motions, "motion"), counted(answer.expanded, "state"));
-    lines.push(("planner", format!("{}: {motions} planned, {states} seen", report.planner())));
-    lines.extend(field(whole.options()));
-    lines.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
-    lines.extend(outcome(answer, report));
-    lines.extend(clearance(answer, report));
-    lines
-}
-
-/// What a page says of it: arm and outcome.
-pub(super) fn facts(plan: &TaskPlan) -> Vec<[String; 2]> {
-    let TaskPlan { task, answer, report } = plan;
-    named(arm_lines(&task.arm).into_iter().chain(outcome(answer, report)).chain(clearance(answer, report)))
+    let mut asked = vec![
+        ("world", format!("{}, {}", non_empty(&task.workspace.name), things.join(", "))),
+        ("start", configuration(&task.arm, task.start)),
+        ("planner", format!("{}: {motions} planned, {states} seen", report.planner)),
+    ];
+    asked.extend(field(whole.options()));
+    asked.extend(steps(task, answer).into_iter().map(|step| ("step", step)));
+    let mut found = outcome(answer, report);
+    found.extend(clearance(answer, report));
+    Told { asked, found }
 }
 
 /// A line a step, those of later cycles in one.
@@ -53,25 +47,26 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
 }
 
 /// The verdict, and what is proven of the time, or why it fails.
-fn outcome(answer: &TaskAnswer, report: &TaskReport) -> Vec<Line> {
+fn outcome(answer: &TaskAnswer, report: &Report) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
-    let (duration, lower) = report.seconds();
-    let Some(duration) = duration else {
-        let mut lines = vec![("result", report.reason().unwrap_or_default().to_owned())];
-        let reasons = report.failed().into_iter().flat_map(|failed| failed.reasons.iter().cloned());
+    let figures = report.task.as_ref();
+    let Some(duration) = report.duration else {
+        let mut lines = vec![("result", report.reason.clone().unwrap_or_default())];
+        let failed = figures.and_then(|figures| figures.failed.as_ref());
+        let reasons = failed.into_iter().flat_map(|failed| failed.reasons.iter().cloned());
         lines.extend(reasons.map(|reason| ("why", reason)));
         lines.push(("before it", format!("{count} can be done, in {:.3} s", answer.duration())));
         return lines;
     };
-    let samples = report.trajectory().map_or(0, |trajectory| trajectory.time.len());
+    let samples = report.trajectory.as_ref().map_or(0, |trajectory| trajectory.time.len());
     let still: f64 = answer.legs.iter().map(Leg::rest).sum();
     let still = if still > 0.0 { format!(", {still:.3} s of it standing still") } else { String::new() };
-    let proven = match (lower, report.gap()) {
-        (Some(lower), Some(gap)) => format!(
+    let proven = match figures.and_then(|figures| figures.lower_bound.zip(figures.gap)) {
+        Some((lower, gap)) => format!(
             "proven: no sequence of motions takes less than {lower:.3} s, so at most {} longer than the fastest",
             percent(gap)
         ),
-        _ => "nothing is proven of the fastest".into(),
+        None => "nothing is proven of the fastest".into(),
     };
     let choice = if answer.exact {
         "no other postures, turns and order are faster with the motions of this planner"
@@ -87,8 +82,8 @@ fn outcome(answer: &TaskAnswer, report: &TaskReport) -> Vec<Line> {
 }
 
 /// What is kept all the time, and in which step it comes nearest.
-fn clearance(answer: &TaskAnswer, report: &TaskReport) -> Option<Line> {
-    report.trajectory()?;
+fn clearance(answer: &TaskAnswer, report: &Report) -> Option<Line> {
+    report.trajectory.as_ref()?;
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
     let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };

@@ -2,11 +2,12 @@
 
 use crate::common::{disc, placed};
 use cplan::check::{CertifiedPath, blend, certify};
+use cplan::engine::Report;
 use cplan::geometry::{Point, Vector};
 use cplan::model::Heights;
 use cplan::model::Status;
 use cplan::model::{Arm, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace};
-use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
+use cplan::motion::{Format, Limits, Timed, Trajectory, time};
 use cplan::space::{Configuration, JointRange, Path};
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -137,14 +138,14 @@ fn without_a_path_there_is_a_reason() {
         assert_eq!(json["certified"], false);
         assert!(["path", "length", "clearance", "trajectory"].iter().all(|k| json[k].is_null()), "{json}");
         assert_eq!(json["status"], word);
-        assert_eq!((Format::Csv.bytes(&report), Format::Yaml.bytes(&report)), (None, None));
-        assert_eq!(Format::Json.bytes(&report), Some(report.json().into_bytes()));
+        assert_eq!((report.bytes(Format::Csv), report.bytes(Format::Yaml)), (None, None));
+        assert_eq!(report.bytes(Format::Json), Some(report.json().into_bytes()));
     }
 }
 
 /// A report with a trajectory in a format that is text.
 fn text(format: Format, report: &Report) -> String {
-    String::from_utf8(format.bytes(report).expect("there is a trajectory")).expect("UTF-8")
+    String::from_utf8(report.bytes(format).expect("there is a trajectory")).expect("UTF-8")
 }
 
 #[test]

@@ -137,7 +137,7 @@ impl Runner<'_> {
         };
         let mut row = Row::new(entry.label.clone(), Family::from(options.planner.method()), Status::Unknown);
         let mut path = None;
-        if let Some(MotionPlan { answer, curve, report, .. }) = made.motion() {
+        if let Some(MotionPlan { answer, curve, .. }) = made.motion() {
             let stages = answer.stages;
             let seconds = |time: Duration| (!time.is_zero()).then_some(time.as_secs_f64());
             row = Row {
@@ -158,7 +158,7 @@ impl Runner<'_> {
                     row.length = Some(certified.path().length());
                     row.pieces = Some(certified.path().segments().count());
                     row.clearance = curve.as_ref().map(|curve| curve.clearance()).filter(|c| c.is_finite());
-                    row.duration = report.trajectory.as_ref().map(|trajectory| trajectory.duration());
+                    row.duration = made.report().duration;
                     row.other_path = other_path(&problem, options)?;
                     path = Some(certified.path().clone());
                 }

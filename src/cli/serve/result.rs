@@ -4,7 +4,7 @@ use super::contours::Contours;
 use super::protocol::{AnswerReply, Figures};
 use crate::cspace::CObstacle;
 use crate::draw::{Picture, View};
-use crate::engine::{MotionPlan, Options, Problem, TaskPlan, Verdict, plan};
+use crate::engine::{MotionPlan, Options, Problem, Verdict, plan};
 use crate::model::{Scene, Status};
 use crate::output;
 use crate::space::{Configuration, Segment};
@@ -24,7 +24,8 @@ pub fn bare(scene: &Scene, ends: (Configuration, &[Segment]), status: &str, cont
 /// A trajectory that cannot be made as asked, in words.
 pub fn quick(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, &Options { bounded: false, ..*options }).map_err(|error| error.to_string())?;
-    let Some(MotionPlan { problem, answer, report, .. }) = plan.motion() else {
+    let report = plan.report();
+    let Some(MotionPlan { problem, answer, .. }) = plan.motion() else {
         return Err("steps are not planned while something moves".into());
     };
     let contours = contours.of(problem.scene());
@@ -75,25 +76,20 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
 /// A trajectory that cannot be made as asked, in words.
 pub fn in_full(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
-    let (view, figures, reason) = if let Some(MotionPlan { problem, answer, report, .. }) = plan.motion() {
+    let report = plan.report();
+    let (view, figures) = if let Some(MotionPlan { problem, answer, .. }) = plan.motion() {
         let figures = Figures {
             length: answer.bound.map(|bound| bound.upper).or(report.length),
             lower_bound: answer.bound.map(|bound| bound.lower),
-            clearance: report.clearance,
-            closest: report.closest.clone(),
-            duration: report.trajectory.as_ref().map(|trajectory| trajectory.duration()),
             ..Figures::of_size(answer.run.size)
         };
-        (plan.view_among(&contours.of(problem.scene())), figures, report.reason.clone())
-    } else if let Some(TaskPlan { answer, report, .. }) = plan.task() {
-        let figures = Figures {
-            clearance: report.clearance(),
-            duration: report.seconds().0,
-            ..Figures::of_size(format!("{} motions planned", answer.motions))
-        };
-        (plan.view_among(&[]), figures, report.reason().map(str::to_owned))
+        (plan.view_among(&contours.of(problem.scene())), figures)
     } else {
-        return Err("there is nothing to show".into());
+        let motions = report.task.as_ref().map_or(0, |task| task.motions);
+        (plan.view_among(&[]), Figures::of_size(format!("{motions} motions planned")))
     };
+    let figures =
+        Figures { clearance: report.clearance, closest: report.closest.clone(), duration: report.duration, ..figures };
+    let reason = report.reason.clone();
     Ok(AnswerReply { reason, figures, view: drawn(&view), ..judged(plan.status()) })
 }

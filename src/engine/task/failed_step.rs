@@ -50,7 +50,7 @@ pub struct FailedStep {
 }
 
 impl FailedStep {
-    pub(super) fn new(task: &Task, why: &Impossible) -> Self {
+    pub(in crate::engine) fn new(task: &Task, why: &Impossible) -> Self {
         let Impossible { step, reasons, scene, from, ik_solutions } = why;
         Self {
             step: step.number,

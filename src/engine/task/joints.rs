@@ -34,7 +34,7 @@ pub enum MessageError {
 
 /// The motion of all joints that messages name, as one and step by step.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Messages {
+pub(in crate::engine) struct Messages {
     /// The whole task, standing still included.
     pub whole: JointMotion,
     /// Of each step, when it begins, seconds, and its motion up to where the last of these joints comes to rest.

@@ -38,7 +38,6 @@
 
 mod answer;
 mod failed_step;
-mod files;
 mod impossible;
 mod joints;
 mod legs;
@@ -48,7 +47,6 @@ mod heuristic;
 mod part;
 mod plan;
 mod ik_solutions;
-mod report;
 mod search;
 mod sequence;
 mod state;
@@ -59,9 +57,9 @@ pub use answer::{Event, Leg, TaskAnswer, TaskVerdict};
 pub use failed_step::{FailedStep, IkSolutionReport};
 pub use impossible::{Impossible, Unreached};
 pub use joints::MessageError;
+pub(super) use joints::Messages;
 pub use least_time::rest_to_rest;
 pub use plan::plan;
-pub use report::{Choice, TaskReport};
 pub use sequence::Sequence;
 pub use step_report::{ActionName, EventName, EventReport, StepReport, StrokeReport, TurnReport};
 pub use stroke::ToolStroke;

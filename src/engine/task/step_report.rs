@@ -4,6 +4,7 @@ use super::answer::{Event, Leg};
 use super::sequence::Sequence;
 use super::stroke::ToolStroke;
 use crate::check::WristTurn;
+use crate::engine::result::finite;
 use crate::model::{Action, Task};
 use crate::motion::Blends;
 use serde::Serialize;
@@ -99,7 +100,7 @@ pub struct StepReport {
 
 impl StepReport {
     /// Of step `index` of a sequence, whose trajectory is among the results if `is_whole`.
-    pub(super) fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
+    pub(in crate::engine) fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize, is_whole: bool) -> Self {
         let curve = &leg.timed.curve;
         let path = curve.curve().path();
         let name = |object: usize| task.objects[object].name.clone();
@@ -135,11 +136,6 @@ impl StepReport {
             last_sample: is_whole.then_some(*samples.end()),
         }
     }
-}
-
-/// JSON has no word for what is infinite.
-pub(super) fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }
 
 /// What the gripper does, in one word.
@@ -183,7 +179,7 @@ pub struct EventReport {
 
 impl EventReport {
     /// Of step `index` of a sequence, if the gripper does something in it.
-    pub(super) fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
+    pub(in crate::engine) fn new(task: &Task, leg: &Leg, sequence: &Sequence, index: usize) -> Option<Self> {
         let happens = leg.event?;
         let [_, arrival, end] = sequence.times(index);
         let tip = task.arm.tip_at(leg.timed.curve.curve().path().goal());

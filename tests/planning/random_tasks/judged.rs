@@ -4,20 +4,20 @@
 use super::{options, task};
 use crate::common::random::{seeds, times};
 use cplan::check::{CollisionCheck, ReplayedStep};
-use cplan::engine::Options;
-use cplan::engine::task::{TaskAnswer, TaskReport, TaskVerdict, plan};
+use cplan::engine::task::{TaskAnswer, TaskVerdict, plan};
+use cplan::engine::{Options, Report};
 use cplan::model::{RecordedStep, RecordedTurn, Task};
 use cplan::motion::Drive;
 use cplan::space::{Configuration, Recording};
 
 /// What a result file says.
 fn record(task: &Task, answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
-    let report = TaskReport::new("visibility", task, answer);
-    let trajectory = report.trajectory().unwrap();
+    let report = Report::of_task("visibility", task, answer);
+    let trajectory = report.trajectory.as_ref().unwrap();
     let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::new(q[0], q[1])).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
     let recording = Recording::new(position, Some(trajectory.time.clone()), Some(velocity)).unwrap();
-    let steps = report.steps().iter().map(|step| RecordedStep {
+    let steps = report.task.as_ref().unwrap().steps.iter().map(|step| RecordedStep {
         number: step.step,
         cycle: step.cycle,
         samples: step.first_sample.unwrap()..=step.last_sample.unwrap(),

@@ -1,9 +1,10 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
 use cplan::check::{CollisionCheck, Excess, Limit, blend, check_collision, limits_kept};
+use cplan::engine::Report;
 use cplan::engine::{Method, Verdict, solve};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
-use cplan::motion::{Format, Limits, Report, Timed, Trajectory, time};
+use cplan::motion::{Format, Limits, Timed, Trajectory, time};
 use cplan::space::{Configuration, Path, Recording};
 use std::path::PathBuf;
 
@@ -75,7 +76,7 @@ fn every_shipped_result_verifies_alike_in_all_formats() {
 
 /// The file's content.
 fn written(format: Format, report: &Report) -> Vec<u8> {
-    format.bytes(report).unwrap()
+    report.bytes(format).unwrap()
 }
 
 fn shelf() -> (LoadedScene, Report) {

@@ -1,8 +1,8 @@
-//! Files for what became of a task.
+//! Files of results.
 
 use super::failure::Failure;
 use super::sinks::{self, Sink};
-use crate::engine::task::TaskReport;
+use crate::engine::Report;
 use crate::motion::{Format, check_writable, write_whole_set};
 use std::path::{Path, PathBuf};
 
@@ -10,16 +10,16 @@ use std::path::{Path, PathBuf};
 const DIGITS: usize = 3;
 
 /// The result files to write.
-pub struct TaskFiles {
+pub struct ResultFiles {
     results: Vec<(Format, PathBuf)>,
     /// Whether each step gets a file of its own.
     per_step: bool,
-    /// Steps of the task.
+    /// Steps of the task; 1 of a single motion.
     steps: usize,
 }
 
-impl TaskFiles {
-    /// What was asked for, for a task of so many steps.
+impl ResultFiles {
+    /// What was asked for, for so many steps.
     ///
     /// # Errors
     /// Files of steps that no format asked for can hold, or that cannot be written.
@@ -44,16 +44,16 @@ impl TaskFiles {
         Ok(files)
     }
 
-    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a task that is not done. The
+    /// Writes all files or, as far as can be foreseen, none; says on stderr which have no room for a result without a trajectory. The
     /// names of those that are written, for people.
     ///
     /// # Errors
     /// I/O.
-    pub fn write(&self, report: &TaskReport) -> Result<Vec<String>, Failure> {
+    pub fn write(&self, report: &Report) -> Result<Vec<String>, Failure> {
         let mut files = Vec::new();
         let mut names = Vec::new();
         for (format, path) in &self.results {
-            let is_parted = self.parts(*format) && report.trajectory().is_some();
+            let is_parted = self.parts(*format) && report.trajectory.is_some();
             let parts = is_parted.then(|| report.bytes_per_step(*format)).flatten();
             if let Some(parts) = parts {
                 files.extend(parts.into_iter().zip(1..).map(|(bytes, number)| (self.part(path, number), bytes)));

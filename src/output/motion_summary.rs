@@ -1,0 +1,95 @@
+//! The summary of a single motion for people.
+
+use super::summary::{Line, Told, configuration, field, non_empty, segment};
+use crate::check::CertifiedCurve;
+use crate::engine::{Bound, MotionPlan, Plan, Verdict, percent};
+use crate::model::Scene;
+use crate::space::Metric;
+use crate::text::counted;
+
+/// Start and goals; what the planner did and found.
+pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
+    let (scene, arm) = (plan.problem.scene(), whole.arm());
+    let obstacles = counted(scene.workspace().obstacles.len(), "obstacle");
+    let mut asked = vec![
+        ("world", format!("{}, {obstacles}", non_empty(&scene.workspace().name))),
+        ("start", configuration(arm, plan.problem.start())),
+    ];
+    asked.extend(plan.problem.goals().pieces().iter().map(|goals| ("goal", segment(arm, goals))));
+    Told { asked, found: found(whole, plan) }
+}
+
+fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
+    let (MotionPlan { problem, answer, curve }, report) = (plan, whole.report());
+    let mut lines = Vec::new();
+    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
+    let space = report.space.map(|space| format!(", {space}"));
+    let how = search.unwrap_or_default() + &space.unwrap_or_default();
+    lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));
+    lines.extend(answer.run.note.map(|note| ("planner", note.to_string())));
+    lines.extend(field(whole.options()));
+    match &answer.verdict {
+        Verdict::Found(certified) => {
+            let path = certified.path();
+            let segments = path.segments().count();
+            let kind = if answer.method.has_own_path() { format!(", {} path", answer.path) } else { String::new() };
+            let found = format!("found and certified: {segments} straight pieces, length {:.4}{kind}", path.length());
+            lines.push(("result", found));
+            if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
+                lines.push(("reached", configuration(whole.arm(), path.goal())));
+            }
+            if let Some(bound) = &answer.bound {
+                lines.push(("optimum", optimum(bound)));
+            }
+        }
+        Verdict::Infeasible(_) => {
+            lines.push(("result", format!("there is no path; {}", report.reason.as_deref().unwrap_or_default())));
+        }
+        Verdict::Unknown(reason) => lines.push(("result", format!("unknown: {reason}"))),
+    }
+    if let (Some(curve), Some(trajectory)) = (curve, whole.trajectory()) {
+        lines.push(("clearance", clearance(problem.scene(), curve)));
+        let (samples, corners) = (trajectory.time.len(), corners(curve));
+        lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
+    }
+    lines
+}
+
+/// What the motion keeps, and where it comes nearest.
+fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
+    match curve.nearest() {
+        Some(nearest) => format!(
+            "{:.6} m proven; closest: {} at {}",
+            curve.clearance(),
+            scene.describe(nearest.contact.pair),
+            configuration(scene.arm(), nearest.at)
+        ),
+        None => "nothing can be hit".into(),
+    }
+}
+
+/// What becomes of the path's corners, if it has any.
+fn corners(curve: &CertifiedCurve) -> String {
+    let radii = curve.curve().radii();
+    let corners = radii.len().saturating_sub(2);
+    let blended = radii.iter().filter(|radius| **radius > 0.0).count();
+    match blended {
+        _ if corners == 0 => String::new(),
+        0 => format!("; stops at {corners} corners"),
+        _ => {
+            let largest = radii.iter().copied().fold(0.0, f64::max);
+            format!("; {blended} of {corners} corners blended, radius up to {largest:.4}")
+        }
+    }
+}
+
+/// How near the path is to the optimum.
+fn optimum(bound: &Bound) -> String {
+    let Bound { metric, lower, upper } = *bound;
+    let measure = match metric {
+        Metric::Euclidean => format!("length {upper:.4}"),
+        Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
+        Metric::Time { .. } => format!("{upper:.4} s at top speed"),
+    };
+    format!("{measure}; proven: none below {lower:.4}, so at most {} longer than the shortest", percent(bound.gap()))
+}
