@@ -9,8 +9,7 @@ mod shipped;
 
 use cplan::input::{LoadedScene, Overrides, load, load_scene};
 use cplan::Options;
-use cplan::engine::Method;
-use cplan::engine::Report;
+use cplan::engine::{Method, Report};
 use cplan::engine::task::plan;
 use files::Files;
 use libfuzzer_sys::fuzz_target;

@@ -146,7 +146,7 @@ fn what_no_constructor_makes_is_no_problem() {
         ("/problem/asked/motion/goals".to_owned(), json!([]), "no goal"),
         (format!("{scene}/workspace/clearance"), json!(-1.0), "clearance must be finite"),
         (format!("{scene}/workspace/obstacles/0/heights/lower"), json!("NaN"), "\"inf\""),
-        (format!("{scene}/workspace/obstacles/0/heights/lower"), json!("inf"), "no heights"),
+        (format!("{scene}/workspace/obstacles/0/heights"), json!({"lower": 1.0, "upper": 0.0}), "no heights"),
         (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(-0.1), "radius"),
         (format!("{scene}/workspace/obstacles/0/pieces/0/core"), json!([]), "no corner"),
         (
@@ -185,7 +185,10 @@ fn what_no_world_says_is_no_task() {
     assert!(refused("/asked/task/objects/0/lift", json!(-1.0)).contains("lift"));
     assert!(refused("/asked/task/objects/0/at/rotation", json!([2.0, 0.0])).contains("no finite pose"));
     assert!(refused("/asked/task/start", json!([100.0, 0.0])).contains("outside the limits"));
-    assert!(refused("/asked/task/items", json!([{"renew": [99]}])).contains("renewed"));
+    assert!(refused("/asked/task/items", json!([])).contains("no steps"));
+    let mut items = valid["asked"]["task"]["items"].as_array().unwrap().clone();
+    items.insert(0, json!({"renew": [99]}));
+    assert!(refused("/asked/task/items", json!(items)).contains("renewed"));
     let name = json!(task.workspace.obstacles[0].name);
     assert!(refused("/asked/task/objects/0/name", name).contains("has this name"));
 }

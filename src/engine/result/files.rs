@@ -1,6 +1,7 @@
 //! The result in the formats of files.
 
 use super::{Report, TaskFigures};
+use crate::engine::task::Messages;
 #[cfg(feature = "mcap")]
 use crate::motion::mcap;
 use crate::motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
@@ -20,10 +21,10 @@ impl Report {
                 let numbers = self.task.as_deref().map(numbers);
                 csv(&self.joints, self.trajectory.as_ref()?, self.accelerations, numbers.as_deref()).into_bytes()
             }
-            Format::Yaml => ros_yaml(&self.messages()?.0).into_bytes(),
+            Format::Yaml => ros_yaml(&self.messages()?.whole).into_bytes(),
             #[cfg(feature = "mcap")]
             Format::Mcap => {
-                let (_, steps) = self.messages()?;
+                let steps = self.messages()?.steps;
                 mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>())
             }
         })
@@ -42,20 +43,21 @@ impl Report {
                 };
                 motions.map(table).collect()
             }
-            Format::Yaml => self.messages()?.1.iter().map(|(_, motion)| ros_yaml(motion)).collect(),
+            Format::Yaml => self.messages()?.steps.iter().map(|(_, motion)| ros_yaml(motion)).collect(),
             _ => return None,
         };
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// What messages hold: the whole motion, and that of each step with the time at which it begins; a single motion is one step.
-    fn messages(&self) -> Option<(JointMotion, Vec<(f64, JointMotion)>)> {
-        let Some(task) = &self.task else {
-            let whole = JointMotion::new(&self.robot, self.trajectory.as_ref()?, self.accelerations);
-            return Some((whole.clone(), vec![(0.0, whole)]));
+    /// What messages hold; a single motion is one step.
+    fn messages(&self) -> Option<Messages> {
+        let messages = match &self.task {
+            Some(task) => task.messages.clone()?,
+            None => {
+                let whole = JointMotion::new(&self.robot, self.trajectory.as_ref()?, true);
+                Messages { steps: vec![(0.0, whole.clone())], whole }
+            }
         };
-        let messages = task.messages.clone()?;
-        let of = |motion: JointMotion| if self.accelerations { motion } else { motion.without_accelerations() };
-        Some((of(messages.whole), messages.steps.into_iter().map(|(begin, motion)| (begin, of(motion))).collect()))
+        Some(if self.accelerations { messages } else { messages.without_accelerations() })
     }
 }

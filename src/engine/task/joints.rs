@@ -62,6 +62,12 @@ impl Messages {
 }
 
 impl Messages {
+    /// The same for readers that join samples by cubics.
+    pub fn without_accelerations(self) -> Self {
+        let steps = self.steps.into_iter().map(|(begin, motion)| (begin, motion.without_accelerations()));
+        Self { whole: self.whole.without_accelerations(), steps: steps.collect() }
+    }
+
     /// Whether quintics are the motion of the tool, too: it does not move, because its acceleration would jump.
     pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), AccelerationJump> {
         let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);

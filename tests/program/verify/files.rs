@@ -1,8 +1,7 @@
 //! Our own outputs in all formats, as they are and tampered with.
 
 use cplan::check::{CollisionCheck, Excess, Limit, blend, check_collision, limits_kept};
-use cplan::engine::Report;
-use cplan::engine::{Method, Verdict, solve};
+use cplan::engine::{Method, Report, Verdict, solve};
 use cplan::input::{self, LoadedScene, Overrides, load_recording, load_scene};
 use cplan::motion::{Format, Limits, Timed, Trajectory, time};
 use cplan::space::{Configuration, Path, Recording};
