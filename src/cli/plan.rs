@@ -67,7 +67,7 @@ fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<Strin
     let mut written = files.write(plan.report())?;
     for sink in sinks {
         if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, plan)?;
+            sinks::save_picture(*format, path, &plan.view())?;
             written.push(path.display().to_string());
         }
     }
