@@ -3,7 +3,8 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use cplan::cspace::{Slice, Slices, grid_from_slices, outer_grid, sampled_grid};
+use cplan::cspace::{Slice, grid_from_slices, outer_grid, sampled_grid};
+use cplan::model::Contacts;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -11,7 +12,7 @@ const CELLS: [usize; 2] = [1024, 1024];
 
 fn slices(c: &mut Criterion) {
     let scene = common::w20();
-    let slices = Slices::new(&scene);
+    let slices = Contacts::new(&scene);
     let mut slice = Slice::default();
     let mut step = 0_u32;
     c.bench_function("one row of intervals, 20 obstacles", |b| {

@@ -4,9 +4,10 @@
 //! cargo run --release --example c_obstacle -- robots/planar_2r_continuous.urdf workspaces/wrap_around.toml torus.svg
 //! ```
 
-use cplan::cspace::{Slices, c_obstacles};
+use cplan::cspace::c_obstacles;
 use cplan::draw::{Picture, View, svg};
 use cplan::input;
+use cplan::model::Contacts;
 use cplan::motion::write_whole;
 use std::error::Error;
 use std::path::PathBuf;
@@ -23,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // One row: with joint 1 at its start value, exactly which values of joint 2 collide, and with what.
     let start = loaded.problem.start();
     let mut slice = cplan::cspace::Slice::default();
-    Slices::new(scene).slice(start[0], 0.0, &mut slice);
+    Contacts::new(scene).slice(start[0], 0.0, &mut slice);
     println!("with {} at {:.4}, {} must stay out of", scene.arm().joints[0].name, start[0], scene.arm().joints[1].name);
     for interval in &slice.merged {
         println!("  [{:8.4}, {:8.4}] {}", interval[0], interval[1], scene.arm().joints[1].unit());

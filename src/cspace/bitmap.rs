@@ -1,7 +1,6 @@
 //! A configuration space as bits.
 
-use super::slices::Slices;
-use crate::model::{Scene, on_axis};
+use crate::model::{Contacts, Scene, on_axis};
 use crate::space::JointRange;
 use std::ops::Range;
 
@@ -56,7 +55,7 @@ impl Bitmap {
 /// 2 reaches the piece at all. `O(reached slices * contacts + cells / 64)`.
 #[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
-    let slices = Slices::new(scene);
+    let slices = Contacts::new(scene);
     let axes: [JointRange; 2] = scene.arm().topology().ranges;
     let words = cells[1].div_ceil(WORD);
     let mut bits = vec![0_u64; words * cells[0]];

@@ -3,8 +3,8 @@
 use super::chord::{Contact, PairMotion};
 use super::events::events;
 use super::outline::{Break, Flattening, Source, contours};
-use super::slices::Slices;
 use crate::geometry::{Hits, Point};
+use crate::model::Contacts;
 use crate::space::Configuration;
 use std::f64::consts::{PI, TAU};
 
@@ -21,7 +21,7 @@ const OVERLAP: f64 = 1e-3;
 
 /// The slices of one pair of link 2, and what chords between them must keep.
 pub(super) struct Curves<'a> {
-    slices: &'a Slices<'a>,
+    slices: &'a Contacts<'a>,
     index: usize,
     motion: PairMotion<'a>,
     /// Distance that chords must keep, at the least.
@@ -35,7 +35,7 @@ pub(super) struct Curves<'a> {
 
 impl<'a> Curves<'a> {
     /// Pair `index` of the scene, to be covered where it is within `level`; see [`super::c_obstacles`].
-    pub fn new(slices: &'a Slices<'a>, index: usize, level: f64, tolerance: f64) -> Self {
+    pub fn new(slices: &'a Contacts<'a>, index: usize, level: f64, tolerance: f64) -> Self {
         let scene = slices.scene();
         let pair = scene.pairs()[index];
         let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
@@ -93,7 +93,7 @@ impl<'a> Curves<'a> {
 }
 
 /// Where to cut the circle of joint 1 open: where nothing is cut, if there is such a place among the first slices.
-fn seam(slices: &Slices, index: usize, level: f64) -> f64 {
+fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
     let mut intervals = Vec::new();
     (0..FIRST_SLICES)
         .map(|i| -PI + TAU / FIRST_SLICES as f64 * i as f64)

@@ -1,6 +1,6 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), each with what it proves.
 //!
-//! [`Slices`] gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the slices of slabs;
+//! [`Contacts::slice`](crate::model::Contacts::slice) gives the forbidden values of `q2` at one `q1`, exactly, from contact angles. Grids stack the slices of slabs;
 //! polygons follow the contact curves between the slices where they change their course (`events`). Outlines with many
 //! corners are traced coarser, within the margin (`coarse`); what is ragged is covered by cells of that size
 //! (`covering`), and contours are united with their neighbours first, so that time grows with the outline (`union`).
@@ -9,15 +9,15 @@
 //! case.
 //!
 //! ```
-//! use cplan::cspace::{Slice, Slices, c_obstacles};
-//! use cplan::model::{Arm, Obstacle, Scene, Workspace};
+//! use cplan::cspace::{Slice, c_obstacles};
+//! use cplan::model::{Arm, Contacts, Obstacle, Scene, Workspace};
 //! use cplan::space::Configuration;
 //!
 //! let workspace = Workspace::new([Obstacle::circle("post", [1.5, 0.0], 0.1)?]);
 //! let scene = Scene::new(Arm::rr([1.0, 0.8], 0.06)?, workspace)?;
 //! // With joint 1 at zero: exactly the values of joint 2 at which the post is hit.
 //! let mut slice = Slice::default();
-//! Slices::new(&scene).slice(0.0, 0.0, &mut slice);
+//! Contacts::new(&scene).slice(0.0, 0.0, &mut slice);
 //! let [[lower, upper]] = slice.merged[..] else { panic!("one interval") };
 //! assert!((upper - (0.13_f64 / 0.5).asin()).abs() < 1e-9 && (lower + upper).abs() < 1e-9);
 //! assert!(scene.clearance(Configuration::new(0.0, 0.0)) < 0.0);
@@ -50,7 +50,7 @@ pub use nearest::{NearestFree, nearest_free};
 pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regions, traced_pairs};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_slices, outer_grid};
-pub use slices::{Forbidden, Slice, Slices};
+pub use slices::{Forbidden, Slice};
 pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 

@@ -1,8 +1,8 @@
 //! The free configuration nearest to one that is not.
 
-use super::slices::{Slice, Slices};
+use super::slices::Slice;
 use crate::geometry::ROUNDING;
-use crate::model::Scene;
+use crate::model::{Contacts, Scene};
 use crate::space::{Configuration, JointRange};
 use std::f64::consts::{PI, TAU};
 
@@ -44,7 +44,7 @@ pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
 
 struct Search<'a> {
     scene: &'a Scene,
-    slices: Slices<'a>,
+    slices: Contacts<'a>,
     /// Values of joint 1 that link 1 forbids, on the axis's domain.
     bands: Slice,
     slice: Slice,
@@ -58,7 +58,7 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(scene: &'a Scene, from: Configuration) -> Self {
         let grow = scene.workspace().clearance + 2.0 * ROUNDING;
-        let slices = Slices::new(scene);
+        let slices = Contacts::new(scene);
         let bands = slices.bands(grow);
         let first = &scene.arm().joints[0];
         let extent = first.range.extent();

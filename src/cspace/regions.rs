@@ -2,12 +2,11 @@
 
 use super::coarse::coarse;
 use super::curves::Curves;
-use super::slices::Slices;
 use super::union::free_space;
 use super::{Proves, translation};
 use crate::geometry::{Hits, Point, cross};
 use crate::interrupt::checkpoint;
-use crate::model::{Joint, Pair, Scene};
+use crate::model::{Contacts, Joint, Pair, Scene};
 use crate::space::{Configuration, JointRange, Topology};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
@@ -179,7 +178,7 @@ pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle>
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
     let level = scene.workspace().clearance + margin;
     let scene = &*coarsened(scene, margin, tolerance);
-    let slices = Slices::new(scene);
+    let slices = Contacts::new(scene);
     let map = translation::joint_map(scene.arm());
     let mut obstacles = Vec::new();
     for (index, pair) in scene.pairs().iter().enumerate() {
@@ -211,7 +210,7 @@ pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
 
 /// The values of `q1` at which a pair of link 1 is within `level`, for all `q2` and `pad` more at either end: the overlap
 /// closes the seam between the copies of a whole turn.
-fn bands(slices: &Slices, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
+fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };
     let [first, second] = &slices.scene().arm().joints;
     let mut spans = Vec::new();

@@ -1,11 +1,10 @@
 //! Grids from slices: no collision test a cell.
 
 use super::coarse::coarse;
-use super::slices::Slices;
 use super::{Grid, Proves};
 use crate::geometry::ROUNDING;
 use crate::interrupt::checkpoint;
-use crate::model::{Scene, on_axis};
+use crate::model::{Contacts, Scene, on_axis};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -21,7 +20,7 @@ const COARSENESS: f64 = 1.0 / 16.0;
 /// shows, up to centres within [`ROUNDING`] of contact, in `O(slices * contacts + cells)`.
 #[must_use]
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
-    let slices = Slices::new(scene);
+    let slices = Contacts::new(scene);
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     let columns = Columns::new(&grid);
     let bands = slices.bands(clearance);
@@ -57,13 +56,13 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     let steps = grid.step();
     let kept = clearance + 2.0 * ROUNDING;
-    let motions = |slices: &Slices| -> Vec<f64> {
+    let motions = |slices: &Contacts| -> Vec<f64> {
         slices.second_link_pairs().map(|index| slices.motion(index, steps[0] / 2.0, kept)).collect()
     };
-    let fine = Slices::new(scene);
+    let fine = Contacts::new(scene);
     let within = COARSENESS * margin(&fine, &motions(&fine), steps, clearance);
     let scene = coarse(scene, within, f64::INFINITY);
-    let slices = if let Cow::Owned(scene) = &scene { Slices::new(scene) } else { fine };
+    let slices = if let Cow::Owned(scene) = &scene { Contacts::new(scene) } else { fine };
     let within = if matches!(scene, Cow::Owned(_)) { within } else { 0.0 };
     let motions = motions(&slices);
     grid.proves = Proves::Outer { margin: margin(&slices, &motions, steps, clearance) + within };
@@ -110,7 +109,7 @@ fn free(cells: [usize; 2]) -> Vec<bool> {
 }
 
 /// What the two joints' motion over a cell adds to `clearance` at most.
-fn margin(slices: &Slices<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
+fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
     let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
     let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
     first.chain(second).fold(0.0, f64::max) + 4.0 * ROUNDING + WIDENING

@@ -1,8 +1,8 @@
 //! Which stretches of a segment along one joint are free, exactly.
 
-use super::slices::{Slice, Slices};
+use super::slices::Slice;
 use crate::geometry::{Features, Vector, merge_in_place};
-use crate::model::{Carried, Scene, on_axis};
+use crate::model::{Carried, Contacts, Scene, on_axis};
 use crate::space::{Configuration, Segment};
 
 /// The stretches of a segment in the domain that keep more than `grow` from contact, from its lesser end on. Exact up to
@@ -38,7 +38,7 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
 
 /// The forbidden values of joint 2 at a value of joint 1: all of them if link 1 is in contact.
 fn along_second(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
-    let slices = Slices::new(scene);
+    let slices = Contacts::new(scene);
     if slices.bands(grow).forbids(q1) {
         return vec![[f64::NEG_INFINITY, f64::INFINITY]];
     }

@@ -17,6 +17,7 @@
 mod arm;
 mod assumed;
 mod carried;
+mod contacts;
 mod inverse;
 mod joint;
 mod link;
@@ -40,7 +41,9 @@ pub use arm::{Arm, Plane};
 pub use assumed::AssumedLimits;
 pub(crate) use assumed::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
 pub use carried::Carried;
-pub(crate) use carried::{on_axis, swept};
+pub(crate) use carried::on_axis;
+use carried::swept;
+pub use contacts::Contacts;
 pub use inverse::{Freedom, Inverse, inverse, within};
 pub use joint::{Joint, JointType};
 pub use link::{Link, OutlineSource, Part};

@@ -4,8 +4,8 @@ use super::slab::{OUTWARD, is_stuck};
 use crate::check::Cell;
 use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
-use crate::geometry::{Features, Point, Vector, merge_in_place};
-use crate::model::{Carried, JointType, Pair, Scene, on_axis};
+use crate::geometry::{Point, merge_in_place};
+use crate::model::{Contacts, JointType, Pair, Scene, on_axis};
 use nalgebra::Vector2;
 
 /// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
@@ -29,17 +29,15 @@ pub(super) enum Kind {
 }
 
 /// The domain of joint 1 in stretches, ascending. `O(n log n)` in the contacts of link 1.
-pub(super) fn bands(scene: &Scene, clearance: f64) -> Vec<Stretch> {
-    let arm = scene.arm();
-    let joint = &arm.joints[0];
+pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
+    let scene = contacts.scene();
+    let joint = &scene.arm().joints[0];
     let (lower, upper) = joint.range.domain();
     let mut of_pairs: Vec<(Pair, [f64; 2])> = Vec::new();
     let mut arcs = Vec::new();
-    for &pair in scene.pairs().iter().filter(|p| p.link == 0) {
-        let part = Carried::new(joint.joint_type, scene.part(pair));
-        let piece = Features::new(scene.piece(pair));
+    for (index, &pair) in scene.pairs()[..contacts.second_link_pairs().start].iter().enumerate() {
         arcs.clear();
-        let hits = part.hits(arm.base, Vector::x(), &piece, clearance + OUTWARD, &mut arcs);
+        let hits = contacts.first_link(index, clearance + OUTWARD, &mut arcs);
         on_axis(joint, hits, &arcs, |interval| of_pairs.push((pair, interval)));
     }
     let mut merged: Vec<[f64; 2]> = of_pairs.iter().map(|p| p.1).collect();

@@ -8,11 +8,9 @@
 use crate::check::Cell;
 use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
-use crate::geometry::{BoxTree, Convex, Features, Hits, Point, ROUNDING, Vector};
+use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use crate::interrupt::checkpoint;
-use crate::model::{Carried, JointType, Pair, Scene, on_axis, swept};
-use crate::space::Configuration;
-use std::f64::consts::PI;
+use crate::model::{Carried, Contacts, Pair, Scene, on_axis};
 
 /// Distance by which closed forms are taken to be wrong, metres: twice what they state, so that adding up a few numbers
 /// of the arm's size, and angles to whole turns, is covered as well.
@@ -26,34 +24,19 @@ const OVERLAP: f64 = 1.25;
 /// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
 const MOST_TILES: usize = 4096;
 
-/// A pair of link 2, prepared.
-struct Prepared<'a> {
-    pair: Pair,
-    /// Into the parts.
-    part: usize,
-    piece: &'a Convex,
-    features: Features,
-    /// Reach from the base of the piece grown by the clearance, metres.
-    reach: f64,
-    /// How deep the piece is, metres.
+/// The pieces of a pair of link 2, or its parts.
+struct Deep {
+    /// How deep it is, metres.
     depth: f64,
-    /// The eroded piece (or the part, for this piece alone) for every width of slab that it was asked for; none where nothing is
-    /// left.
+    /// The deeper shape of a pair for every width of slab that it was asked for, eroded; none where nothing is left. With the part
+    /// if it is the same for all its pieces.
     eroded: Vec<Option<Option<Eroded>>>,
 }
 
-/// A part of link 2, prepared, and the pairs with it.
-struct PreparedPart {
-    carried: Carried,
-    /// Reach from the base of all that the part can occupy, metres.
-    reach: f64,
-    /// How deep it is, metres.
-    depth: f64,
-    /// The part when it is the deeper shape, eroded for every width of slab.
-    eroded: Vec<Option<Option<Eroded>>>,
-    /// Number of its first pair, and the boxes of the pieces of all of them.
-    first: usize,
-    pieces: BoxTree,
+impl Deep {
+    fn new(shape: &Convex) -> Self {
+        Self { depth: shape.depth(), eroded: Vec::new() }
+    }
 }
 
 /// A shape of a pair that is nearer to the bone.
@@ -115,15 +98,17 @@ fn lacking(piece: &Convex) -> f64 {
 
 /// Link 2 and all that it can meet, for slabs of joint 1.
 pub(super) struct SecondLink<'a> {
-    scene: &'a Scene,
+    contacts: Contacts<'a>,
     clearance: f64,
-    parts: Vec<PreparedPart>,
-    pairs: Vec<Prepared<'a>>,
+    /// The parts of link 2.
+    parts: Vec<Deep>,
+    /// The pieces of its pairs.
+    pieces: Vec<Deep>,
     scratch: Vec<[f64; 2]>,
     near: Vec<u32>,
 }
 
-/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`SecondLink`].
+/// The forbidden values of joint 2 in a slab, within the domain; each list by pair, as numbers of [`Contacts`].
 #[derive(Default)]
 pub(super) struct Verdicts {
     /// Outside these intervals no pair comes too near anywhere in the slab.
@@ -134,43 +119,21 @@ pub(super) struct Verdicts {
 
 impl<'a> SecondLink<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let joint = &scene.arm().joints[1];
-        let of_second: Vec<Pair> = scene.pairs().iter().filter(|p| p.link == 1).copied().collect();
-        let (mut parts, mut pairs) = (Vec::new(), Vec::with_capacity(of_second.len()));
-        for of_part in of_second.chunk_by(|a, b| a.part == b.part) {
-            let shape = scene.part(of_part[0]);
-            let first = pairs.len();
-            for &pair in of_part {
-                checkpoint();
-                let piece = scene.piece(pair);
-                pairs.push(Prepared {
-                    pair,
-                    part: parts.len(),
-                    piece,
-                    features: Features::new(piece),
-                    reach: piece.reach_from(scene.arm().base) + clearance,
-                    depth: piece.depth(),
-                    eroded: Vec::new(),
-                });
-            }
-            parts.push(PreparedPart {
-                carried: Carried::new(joint.joint_type, shape),
-                reach: swept(shape, joint, scene.arm().offset).reach_from(Point::origin()),
-                depth: shape.depth(),
-                eroded: Vec::new(),
-                first,
-                pieces: BoxTree::new(of_part.iter().map(|&pair| scene.piece(pair).bounds()).collect()),
-            });
-        }
-        Self { scene, clearance, parts, pairs, scratch: Vec::new(), near: Vec::new() }
+        let contacts = Contacts::new(scene);
+        let of_pairs = &scene.pairs()[contacts.second_link_pairs()];
+        let parts =
+            of_pairs.chunk_by(|a, b| a.part == b.part).map(|of_part| Deep::new(scene.part(of_part[0]))).collect();
+        let piece = |pair: &Pair| {
+            checkpoint();
+            Deep::new(scene.piece(*pair))
+        };
+        let pieces = of_pairs.iter().map(piece).collect();
+        Self { contacts, clearance, parts, pieces, scratch: Vec::new(), near: Vec::new() }
     }
 
-    /// Farthest that a point at distance `reach` from the base moves while joint 1 moves by at most `half`, metres.
-    fn motion(&self, reach: f64, half: f64) -> f64 {
-        match self.scene.arm().joints[0].joint_type {
-            JointType::Revolute { .. } => 2.0 * reach * (half.min(PI) / 2.0).sin(),
-            JointType::Prismatic { .. } => half,
-        }
+    /// The scene, prepared.
+    pub fn contacts(&self) -> &Contacts<'a> {
+        &self.contacts
     }
 
     /// What is known in the slab `from <= q1 <= to`, which is no wider than twice `half`, the half width of all slabs of
@@ -181,26 +144,25 @@ impl<'a> SecondLink<'a> {
         verdicts.inner.clear();
         let middle = (from + to) / 2.0;
         let width = (to - middle).max(middle - from);
-        let (elbow, heading) = self.elbow(middle);
+        let (elbow, heading) = self.contacts.elbow(middle);
         let mut scratch = std::mem::take(&mut self.scratch);
         let mut near = std::mem::take(&mut self.near);
-        for part in 0..self.parts.len() {
-            self.near(part, elbow, width, &mut near);
+        for part in self.contacts.second_link_parts() {
+            let far = self.clearance + self.contacts.motion_of(part, width) + 2.0 * OUTWARD;
+            self.contacts.near(part, elbow, far, &mut near);
+            let overlap = self.contacts.motion_of(part, half) * OVERLAP + OUTWARD;
             for &index in &near {
                 let index = index as usize;
-                let (pair, part) = (&self.pairs[index], &self.parts[part]);
-                let grow = self.clearance + self.motion(part.reach.min(pair.reach), width) + OUTWARD;
+                let grow = self.clearance + self.contacts.motion(index, width, self.clearance) + OUTWARD;
                 scratch.clear();
-                let hits = part.carried.hits(elbow, heading, &pair.features, grow, &mut scratch);
+                let hits = self.contacts.at_elbow(index, elbow, heading, grow, &mut scratch);
                 if hits == Hits::Never {
                     continue;
                 }
-                let joint = &self.scene.arm().joints[1];
+                let joint = &self.contacts.scene().arm().joints[1];
                 on_axis(joint, hits, &scratch, |interval| verdicts.outer.push(interval));
-                let overlap = self.motion(part.reach, half) * OVERLAP + OUTWARD;
                 scratch.clear();
-                let hits = self.stuck(index, level, overlap, elbow, heading, &mut scratch);
-                let joint = &self.scene.arm().joints[1];
+                let hits = self.stuck(index, level, overlap, (elbow, heading), &mut scratch);
                 on_axis(joint, hits, &scratch, |interval| {
                     if interval[0] < interval[1] {
                         verdicts.inner.push((index, interval));
@@ -211,25 +173,6 @@ impl<'a> SecondLink<'a> {
         (self.scratch, self.near) = (scratch, near);
     }
 
-    /// The numbers of a part's pairs, ascending, that it can come near to in a slab at most `width` to either side of where
-    /// joint 2 is, and some others.
-    fn near(&self, part: usize, elbow: Point, width: f64, found: &mut Vec<u32>) {
-        let PreparedPart { carried, reach, first, pieces, .. } = &self.parts[part];
-        found.clear();
-        match carried.joint_type() {
-            JointType::Revolute { .. } => {
-                let grow = self.clearance + self.motion(*reach, width) + 2.0 * OUTWARD;
-                let around = Vector::repeat(carried.shape().reach_from(Point::origin()) + grow);
-                pieces.meeting(&[elbow - around, elbow + around], found);
-                found.iter_mut().for_each(|index| *index += *first as u32);
-            }
-            JointType::Prismatic { .. } => {
-                let end = self.parts.get(part + 1).map_or(self.pairs.len(), |next| next.first);
-                found.extend(*first as u32..end as u32);
-            }
-        }
-    }
-
     /// Values of joint 2 at which the shapes of a pair overlap by more than `overlap` less the clearance; `overlap` depends on
     /// the part and the level alone.
     fn stuck(
@@ -237,39 +180,41 @@ impl<'a> SecondLink<'a> {
         index: usize,
         level: usize,
         overlap: f64,
-        elbow: Point,
-        heading: Vector,
+        (elbow, heading): (Point, Vector),
         out: &mut Vec<[f64; 2]>,
     ) -> Hits {
-        let (clearance, pair) = (self.clearance, &mut self.pairs[index]);
-        let part = &mut self.parts[pair.part];
-        let of_part = part.depth > pair.depth;
+        let (moving, standing) = (self.contacts.moving(index), self.contacts.standing(index));
+        let (clearance, shape) = (self.clearance, standing.shape());
+        let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
+        let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
+        let of_part = part.depth > piece.depth;
         // What is to be kept from all pieces is the part's own.
-        let shared = of_part && lacking(pair.piece) == 0.0;
-        let known = if shared { &mut part.eroded } else { &mut pair.eroded };
+        let shared = of_part && lacking(shape) == 0.0;
+        let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {
             known.resize_with(level + 1, || None);
         }
         let eroded = known[level].get_or_insert_with(|| match of_part {
-            true => Eroded::part(&part.carried, pair.piece, overlap, clearance),
-            false => Eroded::piece(pair.piece, overlap, clearance),
+            true => Eroded::part(moving, shape, overlap, clearance),
+            false => Eroded::piece(shape, overlap, clearance),
         });
         match eroded {
             None => Hits::Never,
-            Some(eroded) => eroded.hits(&part.carried, &pair.features, elbow, heading, out),
+            Some(eroded) => eroded.hits(moving, standing, elbow, heading, out),
         }
     }
 
     /// The boxes that state that pair `index` is stuck for `q2` in `interval`, all over the slab. Whether the bounds that
     /// boxes are judged by see it.
     pub fn tile(&self, from: f64, to: f64, index: usize, interval: [f64; 2], boxes: &mut Vec<StuckBox>) -> bool {
-        let pair = self.pairs[index].pair;
+        let scene = self.contacts.scene();
+        let pair = scene.pairs()[index];
         let begin = boxes.len();
         let mut open = vec![interval];
         while let Some([lower, upper]) = open.pop() {
             checkpoint();
             let cell = Cell { lower: [from, lower], upper: [to, upper] };
-            if is_stuck(self.scene, pair, &cell, self.clearance) {
+            if is_stuck(scene, pair, &cell, self.clearance) {
                 boxes.push(StuckBox { cell, pair });
                 continue;
             }
@@ -282,12 +227,6 @@ impl<'a> SecondLink<'a> {
         }
         true
     }
-
-    /// Where joint 2 is at `q1`, and the direction of link 1's x axis.
-    fn elbow(&self, q1: f64) -> (Point, Vector) {
-        let pose = self.scene.arm().pose(0, Configuration::new(q1, 0.0));
-        (pose * Point::from(self.scene.arm().offset), pose * Vector::x())
-    }
 }
 
 /// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
@@ -299,7 +238,8 @@ pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -
 mod tests {
     use super::*;
     use crate::geometry::hull;
-    use crate::model::{Arm, Heights, Joint, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
+    use crate::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
+    use crate::space::Configuration;
     use crate::space::JointRange;
     use nalgebra::Vector3;
     use proptest::prelude::*;

@@ -132,7 +132,7 @@ impl<'a> Slabs<'a> {
             walls: Vec::new(),
             verdicts: Verdicts::default(),
         };
-        for stretch in bands(scene, clearance) {
+        for stretch in bands(this.second.contacts(), clearance) {
             match stretch.kind {
                 Kind::Free => this.lay(stretch.from, stretch.to, true),
                 Kind::Wall(stuck) => {

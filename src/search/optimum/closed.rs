@@ -1,9 +1,9 @@
 //! What is closed: for joint 1, for joint 2 at one value of joint 1, and along straight motions.
 
 use crate::check::{Deviation, Posture, STUCK_ROUNDING};
-use crate::geometry::{Convex, Features, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
+use crate::geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
 use crate::interrupt::checkpoint;
-use crate::model::{Carried, Pair, Scene, on_axis, swept};
+use crate::model::{Contacts, Pair, Scene, on_axis};
 use crate::search::slab::{Eroded, OUTWARD};
 use crate::space::Configuration;
 use std::cmp::Reverse;
@@ -32,27 +32,20 @@ const MOST_LOOKS: usize = 4_000_000;
 
 /// A pair of link 2.
 struct Prepared {
-    /// Into the link's parts.
-    part: usize,
-    piece: Features,
+    /// Its number among all.
+    index: usize,
     /// None where the shapes are too thin to overlap by as much as rounding may amount to.
     eroded: Option<Eroded>,
     /// Half-planes of the piece's core.
     sides: Vec<(Vector, f64)>,
 }
 
-/// A part of link 2.
-struct PreparedPart {
-    carried: Carried,
-    /// Half-planes of its core.
-    sides: Vec<(Vector, f64)>,
-}
-
 /// All that link 2 can meet.
 pub(super) struct Closed<'a> {
-    scene: &'a Scene,
+    contacts: Contacts<'a>,
     clearance: f64,
-    parts: Vec<PreparedPart>,
+    /// Half-planes of the cores of link 2's parts.
+    sides: Vec<Vec<(Vector, f64)>>,
     pairs: Vec<Prepared>,
     /// The pairs' places in that list.
     numbers: BTreeMap<Pair, usize>,
@@ -61,34 +54,40 @@ pub(super) struct Closed<'a> {
 
 impl<'a> Closed<'a> {
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
-        let motion = scene.arm().joints[1].joint_type;
-        let parts = scene.arm().links[1].parts.iter().map(|part| {
-            let carried = Carried::new(motion, &part.shape);
-            PreparedPart { sides: half_planes(carried.shape().core()), carried }
-        });
-        let (parts, numbers) = (parts.collect(), BTreeMap::new());
-        let mut this = Self { scene, clearance, parts, pairs: Vec::new(), numbers, scratch: Vec::new() };
-        this.add(&chosen(scene, clearance));
+        let contacts = Contacts::new(scene);
+        let sides = scene.arm().links[1].parts.iter().map(|part| half_planes(part.shape.core())).collect();
+        let (pairs, numbers) = (Vec::new(), BTreeMap::new());
+        let mut this = Self { contacts, clearance, sides, pairs, numbers, scratch: Vec::new() };
+        this.add_numbers(&chosen(&this.contacts, clearance));
         this
+    }
+
+    fn scene(&self) -> &'a Scene {
+        self.contacts.scene()
     }
 
     /// Looks at some more pairs of link 2.
     pub fn add(&mut self, pairs: &[Pair]) {
-        for &pair in pairs {
+        let all = self.scene().pairs();
+        let numbers: Vec<usize> = pairs.iter().filter_map(|pair| all.binary_search(pair).ok()).collect();
+        self.add_numbers(&numbers);
+    }
+
+    fn add_numbers(&mut self, indices: &[usize]) {
+        for &index in indices {
             checkpoint();
-            let piece = self.scene.piece(pair);
-            let eroded = Eroded::new(&self.parts[pair.part].carried, piece, OUTWARD, self.clearance);
-            let (sides, piece) = (half_planes(piece.core()), Features::new(piece));
-            self.numbers.insert(pair, self.pairs.len());
-            self.pairs.push(Prepared { part: pair.part, piece, eroded, sides });
+            let (moving, piece) = (self.contacts.moving(index), self.contacts.standing(index).shape());
+            let eroded = Eroded::new(moving, piece, OUTWARD, self.clearance);
+            self.numbers.insert(self.scene().pairs()[index], self.pairs.len());
+            self.pairs.push(Prepared { index, eroded, sides: half_planes(piece.core()) });
         }
     }
 
     /// The pairs that are looked at: those of link 1, unless they are too many, and those of link 2; in their order.
     pub fn pairs(&self) -> Vec<Pair> {
-        let first = self.scene.pairs().iter().take_while(|pair| pair.link == 0);
-        let few = first.clone().count() <= MOST_PAIRS;
-        first.filter(|_| few).chain(self.numbers.keys()).copied().collect()
+        let first = self.contacts.second_link_pairs().start;
+        let few = first <= MOST_PAIRS;
+        self.scene().pairs()[..first].iter().filter(|_| few).chain(self.numbers.keys()).copied().collect()
     }
 
     /// How many slices are worth looking at.
@@ -98,14 +97,14 @@ impl<'a> Closed<'a> {
 
     /// The values of joint 1 at which link 1 is too near: disjoint, ascending.
     pub fn bands(&self) -> Vec<[f64; 2]> {
-        let arm = self.scene.arm();
+        let arm = self.scene().arm();
         let joint = &arm.joints[0];
         let (mut bands, mut arcs) = (Vec::new(), Vec::new());
-        for &pair in self.scene.pairs().iter().filter(|pair| pair.link == 0) {
-            let (part, piece) = (Carried::new(joint.joint_type, self.scene.part(pair)), self.scene.piece(pair));
-            let Some(eroded) = Eroded::new(&part, piece, OUTWARD, self.clearance) else { continue };
+        for index in 0..self.contacts.second_link_pairs().start {
+            let (part, piece) = (self.contacts.moving(index), self.contacts.standing(index));
+            let Some(eroded) = Eroded::new(part, piece.shape(), OUTWARD, self.clearance) else { continue };
             arcs.clear();
-            let hits = eroded.hits(&part, &Features::new(piece), arm.base, Vector::x(), &mut arcs);
+            let hits = eroded.hits(part, piece, arm.base, Vector::x(), &mut arcs);
             on_axis(joint, hits, &arcs, |band| bands.push(band));
         }
         bands.retain(|[lower, upper]| lower < upper);
@@ -117,7 +116,7 @@ impl<'a> Closed<'a> {
     pub fn walls(&mut self, q1: f64) -> Vec<Wall> {
         checkpoint();
         let mut walls = Vec::new();
-        let frame = self.frame(q1);
+        let frame = self.contacts.elbow(q1);
         for number in 0..self.pairs.len() {
             self.add_walls(number, frame, &mut walls);
         }
@@ -127,7 +126,7 @@ impl<'a> Closed<'a> {
     /// What a pair closes at `q1`.
     pub fn walls_of(&mut self, number: usize, q1: f64) -> Vec<Wall> {
         let mut walls = Vec::new();
-        self.add_walls(number, self.frame(q1), &mut walls);
+        self.add_walls(number, self.contacts.elbow(q1), &mut walls);
         walls
     }
 
@@ -143,20 +142,13 @@ impl<'a> Closed<'a> {
         self.numbers.get(&pair).copied()
     }
 
-    /// Where joint 2 is at `q1`, and the direction of link 1.
-    fn frame(&self, q1: f64) -> (Point, Vector) {
-        let arm = self.scene.arm();
-        let pose = arm.pose(0, Configuration::new(q1, 0.0));
-        (pose * Point::from(arm.offset), pose * Vector::x())
-    }
-
     fn add_walls(&mut self, number: usize, (elbow, heading): (Point, Vector), walls: &mut Vec<Wall>) {
         let pair = &self.pairs[number];
         let Some(eroded) = &pair.eroded else { return };
-        let joint = &self.scene.arm().joints[1];
+        let joint = &self.contacts.scene().arm().joints[1];
         self.scratch.clear();
-        let part = &self.parts[pair.part].carried;
-        let hits = eroded.hits(part, &pair.piece, elbow, heading, &mut self.scratch);
+        let (part, piece) = (self.contacts.moving(pair.index), self.contacts.standing(pair.index));
+        let hits = eroded.hits(part, piece, elbow, heading, &mut self.scratch);
         let mut add = |[lower, upper]: [f64; 2]| {
             if lower < upper {
                 walls.push(Wall { pair: number, lower, upper });
@@ -177,16 +169,21 @@ impl<'a> Closed<'a> {
 
     fn halved(&self, pair: &Prepared, ends: [Configuration; 2], halvings: usize) -> bool {
         let middle = (ends[0] + ends[1]) / 2.0;
-        let posture = Posture::new(self.scene, middle);
+        let posture = Posture::new(self.scene(), middle);
         if self.follows(pair, &posture, ends) {
             return true;
         }
-        let pose = self.scene.arm().pose(1, middle);
+        let pose = self.scene().arm().pose(1, middle);
+        let (part, piece) = self.shapes(pair);
         halvings > 0
-            && separation(&self.parts[pair.part].carried.shape().at(&pose), pair.piece.shape()).distance
-                < self.clearance
+            && separation(&part.at(&pose), piece).distance < self.clearance
             && self.halved(pair, [ends[0], middle], halvings - 1)
             && self.halved(pair, [middle, ends[1]], halvings - 1)
+    }
+
+    /// The part and the piece of a pair.
+    fn shapes(&self, pair: &Prepared) -> (&Convex, &Convex) {
+        (self.contacts.moving(pair.index).shape(), self.contacts.standing(pair.index).shape())
     }
 
     /// Whether one point stays in both shapes all along the motion: fixed in one of them, in the other it moves.
@@ -196,9 +193,10 @@ impl<'a> Closed<'a> {
     /// is nowhere farther from the piece than at the farther end, plus that half. The same holds for a point of the piece
     /// as seen from the link. Where its distances from both cores come to no more than `radius`, so does that of the cores.
     fn follows(&self, pair: &Prepared, posture: &Posture, ends: [Configuration; 2]) -> bool {
-        let (PreparedPart { carried, sides: of_part }, of_piece) = (&self.parts[pair.part], &pair.sides);
-        let (part, piece) = (carried.shape(), pair.piece.shape());
-        let poses = ends.map(|q| self.scene.arm().pose(1, q));
+        let (part, piece) = self.shapes(pair);
+        let of_part = &self.sides[self.scene().pairs()[pair.index].part];
+        let of_piece = &pair.sides;
+        let poses = ends.map(|q| self.scene().arm().pose(1, q));
         let deviation = Deviation::Along((ends[1] - ends[0]) / 2.0);
         let slack = STUCK_ROUNDING * posture.scale(&part.at(&poses[0]), piece);
         let radius = part.radius() + piece.radius() + self.clearance - slack;
@@ -214,7 +212,7 @@ impl<'a> Closed<'a> {
         if piece.core().iter().any(|p| of_world(*p, 0.0)) || part.core().iter().any(|a| of_link(*a, 0.0)) {
             return true;
         }
-        let pose = self.scene.arm().pose(1, (ends[0] + ends[1]) / 2.0);
+        let pose = self.scene().arm().pose(1, (ends[0] + ends[1]) / 2.0);
         middle_point(part, piece, &pose).is_some_and(|p| {
             let a = pose.inverse_transform_point(&p);
             of_world(p, signed_distance(p, piece.core(), of_piece))
@@ -223,33 +221,30 @@ impl<'a> Closed<'a> {
     }
 }
 
-/// The pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces, and of
-/// pieces of about a size some all over the list.
-fn chosen(scene: &Scene, clearance: f64) -> Vec<Pair> {
-    let arm = scene.arm();
-    let in_reach = |pair: &Pair| {
-        let swept = swept(scene.part(*pair), &arm.joints[1], arm.offset);
-        let piece = scene.piece(*pair);
+/// The numbers of the pairs of link 2 that can meet in some posture, in their order; of too many those with the largest pieces,
+/// and of pieces of about a size some all over the list.
+fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
+    let arm = contacts.scene().arm();
+    let in_reach = |index: &usize| {
         // A joint that slides takes link 2 anywhere along its way.
         !arm.joints[0].joint_type.is_revolute()
-            || least_distance(piece, arm.base) <= swept.reach_from(Point::origin()) + clearance
+            || least_distance(contacts.standing(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
     };
-    let mut pairs: Vec<Pair> =
-        scene.pairs().iter().filter(|pair| pair.link == 1).filter(|p| in_reach(p)).copied().collect();
+    let mut pairs: Vec<usize> = contacts.second_link_pairs().filter(in_reach).collect();
     if pairs.len() > MOST_PAIRS {
         let bits = usize::BITS - pairs.len().leading_zeros();
-        let mut ranked: Vec<(Reverse<i32>, usize, Pair)> = pairs
+        let mut ranked: Vec<(Reverse<i32>, usize, usize)> = pairs
             .into_iter()
             .enumerate()
-            .map(|(number, pair)| {
-                let core = scene.piece(pair).core();
+            .map(|(number, index)| {
+                let core = contacts.standing(index).shape().core();
                 let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
                 // Numbers with their bits reversed ascend all over the list at a time.
-                (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), pair)
+                (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), index)
             })
             .collect();
         ranked.sort_unstable();
-        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., pair)| pair).collect();
+        pairs = ranked.into_iter().take(MOST_PAIRS).map(|(.., index)| index).collect();
         pairs.sort_unstable();
     }
     pairs

@@ -47,8 +47,14 @@ const NEAREST: usize = 256;
 const MOST_IDLE_ROUNDS: usize = 3;
 
 /// Share of what a way is to keep beyond the clearance by which strips may let it fall short of that. What is left is enough for a
-/// certificate, and a greater share takes fewer slices.
+/// certificate, and a greater share takes fewer slices ...
 const DEEPEST: f64 = 0.9;
+
+/// ... but among more pairs than this a way leads past many small things, where certificates need more room: ...
+const FEW_PAIRS: usize = 1000;
+
+/// ... this share.
+const DEEPEST_AMONG_MANY: f64 = 0.5;
 
 /// Share of the gap asked for that a single strip may leave open without being halved.
 const WORTH: f64 = 1e-3;
@@ -129,6 +135,8 @@ pub fn short_motion(
     let Motions { scene, start, clearance, .. } = *motions;
     let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
     let (mut before, mut refused) = (0.0, 0);
+    let deepest = if scene.pairs().len() <= FEW_PAIRS { DEEPEST } else { DEEPEST_AMONG_MANY };
+    let allowed = Allowed::Depth(deepest * kept);
     for _ in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
         let (length, corners) = ways.shortest();
         if corners.is_empty() {
@@ -137,7 +145,7 @@ pub fn short_motion(
         // Where thousands of pieces lie side by side there is always one more to go round, and nothing is gained by it.
         let is_settled = length - before <= SETTLED * length;
         before = length;
-        if !is_settled && ways.refine(&corners, Allowed::Depth(DEEPEST * kept)) {
+        if !is_settled && ways.refine(&corners, allowed) {
             continue;
         }
         let nearest = match judge(ways.path(start, &corners), &ways.strips.slices()) {
@@ -146,9 +154,8 @@ pub fn short_motion(
             Err(Rejection::OutOfLimits { .. }) => return None,
         };
         refused += 1;
-        let is_finer = ways.look_about(nearest)
-            || is_settled && ways.refine(&corners, Allowed::Depth(DEEPEST * kept))
-            || ways.halve_at(nearest[0]);
+        let is_finer =
+            ways.look_about(nearest) || is_settled && ways.refine(&corners, allowed) || ways.halve_at(nearest[0]);
         if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
             return None;
         }

@@ -1,9 +1,9 @@
 //! Slices and grids from slices against clearances and parry2d's verdicts, for all four kinds of arm.
 
 use crate::common::{self, Benchmark, convex, disc};
-use cplan::cspace::{Bitmap, Grid, Proves, Slice, Slices, bitmap, grid_from_slices, outer_grid, sampled_grid};
+use cplan::cspace::{Bitmap, Grid, Proves, Slice, bitmap, grid_from_slices, outer_grid, sampled_grid};
 use cplan::geometry::{Convex, Hits, Point, Vector};
-use cplan::model::{Arm, JointType, Scene};
+use cplan::model::{Arm, Contacts, JointType, Scene};
 use cplan::space::{Configuration, JointRange};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -88,7 +88,7 @@ fn turn_within(scene: &Scene, ranges: &[[f64; 2]], value: f64) -> Option<i32> {
 
 /// Checks this for 400 configurations, and returns the most turns by which one of them was off the range that it is in.
 fn outside_reach_ranges_pairs_keep_their_distance(scene: &Scene, grow: f64) -> Result<i32, TestCaseError> {
-    let slices = Slices::new(scene);
+    let slices = Contacts::new(scene);
     let [first, second] = scene.arm().topology().ranges;
     let mut most = 0;
     for index in slices.second_link_pairs() {
@@ -152,7 +152,7 @@ proptest! {
 
     #[test]
     fn slices_and_bands_agree_with_clearances(scene in any_scene(), s in 0.0..1.0f64, grow in prop_oneof![Just(0.0), 0.0..0.2f64]) {
-        let slices = Slices::new(&scene);
+        let slices = Contacts::new(&scene);
         let [first, second] = scene.arm().topology().ranges;
         let bands = slices.bands(grow);
         let mut slice = Slice::default();
