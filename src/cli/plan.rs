@@ -65,9 +65,10 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
 /// I/O, or a picture that cannot be made of pixels.
 fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<String>, Failure> {
     let mut written = files.write(plan.report())?;
+    let mut view = None;
     for sink in sinks {
         if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, &plan.view())?;
+            sinks::save_picture(*format, path, view.get_or_insert_with(|| plan.view()))?;
             written.push(path.display().to_string());
         }
     }

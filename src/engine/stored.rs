@@ -1,4 +1,4 @@
-//! Problems and plans as data, for serde.
+//! Problems and plans as data, for serde: in JSON and formats like it, which say what a value is and have a word for none.
 //!
 //! A problem is its model: arm, obstacles and what is to be done; where it was read from does not matter. Reading makes it anew by
 //! the constructors that check, so what is read is as valid as what is loaded. Numbers are read back bit for bit.
@@ -10,7 +10,7 @@ use super::options::Options;
 use super::plan::{Plan, plan};
 use super::problem::{Asked, Problem};
 use crate::input::RobotReport;
-use crate::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError};
+use crate::model::{Driver, MotionProblem, RobotJoints, Scene, Task, TaskError, ToolJoint};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::Value;
@@ -54,7 +54,9 @@ impl<'de> Deserialize<'de> for Problem {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let ProblemRecord { asked, robot, notes } = ProblemRecord::<Read>::deserialize(deserializer)?;
         if !are_joints(&robot.joints) {
-            return Err(D::Error::custom("the robot's joints need finite numbers, and planned ones are 0 and 1"));
+            return Err(D::Error::custom(
+                "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
+            ));
         }
         let asked = match asked {
             Read::Motion(motion) => Asked::Motion(motion),
@@ -78,7 +80,8 @@ fn are_joints(robot: &RobotJoints) -> bool {
         Driver::Stroke | Driver::Wrist => true,
     };
     robot.joints.iter().all(|j| is_driven(j.driver) && j.factor.is_finite() && j.offset.is_finite())
-        && robot.wrist.iter().all(|joint| joint.rest.is_finite() && joint.sign.abs() == 1.0)
+        && robot.wrist.iter().all(ToolJoint::is_sound)
+        && robot.stroke.iter().all(|stroke| stroke.joint.is_sound())
 }
 
 /// What a plan is made of: the result is there to be compared.

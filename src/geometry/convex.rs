@@ -164,6 +164,12 @@ impl Convex {
         Self { core, radius }
     }
 
+    /// The shape with other corners and another radius, for pictures. Of a scene's own pieces the radius may be negative.
+    #[must_use]
+    pub(crate) fn mapped(&self, corner: impl Fn(Point) -> Point, radius: f64) -> Self {
+        Self { core: self.core.iter().copied().map(corner).collect(), radius }
+    }
+
     /// [`Convex::segment`] of points that are known to be finite.
     #[must_use]
     pub(crate) fn between(a: Point, b: Point) -> Self {

@@ -113,10 +113,11 @@ impl LoadedScene {
 
     fn too_thin(&self, step: &str, object: usize) -> Option<(String, &'static str)> {
         let object = &self.world.objects[object];
-        let by = Payload::penetration_allowance(self.scene.arm());
-        if object.pieces.iter().any(|piece| piece.eroded(by).is_some()) {
+        let arm = self.scene.arm();
+        if object.can_rest(arm) {
             return None;
         }
+        let by = Payload::penetration_allowance(arm);
         let message = format!(
             "{step}: object \"{}\" is too thin to rest on anything: nothing of it lies {by:.2e} m deep, which is what it may press into its supports",
             object.name
@@ -137,6 +138,6 @@ fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Di
             object.name, joint.name
         );
         let help = "choose another fixed value of the joint, less travel, or less lift of the object";
-        (at < lower || at > upper).then(|| world.source.diagnostic(message).help(help))
+        (!stroke.reaches(object)).then(|| world.source.diagnostic(message).help(help))
     })
 }

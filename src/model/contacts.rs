@@ -12,7 +12,7 @@ use std::ops::Range;
 ///
 /// Pairs are numbered as in [`Scene::pairs`]. Every interval is closed, exact up to [`crate::geometry::ROUNDING`], and of joint
 /// values: *unwrapped* for a revolute joint (start in `[-pi, pi)`, end possibly beyond `pi`, to be repeated by whole
-/// turns), as they are for a prismatic one. Limits are not applied; see `slice` for that.
+/// turns), as they are for a prismatic one. Limits are not applied; [`Contacts::slice`] does that.
 #[derive(Debug, Clone)]
 pub struct Contacts<'a> {
     scene: &'a Scene,
@@ -85,7 +85,7 @@ impl PreparedPart {
 }
 
 impl<'a> Contacts<'a> {
-    /// Prepares a scene. Linear in its size.
+    /// Prepares a scene. `O(n log n)` in its size.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
         let (mut parts, mut pieces, mut pairs) = (Vec::new(), Vec::new(), Vec::with_capacity(scene.pairs().len()));
@@ -237,6 +237,9 @@ impl<'a> Contacts<'a> {
     }
 
     /// [`Contacts::second_link`] with the elbow at hand.
+    ///
+    /// # Panics
+    /// If the pair is of link 1, or there is none of that number.
     pub fn at_elbow(&self, index: usize, elbow: Point, heading: Vector, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
         let pair = self.pairs[index];
         assert_eq!(pair.link, 1, "a pair of link 2");

@@ -1,6 +1,7 @@
 //! What arm, obstacles and what is carried must be to make a scene.
 
 use super::{Arm, Grip, Heights, Joint, JointType, Payload, Plane, Workspace};
+use crate::geometry::{Convex, Pose};
 use crate::space::JointRange;
 
 /// Unit vectors may be off by this: far above the rounding of what is normalised, far below any robot's accuracy.
@@ -9,7 +10,7 @@ const UNIT_ROUNDING: f64 = 1e-9;
 /// Why arm and workspace make no scene.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SceneError {
-    /// A joint's range is empty or not finite.
+    /// A joint's range is empty, not finite, or longer than makes sense.
     #[error("joint \"{joint}\": no range from {lower} to {upper}")]
     Range {
         /// The joint's name in the URDF.
@@ -41,8 +42,8 @@ pub enum SceneError {
         /// The limit, as it was given.
         value: f64,
     },
-    /// A coordinate of the arm is infinite or not a number.
-    #[error("the arm's {what} is not finite")]
+    /// A coordinate of the arm is not a number, or larger than makes sense.
+    #[error("the arm's {what} is no place within 1e9 m")]
     NotFinite {
         /// The point that has it, in words.
         what: &'static str,
@@ -50,6 +51,12 @@ pub enum SceneError {
     /// The plane's vectors are not of length 1 and at right angles.
     #[error("the plane's vectors are not of length 1 and at right angles")]
     Plane,
+    /// A shape is larger than makes sense, or far away.
+    #[error("\"{of}\": its shape is not within 1e9 m")]
+    Size {
+        /// Name of the obstacle or link.
+        of: String,
+    },
     /// Something ends below where it begins, or at no number.
     #[error("\"{of}\": no heights from {lower} to {upper}")]
     Heights {
@@ -72,8 +79,8 @@ pub enum SceneError {
         /// The preference's name in the world.
         name: String,
     },
-    /// What is carried is held at no finite place.
-    #[error("payload \"{object}\": its grip is not finite")]
+    /// What is carried is held at no place, or larger than makes sense.
+    #[error("payload \"{object}\": its grip is no place and angle within 1e9 m, or its shape larger")]
     Grip {
         /// The object's name in the world.
         object: String,
@@ -100,10 +107,10 @@ pub(super) fn check(
     if let Some(payload) = payload {
         check_heights(&payload.object, payload.heights)?;
         let is_finite = match payload.grip {
-            Grip::Rigid(pose) => pose.to_homogeneous().iter().all(|x| x.is_finite()),
-            Grip::Level { angle, point } => [angle, point.x, point.y].iter().all(|x| x.is_finite()),
+            Grip::Rigid(pose) => is_pose(&pose),
+            Grip::Level { angle, point } => are_small([angle, point.x, point.y]),
         };
-        if !is_finite {
+        if !is_finite || !payload.pieces.iter().all(is_small) {
             return Err(SceneError::Grip { object: payload.object.clone() });
         }
     }
@@ -118,7 +125,7 @@ pub(super) fn check(
 fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     arm.joints.iter().try_for_each(check_joint)?;
     for (what, place) in [("base", arm.base.coords), ("offset", arm.offset), ("tip", arm.tip.coords)] {
-        if !place.iter().all(|x| x.is_finite()) {
+        if !are_small(place.iter().copied()) {
             return Err(SceneError::NotFinite { what });
         }
     }
@@ -128,12 +135,21 @@ fn check_arm(arm: &Arm) -> Result<(), SceneError> {
     if !off.iter().all(|off| off.abs() <= UNIT_ROUNDING) {
         return Err(SceneError::Plane);
     }
-    arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| check_heights(&part.body, part.heights))
+    arm.links.iter().flat_map(|link| &link.parts).try_for_each(|part| {
+        check_size(&part.body, [&part.shape])?;
+        check_heights(&part.body, part.heights)
+    })
 }
 
 fn check_joint(joint: &Joint) -> Result<(), SceneError> {
     let name = || joint.name.clone();
     check_range(&joint.name, joint.range)?;
+    if let JointRange::Interval { lower, upper } = joint.range
+        && joint.joint_type.is_revolute()
+        && upper - lower > LONGEST_TURN
+    {
+        return Err(SceneError::Range { joint: name(), lower, upper });
+    }
     if joint.range.is_circle() && !joint.joint_type.is_revolute() {
         return Err(SceneError::SlidesOnCircle { joint: name() });
     }
@@ -153,7 +169,7 @@ fn check_joint(joint: &Joint) -> Result<(), SceneError> {
 
 pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneError> {
     match range {
-        JointRange::Interval { lower, upper } if !(lower <= upper && (upper - lower).is_finite()) => {
+        JointRange::Interval { lower, upper } if !(lower <= upper && are_small([lower, upper])) => {
             Err(SceneError::Range { joint: joint.to_owned(), lower, upper })
         }
         JointRange::Interval { .. } | JointRange::Circle => Ok(()),
@@ -162,7 +178,10 @@ pub(super) fn check_range(joint: &str, range: JointRange) -> Result<(), SceneErr
 
 fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
     check_clearance(workspace.clearance)?;
-    workspace.obstacles.iter().try_for_each(|obstacle| check_heights(&obstacle.name, obstacle.heights))?;
+    workspace.obstacles.iter().try_for_each(|obstacle| {
+        check_size(&obstacle.name, &obstacle.pieces)?;
+        check_heights(&obstacle.name, obstacle.heights)
+    })?;
     let is_unit = |[x, y]: [f64; 2]| (x.hypot(y) - 1.0).abs() <= UNIT_ROUNDING;
     match workspace.preferences.iter().find(|p| !(p.epsilon.is_finite() && p.direction.is_none_or(is_unit))) {
         Some(preference) => Err(SceneError::Preference { name: preference.name.clone() }),
@@ -171,7 +190,33 @@ fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
 }
 
 pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
-    if clearance.is_finite() && clearance >= 0.0 { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
+    if (0.0..=LARGEST).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
+}
+
+/// Numbers beyond which nothing is taken, metres: predicates and distances are far from overflowing, and sums of lengths in files,
+/// which are smaller, are within.
+pub(super) const LARGEST: f64 = 1e9;
+
+/// A turning joint's range at most, radians: intervals are repeated a turn after the other.
+const LONGEST_TURN: f64 = 1e3;
+
+/// Whether all are finite, and no larger than makes sense.
+pub(super) fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
+    values.into_iter().all(|value| value.abs() <= LARGEST)
+}
+
+/// Whether all of a shape is where numbers make sense.
+pub(super) fn is_small(shape: &Convex) -> bool {
+    are_small(shape.core().iter().flat_map(|p| [p.x, p.y]).chain([shape.radius()]))
+}
+
+/// Whether a pose moves and turns, and nothing else.
+pub(super) fn is_pose(pose: &Pose) -> bool {
+    are_small(pose.translation.vector.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
+}
+
+fn check_size<'a>(of: &str, shapes: impl IntoIterator<Item = &'a Convex>) -> Result<(), SceneError> {
+    if shapes.into_iter().all(is_small) { Ok(()) } else { Err(SceneError::Size { of: of.to_owned() }) }
 }
 
 fn check_heights(of: &str, Heights { lower, upper }: Heights) -> Result<(), SceneError> {

@@ -1,5 +1,6 @@
 //! A tool that is lowered at picks and places, and a wrist that turns it.
 
+use super::scene_error::check_range;
 use super::{Arm, Heights, Object};
 use crate::space::JointRange;
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,16 @@ pub struct ToolJoint {
     pub sign: f64,
     /// The values that it can take.
     pub range: JointRange,
+}
+
+impl ToolJoint {
+    /// Whether its numbers make sense: a sign, a range, and a rest within that.
+    pub(crate) fn is_sound(&self) -> bool {
+        self.sign.abs() == 1.0
+            && self.rest.is_finite()
+            && check_range(&self.name, self.range).is_ok()
+            && self.range.contains(self.rest)
+    }
 }
 
 /// How a tool is lowered and raised at picks and places, while the arm stands still.
@@ -39,6 +50,12 @@ impl Stroke {
     #[must_use]
     pub fn depth(&self, object: &Object) -> f64 {
         self.travel.unwrap_or(object.lift)
+    }
+
+    /// Whether the joint can go as far down as an object asks for.
+    #[must_use]
+    pub fn reaches(&self, object: &Object) -> bool {
+        self.joint.range.contains(self.lowered(self.depth(object)))
     }
 
     /// The joint's value with the tool lowered by so much.

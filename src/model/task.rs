@@ -35,6 +35,15 @@ pub struct Object {
     pub at: Pose,
 }
 
+impl Object {
+    /// Whether it may rest on supports: something of it lies deeper than what it may press into them.
+    #[must_use]
+    pub fn can_rest(&self, arm: &Arm) -> bool {
+        let by = Payload::penetration_allowance(arm);
+        self.pieces.iter().any(|piece| piece.eroded(by).is_some())
+    }
+}
+
 /// What a step does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

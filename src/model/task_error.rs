@@ -1,15 +1,14 @@
 //! What arm, objects and steps must be to make a task.
 
-use super::scene_error::check_range;
+use super::scene_error::{LARGEST, are_small, is_pose, is_small};
 use super::{
-    Action, Goal, Holding, Item, MotionProblem, MotionProblemError, Object, Payload, Scene, SceneError, Step, Task,
+    Action, Goal, Holding, Item, MotionProblem, MotionProblemError, Object, Scene, SceneError, Step, Stroke, Task,
 };
-use crate::geometry::Pose;
-use crate::space::JointRange;
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
-/// Rotations may be off by this: as other unit vectors of a scene.
-const UNIT_ROUNDING: f64 = 1e-9;
+/// Nothing takes longer, seconds: as motions.
+const LONGEST: f64 = 1e6;
 
 /// Why an arm, objects and steps make no task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -47,6 +46,9 @@ pub enum TaskError {
     /// There is nothing to do.
     #[error("there are no steps")]
     NoSteps,
+    /// A group without steps.
+    #[error("a group of steps in any order has no steps")]
+    EmptyGroup,
     /// Objects begin anew that cannot.
     #[error("an object is renewed that does not exist, or is carried then")]
     Renewed,
@@ -78,17 +80,16 @@ impl Task {
     }
 
     fn check_tool(&self) -> Result<(), TaskError> {
-        let wrist = self.wrist.iter().flat_map(|wrist| [wrist.velocity, wrist.acceleration]);
-        let stroke = self.stroke.iter().flat_map(|stroke| [stroke.velocity, stroke.acceleration]);
-        let why = if !wrist.chain(stroke).all(|limit| limit.is_finite() && limit > 0.0) {
-            "speeds and accelerations must be positive and finite"
-        } else if self.stroke.iter().any(|s| s.joint.sign.abs() != 1.0 || !s.joint.rest.is_finite()) {
-            "its joint needs a sign of 1 or -1 and a finite rest"
+        let wrist = self.wrist.iter().map(|wrist| (wrist.velocity, wrist.acceleration, TAU));
+        let farthest = |stroke: &Stroke| self.objects.iter().map(|object| stroke.depth(object)).fold(0.0, f64::max);
+        let stroke = self.stroke.iter().map(|stroke| (stroke.velocity, stroke.acceleration, farthest(stroke)));
+        let why = if !wrist.chain(stroke).all(|(velocity, acceleration, way)| is_drive(velocity, acceleration, way)) {
+            "speeds and accelerations must be positive and finite, and such that it takes no more than a million seconds"
+        } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
+            "its joint needs a sign of 1 or -1, a range, and a rest within that"
         } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite() || travel < 0.0) {
             "its travel must be finite and not negative"
-        } else if self.stroke.iter().any(|s| check_range(&s.joint.name, s.joint.range).is_err()) {
-            "its joint needs a range"
-        } else if self.stroke.iter().any(|stroke| self.objects.iter().any(|object| is_too_deep(stroke, object))) {
+        } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
             "an object lies too deep for the stroke"
         } else {
             return Ok(());
@@ -97,26 +98,23 @@ impl Task {
     }
 }
 
-fn is_too_deep(stroke: &super::Stroke, object: &Object) -> bool {
-    let JointRange::Interval { lower, upper } = stroke.joint.range else { return false };
-    let at = stroke.lowered(stroke.depth(object));
-    at < lower || at > upper
+/// Whether a way at these limits takes some time that can be counted.
+fn is_drive(velocity: f64, acceleration: f64, way: f64) -> bool {
+    let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
+    is_limit(velocity) && is_limit(acceleration) && way / velocity + velocity / acceleration <= LONGEST
 }
 
 fn angle_at_first(object: &Object) -> f64 {
     object.at.rotation.angle()
 }
 
-fn is_pose(pose: &Pose) -> bool {
-    let is_finite = pose.translation.vector.iter().chain([&pose.rotation.re, &pose.rotation.im]).all(|x| x.is_finite());
-    is_finite && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
-}
-
 fn check_object(object: &Object) -> Result<(), TaskError> {
     let why = if !is_pose(&object.at) {
         "where it lies is no finite pose"
-    } else if !(object.lift.is_finite() && object.lift >= 0.0) {
-        "its lift must be finite and not negative"
+    } else if !(0.0..=LARGEST).contains(&object.lift) {
+        "its lift must be no negative number, and no more than a million kilometres"
+    } else if !object.pieces.iter().all(is_small) {
+        "it is larger than a million kilometres"
     } else {
         return Ok(());
     };
@@ -135,6 +133,7 @@ impl Gripper<'_> {
     fn item(&mut self, item: &Item) -> Result<(), TaskError> {
         match item {
             Item::Step(step) => self.step(step),
+            Item::AnyOrder(pairs) if pairs.is_empty() => Err(TaskError::EmptyGroup),
             Item::AnyOrder(pairs) => {
                 let mut picked = BTreeSet::new();
                 pairs.iter().try_for_each(|[pick, place]| {
@@ -161,8 +160,11 @@ impl Gripper<'_> {
         if step.number == 0 || step.cycle == 0 {
             return Err(wrong(step, "numbers begin with 1"));
         }
-        if !(step.speed > 0.0 && step.speed <= 1.0 && step.dwell.is_finite() && step.dwell >= 0.0) {
-            return Err(wrong(step, "its speed must be more than 0 and at most 1, its dwell finite and not negative"));
+        if !(step.speed > 0.0 && step.speed <= 1.0 && (0.0..=LONGEST).contains(&step.dwell)) {
+            return Err(wrong(
+                step,
+                "its speed must be more than 0 and at most 1, its dwell at most a million seconds, and not negative",
+            ));
         }
         match &step.action {
             Action::Pick { object, grasp, supports } => {
@@ -170,7 +172,7 @@ impl Gripper<'_> {
                     return Err(wrong(step, "it picks what does not exist, or while something is carried"));
                 }
                 self.carried = Some(*object);
-                self.rest(step, *object, supports, grasp.iter().all(|x| x.is_finite()))
+                self.rest(step, *object, supports, are_small(grasp.iter().copied()))
             }
             Action::Place { at, angle, supports } => {
                 let Some(object) = self.carried.take() else {
@@ -183,7 +185,7 @@ impl Gripper<'_> {
                         return Err(wrong(step, "what it places cannot be turned"));
                     }
                 }
-                let is_finite = at.iter().chain(angle).all(|x| x.is_finite());
+                let is_finite = are_small(at.iter().chain(angle).copied());
                 self.rest(step, object, supports, is_finite)
             }
             Action::Move(Goal::Joints(q)) => {
@@ -192,7 +194,7 @@ impl Gripper<'_> {
                 is_within.then_some(()).ok_or_else(|| wrong(step, "it goes beyond the joint limits"))
             }
             Action::Move(Goal::Tip(tip)) => {
-                let is_finite = tip.iter().all(|x| x.is_finite());
+                let is_finite = are_small(tip.iter().copied());
                 is_finite.then_some(()).ok_or_else(|| wrong(step, "it goes to no finite place"))
             }
         }
@@ -202,13 +204,11 @@ impl Gripper<'_> {
     fn rest(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
         let task = self.task;
         let count = task.obstacle_number(task.objects.len());
-        let by = Payload::penetration_allowance(&task.arm);
-        let is_thick = || task.objects[object].pieces.iter().any(|piece| piece.eroded(by).is_some());
         if !is_finite {
             Err(wrong(step, "it goes to no finite place"))
         } else if supports.iter().any(|&support| support >= count || support == task.obstacle_number(object)) {
             Err(wrong(step, "it rests on itself, or on what does not exist"))
-        } else if !supports.is_empty() && !is_thick() {
+        } else if !supports.is_empty() && !task.objects[object].can_rest(&task.arm) {
             Err(wrong(step, "its object is too thin to rest on anything"))
         } else {
             Ok(())

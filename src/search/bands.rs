@@ -4,8 +4,8 @@ use super::slab::{OUTWARD, is_stuck};
 use crate::check::Cell;
 use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
-use crate::geometry::{Point, merge_in_place};
-use crate::model::{Contacts, JointType, Pair, Scene, on_axis};
+use crate::geometry::merge_in_place;
+use crate::model::{Contacts, on_axis};
 use nalgebra::Vector2;
 
 /// Where in a band a wall is looked for, as shares of each pair's interval: halfway shapes overlap most, as a rule.
@@ -33,12 +33,12 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     let scene = contacts.scene();
     let joint = &scene.arm().joints[0];
     let (lower, upper) = joint.range.domain();
-    let mut of_pairs: Vec<(Pair, [f64; 2])> = Vec::new();
+    let mut of_pairs: Vec<(usize, [f64; 2])> = Vec::new();
     let mut arcs = Vec::new();
-    for (index, &pair) in scene.pairs()[..contacts.second_link_pairs().start].iter().enumerate() {
+    for index in 0..contacts.second_link_pairs().start {
         arcs.clear();
         let hits = contacts.first_link(index, clearance + OUTWARD, &mut arcs);
-        on_axis(joint, hits, &arcs, |interval| of_pairs.push((pair, interval)));
+        on_axis(joint, hits, &arcs, |interval| of_pairs.push((index, interval)));
     }
     let mut merged: Vec<[f64; 2]> = of_pairs.iter().map(|p| p.1).collect();
     merge_in_place(&mut merged);
@@ -49,7 +49,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
             stretches.push(Stretch { from: at, to: band[0], kind: Kind::Free });
         }
         let within = of_pairs.iter().filter(|(_, i)| band[0] <= i[0] && i[1] <= band[1]);
-        let wall = within.filter_map(|(pair, interval)| wall(scene, clearance, *pair, *interval)).next();
+        let wall = within.filter_map(|(index, interval)| wall(contacts, clearance, *index, *interval)).next();
         // A band may be a single value: a graze, or the end of the domain.
         if band[0] < band[1] || wall.is_none() {
             stretches.push(Stretch { from: band[0], to: band[1], kind: wall.map_or(Kind::Unknown, Kind::Wall) });
@@ -63,13 +63,10 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
 }
 
 /// A box, as high as the domain, in which the pair is stuck, within an interval of `q1` where it is too near.
-fn wall(scene: &Scene, clearance: f64, pair: Pair, [from, to]: [f64; 2]) -> Option<StuckBox> {
-    let arm = scene.arm();
-    let (bottom, top) = arm.joints[1].range.domain();
-    let lever = match arm.joints[0].joint_type {
-        JointType::Revolute { .. } => scene.part(pair).reach_from(Point::origin()),
-        JointType::Prismatic { .. } => 1.0,
-    };
+fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<StuckBox> {
+    let scene = contacts.scene();
+    let (pair, lever) = (scene.pairs()[index], contacts.lever(index));
+    let (bottom, top) = scene.arm().joints[1].range.domain();
     PLACES.iter().find_map(|share| {
         let middle = from + (to - from) * share;
         let posture = Posture::new(scene, Vector2::new(middle, (bottom + top) / 2.0));

@@ -156,6 +156,11 @@ fn what_no_constructor_makes_is_no_problem() {
         ),
         (format!("{scene}/arm/joints/0/velocity"), json!(0.0), "positive and finite"),
         (format!("{scene}/arm/plane/u"), json!([1.0, 1.0, 0.0]), "plane's vectors"),
+        // Intervals would be repeated for ever.
+        (format!("{scene}/arm/joints/1/range/interval/upper"), json!(1e8), "no range"),
+        // Predicates would overflow.
+        (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e9 m"),
+        (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e9 m"),
         ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "planned ones are 0 and 1"),
         ("/options/levels".to_owned(), json!(0), "levels"),
         ("/options/planner".to_owned(), json!("magic"), "unknown variant"),
@@ -189,6 +194,11 @@ fn what_no_world_says_is_no_task() {
     let mut items = valid["asked"]["task"]["items"].as_array().unwrap().clone();
     items.insert(0, json!({"renew": [99]}));
     assert!(refused("/asked/task/items", json!(items)).contains("renewed"));
+    items[0] = json!({"any_order": []});
+    assert!(refused("/asked/task/items", json!(items)).contains("has no steps"));
+    let mut step = valid.pointer(first).unwrap().clone();
+    step["step"]["dwell"] = json!(1e300);
+    assert!(refused(first, step).contains("dwell at most"));
     let name = json!(task.workspace.obstacles[0].name);
     assert!(refused("/asked/task/objects/0/name", name).contains("has this name"));
 }
@@ -219,4 +229,9 @@ fn a_scene_with_a_payload_is_data_too() {
     let motion = MotionProblem::new(read, ends[0], ends[1]).unwrap();
     let again: MotionProblem = serde_json::from_str(&serde_json::to_string(&motion).unwrap()).unwrap();
     assert!(again == motion);
+    // What is carried would shrink.
+    let mut halved = serde_json::to_value(&*leg.scene).unwrap();
+    *halved.pointer_mut("/payload/grip").unwrap() =
+        json!({"rigid": {"rotation": [0.5, 0.0], "translation": [0.0, 0.0]}});
+    assert!(serde_json::from_value::<Scene>(halved).unwrap_err().to_string().contains("grip"));
 }

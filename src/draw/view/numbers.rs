@@ -64,7 +64,7 @@ impl Grain {
     /// A rounded convex polygon.
     #[must_use]
     pub fn shape(self, shape: &Convex) -> ShapeView {
-        ShapeView(Convex::trusted(self.points(shape.core()), self.length(shape.radius())))
+        ShapeView(shape.mapped(|corner| self.point(corner), self.length(shape.radius())))
     }
 
     /// A shape as the user gave it.

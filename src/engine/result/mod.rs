@@ -161,7 +161,7 @@ impl Report {
     ///
     /// # Errors
     /// Accelerations that jump, of the arm or of the tool.
-    pub(super) fn name_joints(&mut self, robot: &RobotJoints, accelerations: bool) -> Result<(), MessageError> {
+    pub fn name_joints(&mut self, robot: &RobotJoints, accelerations: bool) -> Result<(), MessageError> {
         self.robot = robot.clone();
         self.accelerations = accelerations;
         let messages = self.task.as_ref().and_then(|task| task.messages.as_ref());

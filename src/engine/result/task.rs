@@ -104,7 +104,7 @@ impl Report {
     ///
     /// # Errors
     /// A wrist that cannot keep level what is carried; accelerations that jump, of the arm or of the tool.
-    pub(in crate::engine) fn name_all(
+    pub fn name_all(
         &mut self,
         robot: &RobotJoints,
         task: &Task,

@@ -119,8 +119,8 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
 }
 
 /// About the shortest of the `motions`, shorter than `limit`, certified by `judge`, which gets a path, or one that is made of it,
-/// and the values of joint 1 at all slices, near each other where it leads past something. It keeps `kept` metres more than
-/// the clearance where that matters, and is longer than the shortest by what that costs.
+/// and the values of joint 1 at all slices, near each other where it leads past something. It keeps more than the clearance,
+/// by `kept` metres less what strips leave open, most of that; and is longer than the shortest by what that costs.
 ///
 /// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
 /// into these than by most of that, and where the judge says so. None if that does not get there, as where a passage

@@ -351,3 +351,13 @@ fn a_recording_has_a_message_for_each_motion() {
     let shared = steps.windows(2).filter(|pair| sample(&pair[0], "last_sample") == sample(&pair[1], "first_sample"));
     assert_eq!(topic("/joint_states").len(), samples - shared.count());
 }
+
+/// Where a clearance is kept, what a payload meets of its supports recedes: its radius is negative.
+#[test]
+fn supports_that_recede_are_drawn() {
+    let place = Place::new();
+    let options = "--clearance 0.005 --picture plan.svg --picture plan.html";
+    let done = place.run(&[shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")], options);
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(place.read("plan.svg").contains("</svg>") && place.read("plan.html").contains("\"worlds\""));
+}
