@@ -43,7 +43,7 @@ pub enum SceneError {
         value: f64,
     },
     /// A coordinate of the arm is not a number, or larger than makes sense.
-    #[error("the arm's {what} is no place within 1e9 m")]
+    #[error("the arm's {what} is no place within 1e15 m")]
     NotFinite {
         /// The point that has it, in words.
         what: &'static str,
@@ -52,7 +52,7 @@ pub enum SceneError {
     #[error("the plane's vectors are not of length 1 and at right angles")]
     Plane,
     /// A shape is larger than makes sense, or far away.
-    #[error("\"{of}\": its shape is not within 1e9 m")]
+    #[error("\"{of}\": its shape is not within 1e15 m")]
     Size {
         /// Name of the obstacle or link.
         of: String,
@@ -80,7 +80,7 @@ pub enum SceneError {
         name: String,
     },
     /// What is carried is held at no place, or larger than makes sense.
-    #[error("payload \"{object}\": its grip is no place and angle within 1e9 m, or its shape larger")]
+    #[error("payload \"{object}\": its grip is no place and angle within 1e15 m, or its shape larger")]
     Grip {
         /// The object's name in the world.
         object: String,
@@ -195,7 +195,7 @@ pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
 
 /// Numbers beyond which nothing is taken, metres: predicates and distances are far from overflowing, and sums of lengths in files,
 /// which are smaller, are within.
-pub(super) const LARGEST: f64 = 1e9;
+pub(super) const LARGEST: f64 = 1e15;
 
 /// A turning joint's range at most, radians: intervals are repeated a turn after the other.
 const LONGEST_TURN: f64 = 1e3;

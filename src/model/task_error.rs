@@ -112,9 +112,9 @@ fn check_object(object: &Object) -> Result<(), TaskError> {
     let why = if !is_pose(&object.at) {
         "where it lies is no finite pose"
     } else if !(0.0..=LARGEST).contains(&object.lift) {
-        "its lift must be no negative number, and no more than a million kilometres"
+        "its lift must be no negative number, and no more than 1e15 m"
     } else if !object.pieces.iter().all(is_small) {
-        "it is larger than a million kilometres"
+        "it is larger than 1e15 m"
     } else {
         return Ok(());
     };

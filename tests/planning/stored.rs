@@ -159,8 +159,8 @@ fn what_no_constructor_makes_is_no_problem() {
         // Intervals would be repeated for ever.
         (format!("{scene}/arm/joints/1/range/interval/upper"), json!(1e8), "no range"),
         // Predicates would overflow.
-        (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e9 m"),
-        (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e9 m"),
+        (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e15 m"),
+        (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e15 m"),
         ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "planned ones are 0 and 1"),
         ("/options/levels".to_owned(), json!(0), "levels"),
         ("/options/planner".to_owned(), json!("magic"), "unknown variant"),
