@@ -55,6 +55,7 @@ pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use record::{BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedStep, RecordedTurn, StepClaims, TaskClaims};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
 pub use scene::{Contact, Pair, Scene};
+pub(crate) use scene_error::LONGEST_TURN;
 pub use scene_error::SceneError;
 pub use stroke::{Stroke, ToolJoint};
 pub use stuck_along::BlockedStretch;

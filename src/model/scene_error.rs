@@ -197,8 +197,8 @@ pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
 /// which are smaller, are within.
 pub(super) const LARGEST: f64 = 1e15;
 
-/// A turning joint's range at most, radians: intervals are repeated a turn after the other.
-const LONGEST_TURN: f64 = 1e3;
+/// A turning joint's range at most, radians: intervals are repeated turn after turn, and a hundred turns are enough for any wrist.
+pub(crate) const LONGEST_TURN: f64 = 1e3;
 
 /// Whether all are finite, and no larger than makes sense.
 pub(super) fn are_small(values: impl IntoIterator<Item = f64>) -> bool {

@@ -24,7 +24,7 @@ const OVERLAP: f64 = 1.25;
 /// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
 const MOST_TILES: usize = 4096;
 
-/// The pieces of a pair of link 2, or its parts.
+/// A part of link 2, or what stands still in one of its pairs.
 struct Deep {
     /// How deep it is, metres.
     depth: f64,

@@ -4,13 +4,10 @@ use super::document::Document;
 use crate::input::error::Diagnostic;
 use crate::input::quantity::Written;
 use crate::input::world::{LARGEST, World};
-use crate::model::{SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
+use crate::model::{LONGEST_TURN, SLIDING_SPEED, TIME_TO_TOP_SPEED, TURNING_SPEED, assumed_acceleration};
 use crate::space::JointRange;
 use toml::Spanned;
 use urdf_rs::JointType;
-
-/// Longest range of a joint that turns, radians: a hundred turns are enough for any wrist.
-const LONGEST_TURN: f64 = 1e3;
 
 /// Longest range of a joint that slides, metres: beyond the coordinates that a world may have nothing can be hit.
 const LONGEST_SLIDE: f64 = 2.0 * LARGEST;
