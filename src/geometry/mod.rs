@@ -58,6 +58,7 @@ pub use polygon::{PolygonError, SimplePolygon};
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingError, RingSide};
 pub(crate) use seams::seams;
+pub(crate) use separation::gap_along;
 pub use separation::{Separation, separation};
 pub use sliding::sliding;
 pub(crate) use sliding::{along_and_across, sliding_tracks};

@@ -1,7 +1,7 @@
 //! Distance and penetration depth of two convex shapes.
 
 use super::meet::cores_meet;
-use super::{Convex, Point, Vector, perpendicular};
+use super::{Convex, Point, Pose, Vector, perpendicular};
 
 /// How two convex shapes lie to each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,20 +27,31 @@ pub fn separation(a: &Convex, b: &Convex) -> Separation {
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }
 }
 
+/// How far `b` is from `a`, turned and moved by a pose, along a unit direction: the gap between their supporting lines,
+/// negative where they overlap. The [`separation`] is the greatest of these, so none is greater than it. `O(n + m)`.
+pub(crate) fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 {
+    let own = pose.inverse_transform_vector(&direction);
+    let of_a = a.core().iter().map(|p| own.dot(&p.coords)).fold(f64::NEG_INFINITY, f64::max);
+    let of_b = b.core().iter().map(|p| direction.dot(&p.coords)).fold(f64::INFINITY, f64::min);
+    of_b - of_a - direction.dot(&pose.translation.vector) - a.radius() - b.radius()
+}
+
 /// Rounding error of a side distance, relative to the largest coordinate: a difference, two products and a sum at
 /// coordinates twice as large, and the normal's own error, are some 6 epsilon together.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     let face_a = best_face(a, b);
-    let face_b = best_face(b, a).map(|s| Separation { direction: -s.direction, ..s });
+    let face_b = best_face(b, a).map(|face| Face { normal: -face.normal, ..face });
     let face = match (face_a, face_b) {
         (Some(x), Some(y)) => Some(if x.distance >= y.distance { x } else { y }),
         (x, y) => x.or(y),
     };
     let error = ROUNDING * largest(a).max(largest(b));
-    let Some(face) = face else { return nearest_features(a, b, error) };
-    if face.distance < -error {
+    let Some(Face { distance, normal, is_beside }) = face else { return nearest_features(a, b, error) };
+    let face = Separation { distance, direction: normal };
+    // No two points are nearer than the distance along any direction, and these two are as near.
+    if distance < -error || is_beside && distance > 4.0 * error {
         return face;
     }
     // Disjoint, or touching up to rounding. Cores that lie apart on one line (as two walls in a row do) are separated by
@@ -60,34 +71,49 @@ fn largest(points: &[Point]) -> f64 {
     points.iter().fold(0.0, |largest: f64, p| largest.max(p.x.abs()).max(p.y.abs()))
 }
 
-/// The side normal of `a` along which `b` is farthest outside (least deep inside), if `a` has a side.
-fn best_face(a: &[Point], b: &[Point]) -> Option<Separation> {
-    let mut best: Option<Separation> = None;
+/// A side of one core against another core.
+#[derive(Clone, Copy)]
+struct Face {
+    /// How far outside of the side the other core is.
+    distance: f64,
+    /// The side's unit normal, outwards.
+    normal: Vector,
+    /// Whether the other core's corner that is the least outside is beside the side, not beyond its ends.
+    is_beside: bool,
+}
+
+/// The side of `a` which `b` is farthest outside of (least deep inside), if `a` has a side.
+fn best_face(a: &[Point], b: &[Point]) -> Option<Face> {
+    let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {
         let Some(normal) = (-perpendicular(q - p)).try_normalize(0.0) else { continue };
-        let least = best.map_or(f64::NEG_INFINITY, |best| best.distance);
-        let mut distance = f64::INFINITY;
+        let most = best.map_or(f64::NEG_INFINITY, |(distance, ..)| distance);
+        let mut nearest = (f64::INFINITY, p);
         for v in b {
             let outside = normal.dot(&(v - p));
-            if outside < distance {
-                distance = outside;
+            if outside < nearest.0 {
+                nearest = (outside, v);
                 // What is no better than the best so far need not be known.
-                if distance <= least {
+                if outside <= most {
                     break;
                 }
             }
         }
-        if distance > least {
-            best = Some(Separation { distance, direction: normal });
+        if nearest.0 > most {
+            best = Some((nearest.0, normal, [p, q, nearest.1]));
         }
     }
-    best
+    best.map(|(distance, normal, [p, q, v])| {
+        let (along, from) = (q - p, v - p);
+        let foot = along.dot(&from);
+        Face { distance, normal, is_beside: 0.0 <= foot && foot <= along.norm_squared() }
+    })
 }
 
 /// The sides of a core, from corner to corner; none of a single corner, both ways of two.
-fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
-    let closing = (core.len() > 1).then(|| (core[core.len() - 1], core[0]));
-    core.windows(2).map(|ends| (ends[0], ends[1])).chain(closing)
+fn sides(core: &[Point]) -> impl Iterator<Item = (&Point, &Point)> {
+    let closing = (core.len() > 1).then(|| (&core[core.len() - 1], &core[0]));
+    core.windows(2).map(|ends| (&ends[0], &ends[1])).chain(closing)
 }
 
 /// Least distance between the boundaries of two cores that are disjoint, or meet by no more than `error`.
@@ -112,7 +138,7 @@ const SLACK: f64 = 1e-12;
 /// the corner on their inner side by more than `error`: the nearest point of the core is on one that the corner is outside
 /// of, too.
 fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
-    let mut look = |p: Point, q: Point, is_one_sided: bool| {
+    let mut look = |p: &Point, q: &Point, is_one_sided: bool| {
         let along = q - p;
         let length2 = along.norm_squared();
         let inside = error * error * length2;
@@ -141,8 +167,8 @@ fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, be
         }
     };
     match core {
-        [p] => look(*p, *p, false),
-        [p, q] => look(*p, *q, false),
+        [p] => look(p, p, false),
+        [p, q] => look(p, q, false),
         _ => sides(core).for_each(|(p, q)| look(p, q, true)),
     }
 }

@@ -5,7 +5,7 @@ use super::search::Mixed;
 use super::strips::Strips;
 use crate::check::Vicinity;
 use crate::check::{Deviation, Posture};
-use crate::geometry::{Point, Vector, separation};
+use crate::geometry::{Point, Pose, Vector, gap_along, separation};
 use crate::model::{Pair, Scene};
 use crate::search::slab::OUTWARD;
 use crate::space::Measure;
@@ -190,30 +190,36 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
     let posture = Posture::new(scene, middle.coords);
     let along = Deviation::Along(way / 2.0);
     let may_meet = |pair: Pair| posture.apart(pair, along) < least && posture.bound(pair, along).least < least;
-    let too_near = |pair: Pair, share: f64| {
-        let part = scene.part(pair).at(&scene.arm().pose(pair.link, (ends[0] + way * share).coords));
-        least - separation(&part, scene.piece(pair)).distance
-    };
+    let pose = |pair: Pair, share: f64| scene.arm().pose(pair.link, (ends[0] + way * share).coords);
+    let here = |pair: Pair, pose: &Pose| separation(&scene.part(pair).at(pose), scene.piece(pair));
     let depth = |share: f64| match allowed {
         Allowed::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
         Allowed::Depth(depth) => depth,
     };
     // How much deeper than allowed.
-    let beyond = |pair: Pair, share: f64| too_near(pair, share) - depth(share);
+    let beyond = |pair: Pair, share: f64| least - here(pair, &pose(pair, share)).distance - depth(share);
     let mut deepest: Option<(f64, Pair, usize)> = None;
     let looked_at: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
             // As far as nothing moves so far that it could be too near, there is no need to look.
             let speed = 2.0 * posture.farthest_motion(pair, along);
             let mut next = 0.0;
+            let mut direction = None;
             for (k, &share) in shares.iter().enumerate() {
                 if share < next {
                     continue;
                 }
-                let near = too_near(pair, share);
-                let by = near - depth(share);
-                if by > deepest.map_or(0.0, |(by, ..)| by) {
-                    deepest = Some((by, pair, k));
+                let pose = pose(pair, share);
+                let most = depth(share) + deepest.map_or(0.0, |(by, ..)| by);
+                // The direction of the distance at the last place often shows already that this one is no deeper.
+                let along = |n: Vector| least - gap_along(scene.part(pair), &pose, scene.piece(pair), n);
+                let near = direction.map(along).filter(|near| *near <= most).unwrap_or_else(|| {
+                    let here = here(pair, &pose);
+                    direction = Some(here.direction);
+                    least - here.distance
+                });
+                if near > most {
+                    deepest = Some((near - depth(share), pair, k));
                 }
                 next = share - near.min(0.0) / speed;
             }
@@ -237,7 +243,10 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
 /// smooth boundary falls with the square of the width.
 fn pieces(by: f64, allowed: Allowed) -> usize {
     match allowed {
-        Allowed::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,
+        Allowed::Depth(depth) => (1.1
+            * ((by.max(0.0) + depth) / depth).sqrt())
+        .ceil()
+        .min(16.0) as usize,
         Allowed::Detour(_) => 1,
     }
 }

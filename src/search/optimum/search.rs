@@ -15,6 +15,9 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// takes as a rule, and half a second. Along an arc they grow with the square of the slices.
 const MOST_ENTRIES: usize = 1_000_000;
 
+/// Entries for which there is room from the beginning.
+const USUAL_ENTRIES: usize = 1024;
+
 /// Costs that differ by no more than this share may differ by rounding alone.
 const TIED: f64 = 1e-12;
 
@@ -105,6 +108,8 @@ pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
     goals: &'s [Segment],
+    /// Least and greatest value of joint 1 of the goals.
+    goals_range: [f64; 2],
     /// Nothing as long as this is looked for.
     limit: f64,
     /// Values of joint 2 that ways shorter than the limit keep to.
@@ -120,16 +125,18 @@ pub(super) struct Search<'s, 'a> {
 
 impl<'s, 'a> Search<'s, 'a> {
     pub fn new(strips: &'s mut Strips<'a>, measure: Measure, goals: &'s [Segment], limit: f64) -> Self {
+        let values = || goals.iter().flat_map(Segment::ends).map(|goal| goal[0]);
         Self {
             strips,
             measure,
             goals,
+            goals_range: [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)],
             limit,
             range: [f64::NEG_INFINITY, f64::INFINITY],
-            roots: Vec::new(),
+            roots: Vec::with_capacity(USUAL_ENTRIES / 8),
             least: HashMap::default(),
             open: OpenList::default(),
-            entries: Vec::new(),
+            entries: Vec::with_capacity(USUAL_ENTRIES),
             spare: Vec::new(),
         }
     }
@@ -251,11 +258,13 @@ impl<'s, 'a> Search<'s, 'a> {
     fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
         // Most strips hold none.
+        let is_beside_all = to < self.goals_range[0] || self.goals_range[1] < from;
+        let goals = if is_beside_all { &[] } else { self.goals };
         let beside = move |goals: &&Segment| {
             let [a, b] = goals.ends();
             a[0].max(b[0]) >= from && a[0].min(b[0]) <= to
         };
-        self.goals.iter().filter(beside).filter_map(move |goals| {
+        goals.iter().filter(beside).filter_map(move |goals| {
             let part = goals.within([from, f64::NEG_INFINITY], [to, f64::INFINITY])?;
             let beyond = |part: &Segment, side: usize| {
                 part.ends().map(|q| {
@@ -282,7 +291,7 @@ impl<'s, 'a> Search<'s, 'a> {
             let range = cell.at(share);
             let portals = self.portals(slice, range);
             if self.strips.q1(slice) == at.x {
-                self.along(root, slice, !ahead, &portals, parent);
+                self.along(root, slice, !ahead, portals.iter(), parent);
             } else {
                 for portal in &portals {
                     self.push_cone(root, slice, ahead, portal, range, parent);
@@ -294,7 +303,14 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Ways along a slice, from a root on it, to other portals, which lead back to the strip on its other side; `ahead` if the
     /// ways lie in the strip after the slice.
-    fn along(&mut self, root: u32, slice: i64, ahead: bool, portals: &[Portal], parent: f64) {
+    fn along<'p>(
+        &mut self,
+        root: u32,
+        slice: i64,
+        ahead: bool,
+        portals: impl Iterator<Item = &'p Portal>,
+        parent: f64,
+    ) {
         let at = self.roots[root as usize].at;
         for portal in portals {
             let end = if portal.lower > at.y {
@@ -364,14 +380,13 @@ impl<'s, 'a> Search<'s, 'a> {
         }
         if below.or(above).is_some() {
             let portals = self.portals(slice, cell.at(near));
-            let (lower, higher): (Vec<Portal>, Vec<Portal>) =
-                portals.iter().copied().partition(|portal| portal.upper < seen.upper);
-            self.spare.push(portals);
-            for (root, portals) in [(below, lower), (above, higher)] {
+            for (root, is_below) in [(below, true), (above, false)] {
                 if let Some(root) = root {
-                    self.along(root, slice, ahead, &portals, bound);
+                    let beside = portals.iter().filter(|portal| (portal.upper < seen.upper) == is_below);
+                    self.along(root, slice, ahead, beside, bound);
                 }
             }
+            self.spare.push(portals);
         }
     }
 }

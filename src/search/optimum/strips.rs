@@ -149,6 +149,10 @@ impl<'a> Strips<'a> {
 
     fn place(&self, number: i64) -> (usize, f64) {
         let n = self.strips.len() as i64;
+        // Most are on the turn that begins with the first; to divide would take longer than all else.
+        if (0..n).contains(&number) {
+            return (number as usize, 0.0);
+        }
         (number.rem_euclid(n) as usize, number.div_euclid(n) as f64 * TAU)
     }
 
