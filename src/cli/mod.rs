@@ -20,6 +20,7 @@ mod names;
 mod plan;
 mod planner_args;
 mod recheck;
+mod roadmap_args;
 mod result_files;
 mod schema;
 #[cfg(feature = "serve")]

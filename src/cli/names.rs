@@ -20,6 +20,8 @@ impl ValueEnum for Method {
             }
             Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
             Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and the funnel path through it",
+            Method::Triangles => "Triangles of free space: a channel of them, and the funnel path through it",
+            Method::Prm => "Probabilistic roadmap: random configurations, each joined to the nearest that it sees",
             Method::Wavefront => "Manhattan wavefront on a grid",
             Method::Harmonic => "Harmonic potential on a grid",
             Method::Subdivision => "Subdivision into boxes: a path with room around it, or a proof that there is none",
@@ -49,11 +51,14 @@ impl ValueEnum for GridSearch {
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
         let help = match self {
-            GridSearch::Wave => "Labels all cells from the goal: fewest moves",
-            GridSearch::BreadthFirst => "Breadth first, until the start is met: fewest moves",
-            GridSearch::DepthFirst => "Depth first, until the start is met: some path",
-            GridSearch::Dijkstra => "Least cost first, where a diagonal move counts for 1.414 straight ones",
-            GridSearch::AStar => "The same cost, led by the distance from the start",
+            GridSearch::Wave => "Of grids: labels all cells from the goal: fewest moves",
+            GridSearch::BreadthFirst => "Breadth first, until the other end is met: fewest moves or edges",
+            GridSearch::DepthFirst => "Depth first, until the other end is met: some path",
+            GridSearch::Dijkstra => {
+                "Least cost first: lengths, or on grids moves, where a diagonal one counts for 1.414"
+            }
+            GridSearch::AStar => "The same cost, led by the distance to the other end",
+            GridSearch::Greedy => "Nearest to the other end first: some path, found soon",
         };
         Some(PossibleValue::new(self.name()).help(help))
     }

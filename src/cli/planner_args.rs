@@ -2,7 +2,8 @@
 
 use super::args::number_in;
 use super::field_args::FieldArgs;
-use crate::engine::{CELLS, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
+use super::roadmap_args::RoadmapArgs;
+use crate::engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use crate::field::Neighborhood;
 use crate::model::Preference;
 use crate::planner::{FieldPlanner, GridSearch, PathKind};
@@ -14,10 +15,10 @@ use std::ops::RangeInclusive;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// First number of grid cells along each axis; doubled up to 2048 where needed [default: 256; of fields as many, but
-    /// square in joint space, where a radian is as long as a metre].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(whole(&CELLS)))]
-    pub cells: Option<u32>,
+    /// First number of grid cells along each axis, from 8 to 2048, or two such as 128x512, for the joints in turn; doubled up to
+    /// 2048 where needed [default: 256; of fields as many, but square in joint space, where a radian is as long as a metre].
+    #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
+    pub cells: Option<CellCounts>,
     /// First margin of the polygons, as a share of the arm's reach; quartered where needed [default: 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
@@ -30,7 +31,7 @@ impl EffortArgs {
     /// A planner with what of these options is its.
     pub fn put_into(&self, planner: Planner) -> Planner {
         let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
-        self.cells.map_or(planner, |n| planner.with_cells(n as usize))
+        self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
     /// Attempts.
@@ -79,7 +80,8 @@ pub struct PathArgs {
     /// taut for the others].
     #[arg(long, value_enum, value_name = "KIND")]
     pub path: Option<PathKind>,
-    /// How the grid is searched, from the goal (planner wavefront). [default: wave]
+    /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
+    /// (planners visibility, trapezoid, triangles, prm). [default: wave of wavefront, astar of the others]
     #[arg(long, value_enum, value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
@@ -101,6 +103,8 @@ pub struct PlannerArgs {
     pub optimum: OptimumArgs,
     #[command(flatten)]
     pub path: PathArgs,
+    #[command(flatten)]
+    pub roadmap: RoadmapArgs,
     #[command(flatten)]
     pub field: FieldArgs,
 }
@@ -129,7 +133,14 @@ impl PlannerArgs {
         let field = self.field.planner(method)?;
         self.optimum.check(method)?;
         self.path.check(method)?;
-        Ok(self.put_into(Planner::named(method), field))
+        let search = self.roadmap.search(method, self.path.search)?;
+        if self.optimum.gap.is_some() && !search.order.is_optimal() {
+            return Err(format!(
+                "--gap needs a search for the shortest path: --search {} takes any",
+                search.order.name()
+            ));
+        }
+        Ok(self.put_into(Planner::named(method).with_search(search), field))
     }
 
     fn put_into(&self, planner: Planner, chosen: Option<FieldPlanner>) -> Planner {
@@ -142,6 +153,7 @@ impl PlannerArgs {
             Planner::Harmonic { field, .. } => *field = chosen,
             _ => {}
         }
+        let planner = self.roadmap.put_into(planner);
         let planner = self.optimum.gap.map_or(planner, |share| planner.with_gap(share));
         let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
@@ -181,9 +193,14 @@ impl OptimumArgs {
 impl PathArgs {
     /// Refuses what the planner cannot do.
     fn check(&self, planner: Method) -> Result<(), String> {
-        let asked = if self.search.is_some() { "--search" } else { "--neighbors" };
-        if (self.search.is_some() || self.neighbors.is_some()) && planner != Method::Wavefront {
-            return Err(format!("{asked} needs --planner wavefront: {planner} searches no grid from cell to cell"));
+        if self.search.is_some() && planner != Method::Wavefront && !planner.has_roadmap() {
+            return Err(format!(
+                "--search needs --planner wavefront, visibility, trapezoid, triangles or prm: {planner} searches neither a \
+                 grid from cell to cell nor a roadmap"
+            ));
+        }
+        if self.neighbors.is_some() && planner != Method::Wavefront {
+            return Err(format!("--neighbors needs --planner wavefront: {planner} searches no grid from cell to cell"));
         }
         if self.space.is_some() && !matches!(planner, Method::Wavefront | Method::Harmonic) {
             return Err(format!("--space needs --planner wavefront or harmonic: {planner} has no grid"));
@@ -218,6 +235,6 @@ fn margin(text: &str) -> Result<f64, String> {
 }
 
 /// A range for the parser of whole numbers.
-fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
+pub(super) fn whole(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
     *range.start() as i64..=*range.end() as i64
 }

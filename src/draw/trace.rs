@@ -19,7 +19,7 @@ const CHANNEL: Rgb = Rgb(0xf6, 0xe3, 0xa1);
 #[must_use]
 pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
-        TraceView::Channel { cells, channel } => {
+        TraceView::Channel { cells, channel, .. } => {
             let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|cell| chart.polygon(cell)).collect();
             vec![Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))]
         }
@@ -33,13 +33,14 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 #[must_use]
 pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
-        TraceView::Roadmap { edges: lines, .. } | TraceView::Slices { free: lines } => {
-            let steps = lines.pairs().flat_map(|line| chart.outline(&line)).collect();
-            vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))]
+        TraceView::Roadmap { edges: lines, .. } | TraceView::Slices { free: lines } => vec![edges(lines, chart)],
+        TraceView::Roads { edges: lines, expanded } => {
+            [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
         }
-        TraceView::Channel { cells, .. } => {
+        TraceView::Channel { cells, expanded, .. } => {
             let steps = cells.iter().flat_map(|cell| chart.polygon(cell)).collect();
-            vec![Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7))]
+            let sides = Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7));
+            [sides].into_iter().chain(places(expanded, chart)).collect()
         }
         TraceView::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, &chart.frame)).into(),
         TraceView::Field { levels, .. } => {
@@ -49,6 +50,22 @@ pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
         }
         TraceView::Wavefront(_) => Vec::new(),
     }
+}
+
+fn edges(lines: &Chain, chart: &Chart) -> Item {
+    let steps = lines.pairs().flat_map(|line| chart.outline(&line)).collect();
+    Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.6))
+}
+
+/// Where a search came, the earlier the darker.
+fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
+    let last = expanded.0.len().saturating_sub(1).max(1) as f64;
+    let shade = move |k: usize| color::scale(k as f64 / last);
+    expanded
+        .0
+        .iter()
+        .enumerate()
+        .map(move |(k, &q)| Item::Disc(chart.place(q.into()), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
 /// Legend of the trace.
@@ -61,14 +78,23 @@ pub fn keys(trace: &TraceView) -> Vec<Key> {
             vec![(line(EDGE), format!("visibility graph{extent}"))]
         }
         TraceView::Slices { .. } => vec![(line(EDGE), "slices that the path passes".to_owned())],
-        TraceView::Channel { channel, .. } => {
+        TraceView::Channel { channel, expanded, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));
-            [(line(EDGE), "cells".to_owned())].into_iter().chain(found).collect()
+            [(line(EDGE), "cells".to_owned())].into_iter().chain(found).chain(order(expanded)).collect()
+        }
+        TraceView::Roads { expanded, .. } => {
+            [(line(EDGE), "roadmap".to_owned())].into_iter().chain(order(expanded)).collect()
         }
         TraceView::Boxes { .. } => boxes::keys(),
         TraceView::Wavefront(_) => Vec::new(),
         TraceView::Field { .. } => vec![(line(color::scale(0.5)), "equipotentials".to_owned())],
     }
+}
+
+/// What the colours of a search's places mean.
+fn order(expanded: &Chain) -> Vec<Key> {
+    let key = |part, text: &str| (Sign::Swatch(color::scale(part)), text.to_owned());
+    if expanded.is_empty() { Vec::new() } else { vec![key(0.0, "expanded first"), key(1.0, "expanded last")] }
 }
 
 /// The scale of colours, to the right of the frame.
@@ -121,7 +147,10 @@ mod tests {
     #[test]
     fn a_channel_is_explained_only_where_there_is_one() {
         let names = |channel: Vec<usize>| -> Vec<String> {
-            keys(&TraceView::Channel { cells: Vec::new(), channel }).into_iter().map(|key| key.1).collect()
+            keys(&TraceView::Channel { cells: Vec::new(), channel, expanded: Chain(Vec::new()) })
+                .into_iter()
+                .map(|key| key.1)
+                .collect()
         };
         assert_eq!(names(vec![0]), ["cells", "channel"]);
         assert_eq!(names(Vec::new()), ["cells"]);

@@ -7,7 +7,7 @@ use super::settle::decide;
 use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::check::{CertifiedPath, Rejection, certify};
 use crate::model::{MotionProblem, Scene};
-use crate::planner::{FieldPlanner, Harmonic, Proposal, Query, Run, Trapezoid, Visibility, Wavefront};
+use crate::planner::{FieldPlanner, Harmonic, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Wavefront};
 use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
@@ -32,19 +32,28 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
         Planner::Shortest { .. } => shortest::solve(problem, options, progress),
         Planner::First => first::solve(problem, options),
         Planner::Visibility { .. } => climb_polygons(problem, options, progress),
-        Planner::Trapezoid { path, margin } => {
-            climb(problem, options, progress, &Trapezoid { path }, |level| polygons(problem, margin, level))
+        Planner::Trapezoid { path, margin, search } => {
+            let planner = Trapezoid { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
         }
-        Planner::Wavefront { search, neighborhood, space, path, cells: n } => {
+        Planner::Triangles { path, margin, search } => {
+            let planner = Triangles { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Prm { samples, nearest, seed, path, margin, search } => {
+            let planner = |level: usize| Prm { samples: samples << level, nearest, seed, path, search };
+            climb(problem, options, progress, planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Wavefront { search, neighborhood, space, path, cells: counts } => {
             let planner = Wavefront { search, neighborhood, path };
-            climb(problem, options, progress, &planner, |level| cells(problem, space, n, level))
+            climb(problem, options, progress, |_| planner, |level| cells(problem, space, counts, level))
         }
         Planner::Harmonic { field: None, space, path, cells } => {
-            climb(problem, options, progress, &Harmonic { path }, |level| field_cells(problem, space, cells, level))
+            climb(problem, options, progress, |_| Harmonic { path }, |level| field_cells(problem, space, cells, level))
         }
         Planner::Harmonic { field: Some(field), space, path, cells } => {
             let planner = FieldPlanner { path, ..field };
-            climb(problem, options, progress, &planner, |level| zoned_cells(problem, space, cells, level))
+            climb(problem, options, progress, |_| planner, |level| zoned_cells(problem, space, cells, level))
         }
         Planner::Subdivision { .. } => subdivision::solve(problem, options, progress),
     }
@@ -53,15 +62,16 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
 /// By a visibility graph, of which the planner has the margin.
 pub(super) fn climb_polygons(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let (metric, margin) = (options.planner.metric(problem.scene().arm()), options.planner.margin());
-    climb(problem, options, progress, &Visibility { metric }, |level| polygons(problem, margin, level))
+    let planner = Visibility { metric, search: options.planner.search().unwrap_or_default() };
+    climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
 }
 
-/// Level after level, until a path is good enough or a proof is found.
+/// Level after level, until a path is good enough or a proof is found: of each the planner and the space.
 fn climb<P: crate::planner::Planner>(
     problem: &MotionProblem,
     options: &Options,
     progress: &mut dyn FnMut(&str),
-    planner: &P,
+    planner: impl Fn(usize) -> P,
     build: impl Fn(usize) -> Option<P::Space>,
 ) -> Answer
 where
@@ -75,12 +85,15 @@ where
     for level in 0..options.levels.max(1) {
         let clock = Instant::now();
         let Some(space) = build(level) else { break };
+        let planner = planner(level);
         let map = planner.build(&space);
         climb.stages.build += clock.elapsed();
         let clock = Instant::now();
         let ends = Ends::new(problem, &space);
         let run = match method {
-            _ if method.optimises() => shortest_of_all(&ends, metric, |query| planner.query(&space, &map, query)),
+            _ if options.planner.optimises() => {
+                shortest_of_all(&ends, metric, |query| planner.query(&space, &map, query))
+            }
             _ => planner.query(&space, &map, &ends.query),
         };
         climb.stages.query += clock.elapsed();
@@ -156,6 +169,8 @@ impl Climb<'_> {
     /// `failure`, unless there is a path and no gap that is still to be closed: the one asked for, or else a wide one.
     fn unless_content(&self, failure: String) -> Option<String> {
         let gap = self.options.planner.gap().or((self.level < LAST_LOOK).then_some(WIDE));
+        // A search that takes any path takes this one.
+        let gap = gap.filter(|_| self.options.planner.optimises());
         let wants_more = self.bound.zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }

@@ -1,6 +1,6 @@
 //! The closed list of planners, for the edges of the program.
 
-use crate::planner::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
+use crate::planner::{Harmonic, PathKind, Planner, Prm, Trapezoid, Triangles, Visibility, Wavefront};
 use std::fmt;
 use std::str::FromStr;
 
@@ -15,6 +15,10 @@ pub enum Method {
     Visibility,
     /// Trapezoidal decomposition: a channel of cells, and a funnel path through it.
     Trapezoid,
+    /// Triangular decomposition: a channel of triangles, and a funnel path through it.
+    Triangles,
+    /// Probabilistic roadmap: random configurations, joined to their neighbours.
+    Prm,
     /// Manhattan wavefront on a grid.
     Wavefront,
     /// Harmonic potential on a grid.
@@ -25,10 +29,12 @@ pub enum Method {
 
 impl Method {
     /// All: the default, roadmap planners, field planners, those that judge the scene itself.
-    pub const ALL: [Method; 7] = [
+    pub const ALL: [Method; 9] = [
         Method::Shortest,
         Method::Visibility,
         Method::Trapezoid,
+        Method::Triangles,
+        Method::Prm,
         Method::Wavefront,
         Method::Harmonic,
         Method::Subdivision,
@@ -44,6 +50,8 @@ impl Method {
             Method::First => "first",
             Method::Visibility => Visibility::NAME,
             Method::Trapezoid => Trapezoid::NAME,
+            Method::Triangles => Triangles::NAME,
+            Method::Prm => Prm::NAME,
             Method::Wavefront => Wavefront::NAME,
             Method::Harmonic => Harmonic::NAME,
             Method::Subdivision => "subdivision",
@@ -60,6 +68,12 @@ impl Method {
     #[must_use]
     pub fn has_own_path(self) -> bool {
         !self.optimises() && self != Method::First
+    }
+
+    /// Whether it has a roadmap, which can be searched in several orders.
+    #[must_use]
+    pub fn has_roadmap(self) -> bool {
+        matches!(self, Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Prm)
     }
 
     /// Whether it is after the optimum of a metric, and tells how near its path is to it.

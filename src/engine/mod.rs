@@ -34,6 +34,7 @@
 
 mod admission;
 mod bound;
+mod cell_counts;
 mod clock;
 mod corners;
 mod field_report;
@@ -55,11 +56,14 @@ pub mod task;
 mod thinned;
 
 pub use bound::{Bound, bound, checked_bound, percent};
+pub use cell_counts::CellCounts;
 pub use grid_space::GridSpace;
 pub use ladder::solve;
 pub use method::Method;
 pub use motion_plan::MotionPlan;
-pub use options::{CELLS, Criterion, FIRST_CELLS, LEVELS, MOST_MARGIN, NamedJoints, Options, Planner};
+pub use options::{
+    CELLS, Criterion, FIRST_CELLS, LEVELS, MOST_MARGIN, NEAREST, NamedJoints, Options, Planner, SAMPLES,
+};
 pub(crate) use plan::Made;
 pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
 pub use problem::{Problem, ProblemError};

@@ -1,10 +1,10 @@
 //! What is asked for: a planner with options of its own, how to drive, and what files hold.
 
-use super::{GridSpace, Method};
+use super::{CellCounts, GridSpace, Method};
 use crate::field::Neighborhood;
 use crate::model::{Arm, Joint};
 use crate::motion::{Drive, SHORTEST_INTERVAL};
-use crate::planner::{FieldPlanner, GridSearch, PathKind, Wavefront};
+use crate::planner::{FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, Wavefront};
 use crate::space::Metric;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -58,6 +58,9 @@ pub enum Planner {
         gap: Option<f64>,
         /// First margin by which polygonal obstacles are grown, as a share of the arm's reach; quartered where needed.
         margin: f64,
+        /// How the graph is searched.
+        #[serde(default)]
+        search: RoadmapSearch,
     },
     /// Trapezoidal decomposition: a channel of cells.
     Trapezoid {
@@ -65,6 +68,33 @@ pub enum Planner {
         path: PathKind,
         /// As of [`Planner::Visibility`].
         margin: f64,
+        /// How the adjacency of cells is searched.
+        #[serde(default)]
+        search: RoadmapSearch,
+    },
+    /// Triangular decomposition: a channel of triangles.
+    Triangles {
+        /// Which path through the channel.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the roadmap is searched.
+        search: RoadmapSearch,
+    },
+    /// Probabilistic roadmap: random configurations, each joined to the nearest that it sees.
+    Prm {
+        /// How many, twice as many where needed.
+        samples: usize,
+        /// To how many of the nearest each is joined.
+        nearest: usize,
+        /// What they follow from.
+        seed: u64,
+        /// Which path.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the roadmap is searched.
+        search: RoadmapSearch,
     },
     /// Manhattan wavefront, or another search of a grid.
     Wavefront {
@@ -76,8 +106,8 @@ pub enum Planner {
         space: GridSpace,
         /// Which path through the cells.
         path: PathKind,
-        /// First number of cells along each axis; doubled where needed.
-        cells: usize,
+        /// First numbers of cells along the axes; doubled where needed.
+        cells: CellCounts,
     },
     /// Harmonic potential on a grid, or another field.
     Harmonic {
@@ -87,8 +117,8 @@ pub enum Planner {
         space: GridSpace,
         /// Which path: the curve along the gradient, or that one pulled taut.
         path: PathKind,
-        /// First number of cells along each axis; none for 256 x 256 cells' worth of cells that are square in joint space.
-        cells: Option<usize>,
+        /// First numbers of cells along the axes; none for 256 x 256 cells' worth of cells that are square in joint space.
+        cells: Option<CellCounts>,
     },
     /// Subdivision into free, stuck and mixed boxes.
     Subdivision {
@@ -109,6 +139,12 @@ pub const FIRST_CELLS: usize = 256;
 /// Numbers of cells along an axis to begin with.
 pub const CELLS: RangeInclusive<usize> = 8..=2048;
 
+/// Numbers of samples to begin with.
+pub const SAMPLES: RangeInclusive<usize> = 1..=100_000;
+
+/// Numbers of samples to which each is joined.
+pub const NEAREST: RangeInclusive<usize> = 1..=1000;
+
 /// Numbers of attempts.
 pub const LEVELS: RangeInclusive<usize> = 1..=12;
 
@@ -117,15 +153,20 @@ impl Planner {
     #[must_use]
     pub fn named(method: Method) -> Self {
         let (criterion, gap, margin) = (Criterion::Euclidean, None, MARGIN);
-        let (path, space) = (method.path_kind(), GridSpace::default());
+        let (path, space, search) = (method.path_kind(), GridSpace::default(), RoadmapSearch::default());
         match method {
             Method::Shortest => Planner::Shortest { criterion, gap, margin },
             Method::First => Planner::First,
-            Method::Visibility => Planner::Visibility { criterion, gap, margin },
-            Method::Trapezoid => Planner::Trapezoid { path, margin },
+            Method::Visibility => Planner::Visibility { criterion, gap, margin, search },
+            Method::Trapezoid => Planner::Trapezoid { path, margin, search },
+            Method::Triangles => Planner::Triangles { path, margin, search },
+            Method::Prm => {
+                let Prm { samples, nearest, seed, .. } = Prm::default();
+                Planner::Prm { samples, nearest, seed, path, margin, search }
+            }
             Method::Wavefront => {
                 let Wavefront { search, neighborhood, .. } = Wavefront::default();
-                Planner::Wavefront { search, neighborhood, space, path, cells: FIRST_CELLS }
+                Planner::Wavefront { search, neighborhood, space, path, cells: CellCounts::square(FIRST_CELLS) }
             }
             Method::Harmonic => Planner::Harmonic { field: None, space, path, cells: None },
             Method::Subdivision => Planner::Subdivision { path },
@@ -140,6 +181,8 @@ impl Planner {
             Planner::First => Method::First,
             Planner::Visibility { .. } => Method::Visibility,
             Planner::Trapezoid { .. } => Method::Trapezoid,
+            Planner::Triangles { .. } => Method::Triangles,
+            Planner::Prm { .. } => Method::Prm,
             Planner::Wavefront { .. } => Method::Wavefront,
             Planner::Harmonic { .. } => Method::Harmonic,
             Planner::Subdivision { .. } => Method::Subdivision,
@@ -151,6 +194,8 @@ impl Planner {
     pub fn path_kind(&self) -> PathKind {
         match *self {
             Planner::Trapezoid { path, .. }
+            | Planner::Triangles { path, .. }
+            | Planner::Prm { path, .. }
             | Planner::Wavefront { path, .. }
             | Planner::Harmonic { path, .. }
             | Planner::Subdivision { path } => path,
@@ -162,6 +207,8 @@ impl Planner {
     #[must_use]
     pub fn with_path(mut self, kind: PathKind) -> Self {
         if let Planner::Trapezoid { path, .. }
+        | Planner::Triangles { path, .. }
+        | Planner::Prm { path, .. }
         | Planner::Wavefront { path, .. }
         | Planner::Harmonic { path, .. }
         | Planner::Subdivision { path } = &mut self
@@ -194,7 +241,9 @@ impl Planner {
     pub fn with_margin(mut self, share: f64) -> Self {
         if let Planner::Shortest { margin, .. }
         | Planner::Visibility { margin, .. }
-        | Planner::Trapezoid { margin, .. } = &mut self
+        | Planner::Trapezoid { margin, .. }
+        | Planner::Triangles { margin, .. }
+        | Planner::Prm { margin, .. } = &mut self
         {
             *margin = share;
         }
@@ -203,11 +252,30 @@ impl Planner {
 
     /// The same planner with this first number of cells along each axis, if it has cells.
     #[must_use]
-    pub fn with_cells(mut self, n: usize) -> Self {
+    pub fn with_cells(self, n: usize) -> Self {
+        self.with_cell_counts(CellCounts::square(n))
+    }
+
+    /// The same planner with these first numbers of cells along the axes, if it has cells.
+    #[must_use]
+    pub fn with_cell_counts(mut self, counts: CellCounts) -> Self {
         match &mut self {
-            Planner::Wavefront { cells, .. } => *cells = n,
-            Planner::Harmonic { cells, .. } => *cells = Some(n),
+            Planner::Wavefront { cells, .. } => *cells = counts,
+            Planner::Harmonic { cells, .. } => *cells = Some(counts),
             _ => {}
+        }
+        self
+    }
+
+    /// The same planner that searches its roadmap like this, if it has one.
+    #[must_use]
+    pub fn with_search(mut self, how: RoadmapSearch) -> Self {
+        if let Planner::Visibility { search, .. }
+        | Planner::Trapezoid { search, .. }
+        | Planner::Triangles { search, .. }
+        | Planner::Prm { search, .. } = &mut self
+        {
+            *search = how;
         }
         self
     }
@@ -226,7 +294,9 @@ impl Planner {
         match *self {
             Planner::Shortest { margin, .. }
             | Planner::Visibility { margin, .. }
-            | Planner::Trapezoid { margin, .. } => margin,
+            | Planner::Trapezoid { margin, .. }
+            | Planner::Triangles { margin, .. }
+            | Planner::Prm { margin, .. } => margin,
             _ => MARGIN,
         }
     }
@@ -247,6 +317,24 @@ impl Planner {
             Planner::Shortest { gap, .. } | Planner::Visibility { gap, .. } => gap,
             _ => None,
         }
+    }
+
+    /// How it searches its roadmap, if it has one.
+    #[must_use]
+    pub fn search(&self) -> Option<RoadmapSearch> {
+        match *self {
+            Planner::Visibility { search, .. }
+            | Planner::Trapezoid { search, .. }
+            | Planner::Triangles { search, .. }
+            | Planner::Prm { search, .. } => Some(search),
+            _ => None,
+        }
+    }
+
+    /// Whether it looks for the optimum as it is told to search.
+    #[must_use]
+    pub fn optimises(&self) -> bool {
+        self.method().optimises() && self.search().is_none_or(|search| search.order.is_optimal())
     }
 
     /// How the cells of its grid are decided, if it has one.
@@ -270,18 +358,26 @@ impl Planner {
             (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} is not finite and positive"))
         };
         match *self {
-            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin } => {
+            Planner::Shortest { criterion, gap, margin } | Planner::Visibility { criterion, gap, margin, .. } => {
                 let weights = if let Criterion::Weighted(weights) = criterion { weights } else { [1.0; 2] };
                 let wrong = weights.into_iter().find_map(|weight| positive("weights", weight));
-                wrong.or_else(|| positive("gap", gap?)).or_else(|| wrong_margin(margin))
+                let blind = || "gap: a search that is not after the shortest path closes none".to_owned();
+                let blind = (gap.is_some() && !self.optimises()).then(blind);
+                wrong.or_else(|| positive("gap", gap?)).or(blind).or_else(|| wrong_margin(margin))
             }
-            Planner::Trapezoid { margin, .. } => wrong_margin(margin),
-            Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => (!CELLS
-                .contains(&cells))
-            .then(|| format!("cells: {cells} is not from {} to {}", CELLS.start(), CELLS.end())),
+            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } => wrong_margin(margin),
+            Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
+                .or_else(|| wrong_number("nearest", nearest, &NEAREST))
+                .or_else(|| wrong_margin(margin)),
+            Planner::Wavefront { cells, .. } | Planner::Harmonic { cells: Some(cells), .. } => cells.error(),
             Planner::Harmonic { cells: None, .. } | Planner::First | Planner::Subdivision { .. } => None,
         }
     }
+}
+
+/// What is wrong with a number that is to be in a range, if anything.
+pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
+    (!range.contains(&n)).then(|| format!("{name}: {n} is not from {} to {}", range.start(), range.end()))
 }
 
 fn wrong_margin(margin: f64) -> Option<String> {

@@ -1,7 +1,7 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
 use super::options::FIRST_CELLS;
-use super::{GridSpace, Space};
+use super::{CellCounts, GridSpace, Space};
 use crate::cspace::{
     Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, sampled_grid, traced_pairs,
 };
@@ -59,13 +59,12 @@ pub(super) fn extent(arm: &Arm) -> f64 {
 /// Ratio of the axes' ranges up to which a field's cells are square. Beyond, the finer axis would get too few.
 const MOST_OBLONG: f64 = 16.0;
 
-/// Cells of the level's size, as many along both axes: twice as many with every second level. On the first of two levels of
+/// Cells of the level's size: twice as many with every second level. On the first of two levels of
 /// one size free cells are wholly free; should these be too few, cells of free centres follow on the second, which show
 /// passages some three cells wider. What a path among those is worth is for the certificate to say; it takes a sixteenth of
 /// the time that wholly free cells of the same passage take.
-pub(super) fn cells(problem: &MotionProblem, space: GridSpace, first: usize, level: usize) -> Option<Grid> {
-    let n = side(problem, space, first, level)?;
-    Some(grid(problem, space, level, [n, n]))
+pub(super) fn cells(problem: &MotionProblem, space: GridSpace, first: CellCounts, level: usize) -> Option<Grid> {
+    Some(grid(problem, space, level, finer(problem, space, first, level)?))
 }
 
 /// As many cells for a field; where no number is given square ones in joint space, where a radian is as long as a metre: then
@@ -73,13 +72,13 @@ pub(super) fn cells(problem: &MotionProblem, space: GridSpace, first: usize, lev
 pub(super) fn field_cells(
     problem: &MotionProblem,
     space: GridSpace,
-    first: Option<usize>,
+    first: Option<CellCounts>,
     level: usize,
 ) -> Option<Grid> {
     if let Some(first) = first {
         return cells(problem, space, first, level);
     }
-    let n = side(problem, space, FIRST_CELLS, level)? as f64;
+    let n = finer(problem, space, CellCounts::square(FIRST_CELLS), level)?[0] as f64;
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MOST_OBLONG, MOST_OBLONG).sqrt();
     let shape = [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize);
@@ -90,20 +89,21 @@ pub(super) fn field_cells(
 pub(super) fn zoned_cells(
     problem: &MotionProblem,
     space: GridSpace,
-    first: Option<usize>,
+    first: Option<CellCounts>,
     level: usize,
 ) -> Option<ZonedGrid> {
     field_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
-/// Cells along an axis, if the level is not too fine.
-fn side(problem: &MotionProblem, space: GridSpace, first: usize, level: usize) -> Option<usize> {
+/// Cells along the axes, if the level is not too fine.
+fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),
         GridSpace::Sampled => (level, problem.scene().pairs().len()),
     };
-    let n = first << finer;
-    (finer == 0 || n <= MOST_CELLS && n * n <= MOST_CHECKS / checks.max(1)).then_some(n)
+    let [a, b] = first.map(|n| n << finer);
+    let is_few = || a.max(b) <= MOST_CELLS && a * b <= MOST_CHECKS / checks.max(1);
+    (finer == 0 || is_few()).then_some([a, b])
 }
 
 fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 2]) -> Grid {

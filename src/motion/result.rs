@@ -44,11 +44,25 @@ impl Blends {
     }
 }
 
-/// How a grid was searched.
+/// How a grid or a roadmap was searched.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SearchUsed {
-    /// `wave`, `bfs`, `dfs`, `dijkstra` or `astar`.
+    /// `wave` (grids alone), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
-    /// 4, or 8 with diagonal moves.
-    pub neighbors: u8,
+    /// Of a grid: 4, or 8 with diagonal moves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub neighbors: Option<u8>,
+    /// Of a roadmap: whether it was searched from the goals. Grids always are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backward: Option<bool>,
+}
+
+impl std::fmt::Display for SearchUsed {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.search)?;
+        if let Some(neighbors) = self.neighbors {
+            write!(f, ", {neighbors} neighbours")?;
+        }
+        f.write_str(if self.backward == Some(true) { ", backward" } else { "" })
+    }
 }

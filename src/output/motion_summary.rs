@@ -22,7 +22,7 @@ pub(super) fn told(whole: &Plan, plan: &MotionPlan) -> Told {
 fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     let (MotionPlan { problem, answer, curve }, report) = (plan, whole.report());
     let mut lines = Vec::new();
-    let search = report.search.as_ref().map(|used| format!(" ({}, {} neighbours)", used.search, used.neighbors));
+    let search = report.search.as_ref().map(|used| format!(" ({used})"));
     let space = report.space.map(|space| format!(", {space}"));
     let how = search.unwrap_or_default() + &space.unwrap_or_default();
     lines.push(("planner", format!("{}{how}: {}", answer.method, answer.run.size)));

@@ -1,13 +1,11 @@
-//! A* over the cells of a decomposition, petgraph's: the one search here over a graph that is there before it begins. It takes some three
-//! times what a search over arrays did, less than a hundredth of what the cells take.
+//! Channels of cells: a roadmap's search over the cells of a decomposition, with costs that stand beside the portals.
 
 use super::decomposition::{CellPortal, Decomposition};
+use super::roadmap::{Question, RoadmapSearch, Searched, search};
 use super::terminals::Terminals;
 use crate::geometry::Point;
-use crate::interrupt::checkpoint;
-use crate::space::{Measure, Metric, Segment};
-use petgraph::algo::astar;
-use petgraph::graph::{EdgeReference, NodeIndex, UnGraph};
+use crate::space::{Configuration, Measure, Metric, Segment};
+use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 
 /// Cells to pass, with the portals between them: one less than cells.
@@ -23,8 +21,8 @@ pub(super) struct Channel {
 /// Which portals each cell has, and what ways through them cost.
 #[derive(Debug, Clone)]
 pub(super) struct Adjacency {
-    /// Nodes are cells, edges are portals, by their numbers.
-    cells: UnGraph<Place, Option<usize>>,
+    /// Nodes are cells, edges are portals.
+    cells: UnGraph<Place, Passage>,
     /// Centres of the cells.
     pub centers: Vec<Point>,
     /// Middles of the portals.
@@ -40,70 +38,110 @@ enum Place {
     Any(Segment),
 }
 
+impl Place {
+    /// The place nearest to `p`.
+    fn nearest(self, p: Point) -> Point {
+        match self {
+            Place::At(point) => point,
+            Place::Any(goals) => Point::from(goals.nearest(Measure::from(Metric::Euclidean), p.coords)),
+        }
+    }
+}
+
+/// A way from place to place.
+#[derive(Debug, Clone, Copy)]
+struct Passage {
+    /// The portal's number; none within a cell.
+    portal: Option<usize>,
+    /// Length of the way over the portal's middle.
+    cost: f64,
+}
+
 impl Adjacency {
     /// Linear.
     pub fn new(decomposition: &Decomposition, centers: Vec<Point>) -> Self {
-        let mut cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
-        for &center in &centers {
-            cells.add_node(Place::At(center));
+        let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
+        let cells = UnGraph::with_capacity(centers.len(), decomposition.portals.len());
+        let mut adjacency = Self { cells, centers, middles };
+        for &center in &adjacency.centers {
+            adjacency.cells.add_node(Place::At(center));
         }
         for (number, portal) in decomposition.portals.iter().enumerate() {
-            let [left, right] = portal.cells.map(NodeIndex::new);
-            cells.add_edge(left, right, Some(number));
+            let [left, right] = portal.cells;
+            let passage =
+                adjacency.passage([adjacency.centers[left], adjacency.centers[right]].map(Place::At), Some(number));
+            adjacency.cells.add_edge(NodeIndex::new(left), NodeIndex::new(right), passage);
         }
-        let middles = decomposition.portals.iter().map(|portal| nalgebra::center(&portal.low, &portal.high)).collect();
-        Self { cells, centers, middles }
+        adjacency
     }
 
-    /// The cheapest channel from the start, given the cells that contain it, to any goal: passing from a cell to the
-    /// next costs the way from the one's centre over the portal's middle to the other's, with the start and the nearest goal for
-    /// the centres of the end cells. `O(n log n)` for `n` cells.
-    pub fn channel(&self, portals: &[CellPortal], terminals: &Terminals, start_cells: &[usize]) -> Option<Channel> {
+    /// From a point to another, or to the nearest of some goals.
+    fn passage(&self, [from, to]: [Place; 2], portal: Option<usize>) -> Passage {
+        let from = from.nearest(Point::origin());
+        let last = portal.map_or(from, |portal| self.middles[portal]);
+        Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
+    }
+
+    /// A channel from the start, given the cells that contain it, to any goal, and where the search came, in order: passing
+    /// from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with the start and
+    /// the nearest goal for the centres of the end cells. By the usual search the cheapest, in `O(n log n)` for `n` cells.
+    pub fn channel(
+        &self,
+        portals: &[CellPortal],
+        terminals: &Terminals,
+        start_cells: &[usize],
+        how: RoadmapSearch,
+    ) -> (Option<Channel>, Vec<Configuration>) {
         // Beside the cells that hold them the ends are nodes of their own, with the same portals.
         let mut graph = self.cells.clone();
-        let start = graph.add_node(Place::At(terminals.start));
+        let at_start = Place::At(terminals.start);
+        let start = graph.add_node(at_start);
         for &cell in start_cells {
             for portal in self.cells.edges(NodeIndex::new(cell)) {
-                graph.add_edge(start, portal.target(), *portal.weight());
+                let passage = self.passage([at_start, graph[portal.target()]], portal.weight().portal);
+                graph.add_edge(start, portal.target(), passage);
             }
         }
         let is_left = |cell: NodeIndex| start_cells.contains(&cell.index());
         for &(cell, goals) in &terminals.parts {
-            let (cell, goal) = (NodeIndex::new(cell as usize), graph.add_node(Place::Any(goals)));
+            let any = Place::Any(goals);
+            let (cell, goal) = (NodeIndex::new(cell as usize), graph.add_node(any));
             for portal in self.cells.edges(cell) {
-                graph.add_edge(portal.target(), goal, *portal.weight());
+                let number = portal.weight().portal;
+                graph.add_edge(portal.target(), goal, self.passage([graph[portal.target()], any], number));
                 if is_left(portal.target()) {
-                    graph.add_edge(start, goal, *portal.weight());
+                    graph.add_edge(start, goal, self.passage([at_start, any], number));
                 }
             }
             if is_left(cell) {
-                graph.add_edge(start, goal, None);
+                graph.add_edge(start, goal, self.passage([at_start, any], None));
             }
         }
-        let cost = |[from, to]: [NodeIndex; 2], portal: Option<usize>| {
-            let from = match graph[from] {
-                Place::At(point) => point,
-                Place::Any(goals) => goals.corners()[0],
-            };
-            let last = portal.map_or(from, |portal| self.middles[portal]);
-            let to = match graph[to] {
-                Place::At(point) => point,
-                Place::Any(goals) => Point::from(goals.nearest(Measure::from(Metric::Euclidean), last.coords)),
-            };
-            (last - from).norm() + (to - last).norm()
+        let euclid = Measure::from(Metric::Euclidean);
+        let question = Question {
+            start,
+            is_goal: |node: NodeIndex| node > start,
+            cost: |passage: &Passage| passage.cost,
+            ahead: |node: NodeIndex| terminals.distance(euclid, graph[node].nearest(terminals.start)),
+            behind: |node: NodeIndex| (graph[node].nearest(terminals.start) - terminals.start).norm(),
         };
-        let ahead = |node: NodeIndex| match graph[node] {
-            Place::At(point) => terminals.straight_distance(point),
-            Place::Any(_) => 0.0,
-        };
-        let passing = |portal: EdgeReference<'_, Option<usize>>| {
-            checkpoint();
-            cost([portal.source(), portal.target()], *portal.weight())
-        };
-        let (_, places) = astar(&graph, start, |node| node > start, passing, ahead)?;
+        let Searched { way, expanded } = search(&graph, how, &question);
+        let expanded = expanded.into_iter().map(|node| graph[node].nearest(terminals.start).coords).collect();
+        (way.map(|places| self.passed(portals, terminals, &graph, start, &places)), expanded)
+    }
+
+    /// The channel that leads from place to place.
+    fn passed(
+        &self,
+        portals: &[CellPortal],
+        terminals: &Terminals,
+        graph: &UnGraph<Place, Passage>,
+        start: NodeIndex,
+        places: &[NodeIndex],
+    ) -> Channel {
         let cheapest = |pair: &[NodeIndex]| {
             let between = graph.edges_connecting(pair[0], pair[1]).map(|portal| *portal.weight());
-            between.min_by(|&a, &b| cost([pair[0], pair[1]], a).total_cmp(&cost([pair[0], pair[1]], b))).flatten()
+            between.min_by(|a, b| a.cost.total_cmp(&b.cost))?.portal
         };
         let passed: Vec<usize> = places.windows(2).filter_map(cheapest).collect();
         let (last, goals) = terminals.parts[places[places.len() - 1].index() - start.index() - 1];
@@ -113,6 +151,6 @@ impl Adjacency {
             cells.push(if left == cells[cells.len() - 1] { right } else { left });
         }
         cells.reverse();
-        Some(Channel { start: terminals.start, goals, cells, portals: passed })
+        Channel { start: terminals.start, goals, cells, portals: passed }
     }
 }

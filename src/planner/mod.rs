@@ -38,8 +38,11 @@ mod path_kind;
 mod shortcut;
 mod simplify;
 mod polyanya;
+mod prm;
+mod roadmap;
 mod terminals;
 mod trapezoid;
+mod triangles;
 mod visibility;
 mod wavefront;
 
@@ -47,7 +50,10 @@ pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use harmonic::Harmonic;
 pub use path_kind::PathKind;
+pub use prm::{Prm, PrmMap};
+pub use roadmap::{RoadmapSearch, SearchOrder};
 pub use trapezoid::{Trapezoid, TrapezoidMap};
+pub use triangles::{Triangles, TrianglesMap};
 pub use visibility::{Visibility, VisibilityMap};
 pub use wavefront::{GridSearch, Wavefront};
 
@@ -172,6 +178,15 @@ pub enum Trace {
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the channel's cells.
         channel: Vec<usize>,
+        /// Where the search came, in order, if that is to be seen.
+        expanded: Vec<Configuration>,
+    },
+    /// A graph of straight motions.
+    Roads {
+        /// Both ends of each.
+        edges: Vec<[Configuration; 2]>,
+        /// Where the search came, in order.
+        expanded: Vec<Configuration>,
     },
     /// Boxes of a subdivision: lower and upper corner of each.
     Boxes {

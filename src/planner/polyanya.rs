@@ -182,7 +182,7 @@ impl<'a> Polyanya<'a> {
         let cost = node.cost + self.measure.norm(corner.at - node.at);
         if cost < self.reached[number as usize] {
             self.reached[number as usize] = cost;
-            let estimate = cost + self.remaining(corner.at);
+            let estimate = cost + self.terminals.distance(self.measure, corner.at);
             let next = self.push_node(Node { at: corner.at, cost, parent: root, corner: number });
             self.push(estimate, Step::Turn(next));
         }
@@ -193,10 +193,9 @@ impl<'a> Polyanya<'a> {
         if !self.has_goal[triangle as usize] {
             return;
         }
-        let parts = &self.terminals.parts;
-        let begin = parts.partition_point(|part| part.0 < triangle);
+        let terminals = self.terminals;
         let Node { at: from, cost, .. } = self.nodes[root as usize];
-        for (_, part) in parts[begin..].iter().take_while(|part| part.0 == triangle) {
+        for (_, part) in terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {
                 let at = Point::from(seen.nearest(self.measure, from.coords));
                 self.arcs.push([from, at]);
@@ -236,11 +235,6 @@ impl<'a> Polyanya<'a> {
         self.pushed += 1;
         let is_arrival = matches!(step, Step::Arrive(_));
         self.open.push(estimate, (Reverse(is_arrival), Reverse(self.pushed), step));
-    }
-
-    /// A lower bound on the way from `p` to the nearest goal.
-    fn remaining(&self, p: Point) -> f64 {
-        self.terminals.goals.iter().map(|goal| goal.distance(self.measure, p.coords)).fold(f64::INFINITY, f64::min)
     }
 
     fn waypoints(&self, last: u32) -> Vec<Point> {

@@ -3,7 +3,7 @@
 use super::Query;
 use crate::cspace::Regions;
 use crate::geometry::Point;
-use crate::space::{Measure, Metric, Segment};
+use crate::space::{Measure, Segment};
 use std::f64::consts::TAU;
 
 /// Ends of the paths that answer a query.
@@ -48,9 +48,14 @@ impl Terminals {
         Ok(Self { start, goals, parts })
     }
 
+    /// What of the goals is in a cell.
+    pub fn parts_in(&self, cell: u32) -> impl Iterator<Item = &(u32, Segment)> {
+        let begin = self.parts.partition_point(|part| part.0 < cell);
+        self.parts[begin..].iter().take_while(move |part| part.0 == cell)
+    }
+
     /// Distance from `p` to the nearest goal: a lower bound on the length of any way there.
-    pub fn straight_distance(&self, p: Point) -> f64 {
-        let measure = Measure::from(Metric::Euclidean);
+    pub fn distance(&self, measure: Measure, p: Point) -> f64 {
         self.goals.iter().map(|goal| goal.distance(measure, p.coords)).fold(f64::INFINITY, f64::min)
     }
 }

@@ -1,12 +1,11 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
 //!
-//! `decomposition` makes the cells, `channel` is A* over them, `funnel` pulls the string taut. The A* is our own:
-//! petgraph's keeps its scores in hash maps, needs a copy of the graph for each query's ends, and takes over twice as
-//! long.
+//! `decomposition` makes the cells, `channel` finds some that lead to the goal, `funnel` pulls the string taut.
 
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
 use super::funnel::{Portal, Turn, nearest_end, turns};
+use super::roadmap::RoadmapSearch;
 use super::terminals::Terminals;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
@@ -18,8 +17,8 @@ use std::sync::Arc;
 
 /// The *trapezoidal decomposition*: finds a channel of cells from start to goal whenever there is one, and a path in it.
 ///
-/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A* finds the channel; passing
-/// from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with start and
+/// Cells are joined where they share a piece of vertical of positive length (a *portal*). A* finds the channel, or another
+/// search; passing from a cell to the next costs the way from the one's centre over the portal's middle to the other's, with start and
 /// goal for the centres of the end cells (Latombe, *Robot Motion Planning*, 1991, section 5.1). The path is free but
 /// not the shortest, even when taut: another channel may hold a shorter one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,11 +26,13 @@ pub struct Trapezoid {
     /// [`PathKind::Taut`] is pulled within the channel, so that it may touch obstacles; [`PathKind::Own`] leads through the
     /// middles of its portals and the centres of its cells: start, `Q1`, `C2`, `Q2`, ..., goal (Latombe).
     pub path: PathKind,
+    /// How the adjacency of cells is searched.
+    pub search: RoadmapSearch,
 }
 
 impl Default for Trapezoid {
     fn default() -> Self {
-        Self { path: PathKind::Taut }
+        Self { path: PathKind::Taut, search: RoadmapSearch::default() }
     }
 }
 
@@ -62,27 +63,30 @@ impl Planner for Trapezoid {
 
     fn query(&self, space: &Regions, map: &TrapezoidMap, query: &Query) -> Run {
         let parts_of = |segment: &Segment| map.decomposition.parts_of(&map.boundary, segment);
-        let (outcome, channel) = match Terminals::new(space, query, parts_of) {
-            Err(reason) => (Proposal::GaveUp(reason), Vec::new()),
+        let (outcome, channel, expanded) = match Terminals::new(space, query, parts_of) {
+            Err(reason) => (Proposal::GaveUp(reason), Vec::new(), Vec::new()),
             Ok(terminals) => {
                 let start_cells: Vec<usize> = map.decomposition.cells_at(&map.boundary, terminals.start).collect();
                 let portals = &map.decomposition.portals;
-                match map.adjacency.channel(portals, &terminals, &start_cells) {
-                    None => (Proposal::NoPath, Vec::new()),
+                let (channel, expanded) = map.adjacency.channel(portals, &terminals, &start_cells, self.search);
+                match channel {
+                    None => (Proposal::NoPath, Vec::new(), expanded),
                     Some(channel) => {
                         let waypoints = match self.path {
                             PathKind::Taut => map.taut_path(&channel),
                             PathKind::Own => map.middle_path(&channel),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
-                        (Proposal::Found(path), channel.cells)
+                        (Proposal::Found(path), channel.cells, expanded)
                     }
                 }
             }
         };
+        // The usual search is not what a picture of cells is about.
+        let expanded = if self.search.is_usual() { Vec::new() } else { expanded };
         Run {
             outcome,
-            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel },
+            trace: Trace::Channel { cells: Arc::clone(&map.corners), channel, expanded },
             size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
             note: None,
         }

@@ -24,11 +24,14 @@ pub enum GridSearch {
     Dijkstra,
     /// The same cost, led by the distance from the start.
     AStar,
+    /// The cell nearest to the start: some path, found soon.
+    Greedy,
 }
 
 impl GridSearch {
     /// All, in the order of the command line's help.
-    pub const ALL: [Self; 5] = [Self::Wave, Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar];
+    pub const ALL: [Self; 6] =
+        [Self::Wave, Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
 
     /// Name on the command line.
     #[must_use]
@@ -39,6 +42,7 @@ impl GridSearch {
             Self::DepthFirst => "dfs",
             Self::Dijkstra => "dijkstra",
             Self::AStar => "astar",
+            Self::Greedy => "greedy",
         }
     }
 
@@ -50,6 +54,7 @@ impl GridSearch {
             Self::DepthFirst => Some(Order::DepthFirst),
             Self::Dijkstra => Some(Order::Dijkstra),
             Self::AStar => Some(Order::AStar(Ties::Farthest)),
+            Self::Greedy => Some(Order::Greedy),
         }
     }
 }

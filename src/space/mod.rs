@@ -18,6 +18,7 @@ mod bernstein;
 mod blend;
 mod copies;
 mod curve;
+mod draws;
 mod goal_set;
 mod interpolation;
 mod measure;
@@ -29,6 +30,7 @@ mod topology;
 
 pub use blend::{Blend, BlendedPath, HAIR, Stretch};
 pub use curve::{Derivative, Piece, State};
+pub use draws::Draws;
 pub use goal_set::GoalSet;
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
 pub use measure::Measure;

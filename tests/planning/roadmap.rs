@@ -4,14 +4,18 @@ use crate::common::dice::Dice;
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
-use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Trapezoid, Visibility};
+use cplan::planner::{
+    PathKind, Planner, Prm, Proposal, Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles,
+    Visibility,
+};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean };
-const MIDDLES: Trapezoid = Trapezoid { path: PathKind::Own };
-const TAUT: Trapezoid = Trapezoid { path: PathKind::Taut };
+const USUAL: RoadmapSearch = RoadmapSearch { order: SearchOrder::AStar, backward: false };
+const VISIBILITY: Visibility = Visibility { metric: Metric::Euclidean, search: USUAL };
+const MIDDLES: Trapezoid = Trapezoid { path: PathKind::Own, search: USUAL };
+const TAUT: Trapezoid = Trapezoid { path: PathKind::Taut, search: USUAL };
 
 fn query(start: (f64, f64), goal: (f64, f64)) -> Query {
     Query { start: configuration(start.0, start.1), goals: configuration(goal.0, goal.1).into() }
@@ -49,6 +53,39 @@ fn lengths(regions: &Regions, query: &Query) -> Option<[f64; 3]> {
     let lengths = [shortest?.length(), taut?.length(), middles?.length()];
     assert!(lengths[0] <= lengths[1] + 1e-9 && lengths[1] <= lengths[2] + 1e-9, "{lengths:?}");
     Some(lengths)
+}
+
+/// What other searches and roadmaps find, beside the shortest path: that there is one, all of it free, none shorter, and as
+/// short where the search is after that.
+fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
+    let ways = SearchOrder::ALL.into_iter().flat_map(|order| [false, true].map(|backward| (order, backward)));
+    for search in ways.map(|(order, backward)| RoadmapSearch { order, backward }) {
+        let same = |path: Option<Path>| {
+            assert_eq!(path.is_some(), shortest.is_some(), "{search}");
+            let length = path.map(|path| path.length());
+            assert!(length >= shortest.map(|shortest| shortest - 1e-9), "{search}: {length:?} {shortest:?}");
+            length
+        };
+        let seen = same(checked_path(&Visibility { metric: Metric::Euclidean, search }, regions, query));
+        if let (true, Some(length), Some(shortest)) = (search.order.is_optimal(), seen, shortest) {
+            assert!(length < shortest + 1e-9, "{search}: {length} {shortest}");
+        }
+        let [own, taut] = PathKind::ALL.map(|path| same(checked_path(&Triangles { path, search }, regions, query)));
+        // Where a search wanders about within its channel the string may turn where it need not.
+        assert!(!search.order.is_optimal() || taut <= own.map(|own| own + 1e-9), "{search}: {taut:?} {own:?}");
+        same(checked_path(&Trapezoid { path: PathKind::Taut, search }, regions, query));
+    }
+    for path in PathKind::ALL {
+        // Few samples find what they find; they never say that there is nothing.
+        let prm = Prm { samples: 60, nearest: 6, path, ..Prm::default() };
+        match run(&prm, regions, query).outcome {
+            Proposal::Found(path) => {
+                assert_free(regions, &path);
+                assert!(shortest.is_some_and(|shortest| path.length() >= shortest - 1e-9), "{shortest:?}");
+            }
+            outcome => assert!(matches!(outcome, Proposal::GaveUp(_)), "{outcome:?}"),
+        }
+    }
 }
 
 fn cells(regions: &Regions) -> (Vec<Vec<Point>>, usize) {
@@ -106,6 +143,7 @@ proptest! {
         let found = lengths(&regions, &query(start, goal));
         prop_assert!((found.unwrap()[0] - expected.unwrap()).abs() < 1e-8, "{found:?} {expected:?}");
         assert_decomposed(&regions);
+        assert_searched(&regions, &query(start, goal), expected);
     }
 
     #[test]
@@ -117,7 +155,7 @@ proptest! {
         let [s, g] = [0, 1].map(|_| Point::new(random.within(-0.2, -0.01), random.within(-0.2, side as f64 + 0.2)));
         let goals = [Point::new(side as f64 - g.x, g.y), Point::new(g.x, side as f64 - g.x)];
         for metric in metrics(ratio) {
-            let planner = Visibility { metric };
+            let planner = Visibility { metric, search: USUAL };
             let query = Query { start: s.coords, goals: goals.map(|g| g.coords).into_iter().collect() };
             let found = metric.length(&checked_path(&planner, &regions, &query).unwrap());
             let expected = goals.map(|g| brute_force(&crowd, window, s, g, metric).unwrap());
@@ -159,7 +197,7 @@ proptest! {
             let [s, g] = [turned(p.0, p.1), turned(q.0, q.1)];
             let query = query((s.x, s.y), (g.x, g.y));
             for metric in metrics(1.7) {
-                let found = checked_path(&Visibility { metric }, &regions, &query).map(|path| metric.length(&path));
+                let found = checked_path(&Visibility { metric, search: USUAL }, &regions, &query).map(|path| metric.length(&path));
                 let most = brute_force(&grown, window, s, g, metric).unwrap_or(f64::INFINITY);
                 let least = brute_force(&shrunk, window, s, g, metric).unwrap_or(f64::INFINITY);
                 let found = found.unwrap_or(f64::INFINITY);
@@ -402,7 +440,7 @@ fn between_squares_that_touch_in_a_corner_there_is_no_way() {
 fn of_motions_that_take_equally_long_the_shortest_is_taken() {
     // The first joint takes 4 s whichever way the obstacle is passed; below it the way is shorter.
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
-    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] } };
+    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, search: USUAL };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
     let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| configuration(x, y));
     assert_eq!(path.waypoints(), corners);

@@ -146,7 +146,7 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
         let node = NodeIndex::new(target);
         let least = petgraph::algo::dijkstra(&graph, origin, Some(node), |edge| *edge.weight()).get(&node).copied();
         let steps = textbook(grid, sources, neighborhood)[target];
-        let orders = [Order::BreadthFirst, Order::DepthFirst, Order::Dijkstra, A_STAR[0], A_STAR[1]];
+        let orders = [Order::BreadthFirst, Order::DepthFirst, Order::Dijkstra, A_STAR[0], A_STAR[1], Order::Greedy];
         for order in orders {
             let search = Search::new(&free, neighborhood, order, sources, target);
             prop_assert_eq!(search.cost(target).is_some(), least.is_some(), "{:?}", order);
@@ -171,10 +171,10 @@ fn check_searches(grid: &Grid, sources: &[usize], target: usize) -> Result<(), T
             prop_assert_eq!(search.cost(target), Some(cost));
             match order {
                 Order::BreadthFirst => prop_assert_eq!(cost.moves(), steps),
-                Order::DepthFirst => prop_assert!(cost.value() >= least - 1e-9),
+                Order::DepthFirst | Order::Greedy => prop_assert!(cost.value() >= least - 1e-9),
                 Order::Dijkstra | Order::AStar(_) => prop_assert!((cost.value() - least).abs() < 1e-9),
             }
-            if neighborhood == Neighborhood::Four && order != Order::DepthFirst {
+            if neighborhood == Neighborhood::Four && !matches!(order, Order::DepthFirst | Order::Greedy) {
                 prop_assert_eq!(cost, Cost { straight: steps, diagonal: 0 });
             }
         }
@@ -237,6 +237,7 @@ fn a_star_goes_straight_in_the_open() {
     assert_eq!(expanded(Neighborhood::Four, A_STAR[1]), 3500);
     assert_eq!(expanded(Neighborhood::Eight, A_STAR[0]), 69 + 1);
     assert_eq!(expanded(Neighborhood::Four, Order::Dijkstra), 3500);
+    assert_eq!(expanded(Neighborhood::Four, Order::Greedy), 49 + 69 + 1);
 }
 
 /// Fig. 6.14 of the chapter on task planning ("Planejamento de Tarefas", 6.3.3), where the goal is labelled `q_fin` and

@@ -104,6 +104,16 @@ fn trapezoid() {
 }
 
 #[test]
+fn triangles() {
+    check(Method::Triangles);
+}
+
+#[test]
+fn prm() {
+    check(Method::Prm);
+}
+
+#[test]
 fn wavefront() {
     check(Method::Wavefront);
 }
@@ -130,7 +140,10 @@ fn the_visibility_path_is_the_shortest_up_to_the_margin() {
         };
         let shortest = length(Method::Visibility);
         let able = |method: &Method| unknown.iter().all(|name| name != method.name());
-        for method in [Method::Trapezoid, Method::Wavefront, Method::Subdivision].into_iter().filter(able) {
+        for method in [Method::Trapezoid, Method::Triangles, Method::Prm, Method::Wavefront, Method::Subdivision]
+            .into_iter()
+            .filter(able)
+        {
             // Fields and channels keep their own distance from obstacles; what the margin costs is far below 2 %.
             let other = length(method);
             assert!(shortest <= 1.02 * other, "{name}: visibility {shortest}, {method} {other}");

@@ -1,6 +1,7 @@
 //! The library's front door: what `plan` gives is what the program writes, byte for byte.
 
 use crate::cli::Place;
+use cplan::engine::{CellCounts, Method};
 use cplan::geometry::{Convex, SimplePolygon, penetration_depth, polygon_test};
 use cplan::{
     Arm, Configuration, Criterion, Obstacle, Options, Outcome, Plan, PlanError, Planner, Point, Problem, Refutation,
@@ -57,7 +58,7 @@ fn options_are_those_of_the_command_line() {
     let named = |name: &str| Planner::named(name.parse().unwrap());
     let mut wavefront = named("wavefront");
     if let Planner::Wavefront { cells, .. } = &mut wavefront {
-        *cells = 128;
+        *cells = CellCounts::square(128);
     }
     let criterion = Criterion::Weighted([1.0, 0.5]);
     for (words, planner) in [
@@ -100,7 +101,7 @@ fn an_outcome_is_one_of_three() {
             neighborhood: Default::default(),
             space: Default::default(),
             path: cplan::planner::PathKind::Taut,
-            cells: 8,
+            cells: CellCounts::square(8),
         },
         levels: 1,
         ..Options::default()
@@ -123,7 +124,7 @@ fn what_makes_no_sense_is_refused_by_name() {
         ("margin", Options { planner: shortest(None, f64::NAN), ..plain }),
         ("jerk", Options { jerk: Some([Some(-1.0), None]), ..plain }),
     ];
-    let weights = Planner::Visibility { criterion: Criterion::Weighted([1.0, -1.0]), gap: None, margin: 1e-3 };
+    let weights = Planner::named(Method::Visibility).with_criterion(Criterion::Weighted([1.0, -1.0]));
     options.push(("weights", Options { planner: weights, ..plain }));
     for period in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let mut wrong = plain;

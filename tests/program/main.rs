@@ -8,6 +8,7 @@ mod draw;
 mod front_door;
 mod pictures;
 mod rounding;
+mod roadmaps;
 mod search;
 #[cfg(feature = "serve")]
 mod serve;

@@ -11,7 +11,7 @@ fn cplan(options: &[&str]) -> std::process::Output {
 #[test]
 fn every_search_with_four_and_eight_neighbours_is_certified_and_told() {
     let mut expanded = Vec::new();
-    for search in ["wave", "bfs", "dfs", "dijkstra", "astar"] {
+    for search in ["wave", "bfs", "dfs", "dijkstra", "astar", "greedy"] {
         for neighbors in ["4", "8"] {
             let options =
                 ["--planner", "wavefront", "--search", search, "--neighbors", neighbors, "--cells", "128", "--json"];
@@ -55,11 +55,11 @@ fn sampled_grids_are_told_and_their_paths_certified() {
 #[test]
 fn searches_are_for_the_wavefront_and_have_their_names() {
     for (options, told) in [
-        (&["--search", "astar"][..], "--search needs --planner wavefront"),
+        (&["--search", "astar"][..], "--search needs --planner wavefront, visibility"),
         (&["--planner", "harmonic", "--neighbors", "8"], "--neighbors needs --planner wavefront"),
         (&["--space", "sampled"], "--space needs --planner wavefront or harmonic: shortest has no grid"),
         (&["--planner", "harmonic", "--space", "guessed"], "[possible values: rows, sampled]"),
-        (&["--planner", "wavefront", "--search", "best"], "wave, bfs, dfs, dijkstra, astar"),
+        (&["--planner", "wavefront", "--search", "best"], "wave, bfs, dfs, dijkstra, astar, greedy"),
         (&["--planner", "wavefront", "--neighbors", "6"], "possible values: 4, 8"),
     ] {
         let output = cplan(options);

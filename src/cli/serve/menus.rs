@@ -50,7 +50,7 @@ const CHOICES: [Choice; 7] = [
         name: "search",
         label: "search",
         numbers: &[],
-        standard: |_| word(&GridSearch::default()),
+        standard: |planner| word(&if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
         is_for: |_| true,
     },
     Choice {

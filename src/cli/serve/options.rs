@@ -69,12 +69,12 @@ impl Options {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::engine::{Criterion, Planner};
+    use crate::engine::Planner;
 
     #[test]
     fn options_are_those_of_the_command_line() {
         let options = Options::parse("visibility --gap 0.01 --margin 1e-4").unwrap();
-        let expected = Planner::Visibility { criterion: Criterion::Euclidean, gap: Some(0.01), margin: 1e-4 };
+        let expected = Planner::named(Method::Visibility).with_gap(0.01).with_margin(1e-4);
         assert_eq!(options.options.planner, expected);
     }
 
@@ -84,7 +84,10 @@ mod tests {
             ("", "<PLANNER>"),
             ("fastest", "[possible values: shortest"),
             ("harmonic --gap 0.1", "--gap needs --planner shortest or visibility"),
-            ("visibility --search astar", "--search needs --planner wavefront"),
+            ("visibility --search wave", "--search wave labels the cells of a grid"),
+            ("first --backward", "--backward needs --planner visibility"),
+            ("trapezoid --seed 2", "--seed needs --planner prm"),
+            ("visibility --search dfs --gap 0.1", "--gap needs a search for the shortest path"),
             ("visibility --path own", "--path own is not for visibility"),
             ("visibility --output plan.json", "unexpected argument"),
             ("visibility --help", "unexpected argument"),

@@ -98,6 +98,11 @@ impl Grain {
 pub struct Chain(pub Vec<Configuration>);
 
 impl Chain {
+    /// Whether there is nothing in it.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// Two by two: boxes, or ends of lines.
     pub fn pairs(&self) -> impl Iterator<Item = [Configuration; 2]> + '_ {
         self.0.chunks_exact(2).map(|pair| [pair[0], pair[1]])

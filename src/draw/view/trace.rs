@@ -26,7 +26,15 @@ pub enum TraceView {
     #[serde(rename = "rows")]
     Slices { free: Chain },
     /// Cells of the decomposition, and which of them make the channel.
-    Channel { cells: Vec<Chain>, channel: Vec<usize> },
+    Channel {
+        cells: Vec<Chain>,
+        channel: Vec<usize>,
+        /// Where the search came, in order.
+        #[serde(skip_serializing_if = "Chain::is_empty")]
+        expanded: Chain,
+    },
+    /// A roadmap: both ends of each edge, and where the search came, in order.
+    Roads { edges: Chain, expanded: Chain },
     /// Boxes of a subdivision: least and greatest values of each.
     Boxes { free: Chain, stuck: Chain, mixed: Chain },
     /// Distances to the goal.
@@ -49,10 +57,14 @@ impl TraceView {
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
-            Trace::Channel { cells, channel } => Self::Channel {
+            Trace::Channel { cells, channel, expanded } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),
+                expanded: grain.configurations(expanded),
             },
+            Trace::Roads { edges, expanded } => {
+                Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }
+            }
             Trace::Boxes { free, stuck, mixed } => {
                 Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) }
             }

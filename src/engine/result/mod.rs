@@ -27,7 +27,7 @@ pub struct Report {
     pub name: Option<String>,
     /// Name of the planner; of a task that of its single motions.
     pub planner: String,
-    /// How the wavefront planner searched its grids.
+    /// How the wavefront planner searched its grids, or another its roadmap.
     pub search: Option<SearchUsed>,
     /// How the cells of the planner's grids were decided, if not by exact slices: `sampled`, which proves nothing by itself.
     pub space: Option<&'static str>,
@@ -196,10 +196,13 @@ impl From<Bound> for Optimum {
 }
 
 impl SearchUsed {
-    /// How a planner searches its grid, if it searches one.
+    /// How a planner searches its grid, or its roadmap if that is not by the usual search.
     #[must_use]
     pub fn of(planner: &Planner) -> Option<Self> {
-        let Planner::Wavefront { search, neighborhood, .. } = planner else { return None };
-        Some(Self { search: search.name(), neighbors: neighborhood.count() })
+        if let Planner::Wavefront { search, neighborhood, .. } = planner {
+            return Some(Self { search: search.name(), neighbors: Some(neighborhood.count()), backward: None });
+        }
+        let search = planner.search().filter(|search| !search.is_usual())?;
+        Some(Self { search: search.order.name(), neighbors: None, backward: Some(search.backward) })
     }
 }

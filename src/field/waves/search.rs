@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 use std::collections::VecDeque;
 use std::f64::consts::SQRT_2;
 
-/// In which order cells are expanded. All four are one algorithm with a different list of cells that wait.
+/// In which order cells are expanded. All are one algorithm with a different list of cells that wait.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     /// First in, first out: fewest moves.
@@ -22,6 +22,8 @@ pub enum Order {
     /// The cell of least cost and estimated cost of the rest: a shortest path, usually found sooner. The estimate is the
     /// cost if nothing were in the way, so that no cell is expanded twice.
     AStar(Ties),
+    /// The cell of least estimated rest, and of equals the one that came last: some path.
+    Greedy,
 }
 
 /// Which of several cells with the same estimate is expanded.
@@ -80,7 +82,7 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl Search {
     /// Searches from all free cells among `sources` at once until `target` is expanded, or all that can be reached.
     ///
-    /// Breadth-first and depth-first search label a cell once, when they first come by; the others lower the cost of a
+    /// Breadth-first, depth-first and greedy search label a cell once, when they first come by; the others lower the cost of a
     /// cell until it is expanded. Linear in the number of labelled cells, and for Dijkstra and A\* times their logarithm; filling
     /// the tables is linear in the size of the grid.
     #[must_use]
@@ -91,7 +93,7 @@ impl Search {
         let mut search = Self { costs, parents: vec![UNREACHED; size], expanded: 0, labelled: 0 };
         let mut open = Open::new(order);
         let estimate = |cell: usize| match order {
-            Order::AStar(_) => straight_cost(free, neighborhood, cell, target),
+            Order::AStar(_) | Order::Greedy => straight_cost(free, neighborhood, cell, target),
             _ => Cost::default(),
         };
         for &source in sources {
@@ -182,6 +184,8 @@ enum Open {
     Stack(Vec<(usize, Cost)>),
     /// The least first. With how many have been put there.
     Least(OpenList<Waiting>, Ties, u64),
+    /// The least rest first, and the latest of equals. With how many have been put there.
+    Nearest(OpenList<Waiting>, u64),
 }
 
 impl Open {
@@ -191,6 +195,7 @@ impl Open {
             Order::DepthFirst => Self::Stack(Vec::new()),
             Order::Dijkstra => Self::Least(OpenList::default(), Ties::First, 0),
             Order::AStar(ties) => Self::Least(OpenList::default(), ties, 0),
+            Order::Greedy => Self::Nearest(OpenList::default(), 0),
         }
     }
 
@@ -212,6 +217,11 @@ impl Open {
                 let tie = (Reverse(Ordered(farther)), Reverse(turn));
                 open.push(cost.and(rest).value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
             }
+            Self::Nearest(open, count) => {
+                *count += 1;
+                let tie = (Reverse(Ordered(0.0)), Reverse(*count));
+                open.push(rest.value(), (tie.0, tie.1, cell, [cost.straight, cost.diagonal]));
+            }
         }
     }
 
@@ -219,7 +229,7 @@ impl Open {
         match self {
             Self::Queue(queue) => queue.pop_front(),
             Self::Stack(stack) => stack.pop(),
-            Self::Least(open, ..) => {
+            Self::Least(open, ..) | Self::Nearest(open, _) => {
                 open.pop().map(|(_, (.., cell, [straight, diagonal]))| (cell, Cost { straight, diagonal }))
             }
         }

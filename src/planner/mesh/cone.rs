@@ -151,6 +151,25 @@ impl Mesh {
         Some(Crossing { entry, seen: Some(back), beyond })
     }
 
+    /// Everything that a root sees in a cone: `meet` has each triangle that it enters, with the cone as it is there. Time in the
+    /// number of triangles crossed; exact.
+    pub fn look(&self, root: Point, cone: Cone, mut meet: impl FnMut(&Crossing, &Cone)) {
+        let mut stack = vec![cone];
+        while let Some(mut cone) = stack.pop() {
+            while let Some(crossing) = self.cross(root, &cone) {
+                meet(&crossing, &cone);
+                cone = match crossing.beyond {
+                    Beyond::Through(edge) => Cone { edge, ..cone },
+                    Beyond::One(only) => only,
+                    Beyond::Two(right, left) => {
+                        stack.push(left);
+                        right
+                    }
+                };
+            }
+        }
+    }
+
     /// Everything that a root sees in a cone, but for what lies in cones that lead back: the half-edges that begin at the
     /// corners seen, in no particular order. Time in the number of triangles crossed; exact.
     pub fn look_forward(&self, root: Point, cone: Cone, stack: &mut Vec<Cone>, mut see: impl FnMut(u32)) {

@@ -4,6 +4,7 @@ mod cone;
 mod corners;
 mod delaunay;
 mod location;
+mod straight;
 
 pub(super) use cone::{Beyond, Bound, Cone, Crossing};
 pub(super) use corners::{Corner, Tangency};
@@ -87,7 +88,8 @@ impl Mesh {
         self.twin(half_edge).is_none()
     }
 
-    fn twin(&self, half_edge: u32) -> Option<u32> {
+    /// The half-edge on the other side of the same edge; none where it is part of the boundary.
+    pub fn twin(&self, half_edge: u32) -> Option<u32> {
         let twin = self.edges.twin[half_edge as usize];
         (twin != NONE).then_some(twin)
     }

@@ -105,7 +105,9 @@ fn completions_know_commands_options_and_values() {
     let bash = place.run(&["completions", "bash"], "").stdout;
     let planner = bash.split("--planner)\n").nth(1).expect("values of --planner").lines().next().unwrap();
     assert!(
-        planner.contains("compgen -W \"shortest visibility trapezoid wavefront harmonic subdivision first\""),
+        planner.contains(
+            "compgen -W \"shortest visibility trapezoid triangles prm wavefront harmonic subdivision first\""
+        ),
         "{planner}"
     );
     let output = bash.split("--output)\n").nth(1).expect("values of --output").split(";;").next().unwrap();

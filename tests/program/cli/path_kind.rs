@@ -11,8 +11,14 @@ fn planners_with_two_paths_give_the_one_that_is_asked_for() {
         assert_eq!(done.code, 0, "{options}: {}", done.stderr);
         done.json()
     };
-    for (planner, usual) in [("trapezoid", "taut"), ("wavefront", "taut"), ("harmonic", "own"), ("subdivision", "taut")]
-    {
+    for (planner, usual) in [
+        ("trapezoid", "taut"),
+        ("triangles", "taut"),
+        ("prm", "taut"),
+        ("wavefront", "taut"),
+        ("harmonic", "own"),
+        ("subdivision", "taut"),
+    ] {
         let [plain, own, taut] =
             ["", "--path own", "--path taut"].map(|path| run(&format!("--planner {planner} {path}")));
         assert_eq!([&own["path_kind"], &taut["path_kind"]], [&json!("own"), &json!("taut")], "{planner}");
@@ -56,6 +62,9 @@ fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_por
     assert!(path >= 3 && path % 2 == 1, "{path} waypoints");
 }
 
+const ALL: [&str; 9] =
+    ["shortest", "visibility", "trapezoid", "triangles", "prm", "wavefront", "harmonic", "subdivision", "first"];
+
 #[test]
 fn compare_lists_both_paths_of_each_planner() {
     let place = Place::new();
@@ -65,11 +74,11 @@ fn compare_lists_both_paths_of_each_planner() {
     let json = done.json();
     let rows = json["planners"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
-    assert_eq!(names, ["shortest", "visibility", "trapezoid", "wavefront", "harmonic", "subdivision", "first"]);
-    for row in [&rows[0], &rows[1], &rows[6]] {
+    assert_eq!(names, ALL);
+    for row in [&rows[0], &rows[1], &rows[8]] {
         assert!(row["paths"].is_null(), "{row}");
     }
-    for row in &rows[2..6] {
+    for row in &rows[2..8] {
         let of = |kind: &str, key: &str| row["paths"][kind][key].as_f64().unwrap();
         assert!(of("own", "length") > of("taut", "length"), "{row}");
         let kind = row["path_kind"].as_str().unwrap();

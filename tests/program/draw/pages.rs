@@ -127,7 +127,7 @@ fn other_traces_keep_their_parts() {
     let roadmap = shown(&Trace::Roadmap { edges: vec![[at(0.0, 0.5), at(1.0, -0.25)]], whole: false });
     assert_eq!(roadmap, serde_json::json!({ "kind": "roadmap", "edges": [0.0, 0.5, 1.0, -0.25], "whole": false }));
     let cell = vec![at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
-    let channel = shown(&Trace::Channel { cells: vec![cell].into(), channel: vec![0] });
+    let channel = shown(&Trace::Channel { cells: vec![cell].into(), channel: vec![0], expanded: Vec::new() });
     assert_eq!((&channel["cells"][0][2], &channel["channel"][0]), (&1.0.into(), &0.into()));
     let boxes = shown(&Trace::Boxes { free: vec![[at(0.0, 0.0), at(1.0, 2.0)]], stuck: vec![], mixed: vec![] });
     assert_eq!(boxes["free"], serde_json::json!([0.0, 0.0, 1.0, 2.0]));

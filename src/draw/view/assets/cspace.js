@@ -128,7 +128,7 @@ const CSpace = (() => {
     context.strokeStyle = theme.edge;
     context.lineWidth = 0.8;
     context.globalAlpha = 0.75;
-    if (seen.kind === 'roadmap' && view.shows('roadmap')) {
+    if (['roadmap', 'roads'].includes(seen.kind) && view.shows(seen.kind)) {
       context.beginPath();
       for (let i = 0; i + 3 < seen.edges.length; i += 4) {
         shifted(context, panel, seen.edges.slice(i, i + 4), circles(view), false);
@@ -154,7 +154,24 @@ const CSpace = (() => {
       context.stroke();
     }
     context.globalAlpha = 1;
+    if (seen.expanded && view.shows('expanded')) expanded(context, panel, view, seen.expanded);
     if (seen.kind === 'field') field(context, panel, view, seen);
+  }
+
+  /** Where a search came, the earlier the darker. */
+  function expanded(context, panel, view, flat) {
+    const last = Math.max(flat.length / 2 - 1, 1);
+    context.globalAlpha = 0.8;
+    for (let i = 0; i + 1 < flat.length; i += 2) {
+      context.fillStyle = panel.theme.scale(i / 2 / last);
+      for (const by of shifts(panel, flat.slice(i, i + 2), circles(view))) {
+        const [x, y] = panel.at([flat[i] + by[0], flat[i + 1] + by[1]]);
+        context.beginPath();
+        context.arc(x, y, 2.2, 0, 2 * Math.PI);
+        context.fill();
+      }
+    }
+    context.globalAlpha = 1;
   }
 
   function field(context, panel, view, seen) {

@@ -17,9 +17,11 @@ const LAYERS = [
   ['c-obstacles', 'C-obstacles', true],
   ['path', 'path', true],
   ['roadmap', 'visibility graph', true],
+  ['roads', 'roadmap', true],
   ['rows', 'slices that the path passes', true],
   ['channel', 'channel', true],
   ['cells', 'cells', true],
+  ['expanded', 'order of the search', true],
   ['wavefront', 'wavefront', true],
   ['equipotentials', 'equipotentials', true],
   ['flow', 'flow lines', false],
@@ -243,6 +245,7 @@ class View {
     const any = (key) => worlds.some((world) => world[key].length > 0);
     const there = {
       'c-obstacles': any('c_obstacles'), path: paths.length > 0, roadmap: kinds.has('roadmap'), rows: kinds.has('rows'),
+      roads: kinds.has('roads'), expanded: worlds.some((world) => world.trace?.expanded?.length > 0),
       channel: kinds.has('channel'), cells: kinds.has('channel'), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'),
       flow: kinds.has('field'), boxes: kinds.has('boxes'), proof: any('proof'), regions: any('regions'), poses: true,
       trace: paths.length > 0, names: any('obstacles'), frames: this.model.frames.length > 0,

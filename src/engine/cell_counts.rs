@@ -1,0 +1,94 @@
+//! How many cells a grid has along its axes.
+
+use super::options::{CELLS, wrong_number};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// Cells along the first joint's axis and along the second's. As text `256`, or `128x512`; as data a number, or a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "Written", into = "Written")]
+pub struct CellCounts(pub [usize; 2]);
+
+/// As data has it.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(untagged)]
+enum Written {
+    Each(usize),
+    Pair([usize; 2]),
+}
+
+impl CellCounts {
+    /// As many along both.
+    #[must_use]
+    pub fn square(n: usize) -> Self {
+        Self([n; 2])
+    }
+
+    /// What is wrong with them, in words.
+    #[must_use]
+    pub fn error(self) -> Option<String> {
+        self.0.into_iter().find_map(|n| wrong_number("cells", n, &CELLS))
+    }
+}
+
+impl From<Written> for CellCounts {
+    fn from(written: Written) -> Self {
+        match written {
+            Written::Each(n) => Self::square(n),
+            Written::Pair(counts) => Self(counts),
+        }
+    }
+}
+
+impl From<CellCounts> for Written {
+    fn from(CellCounts(counts): CellCounts) -> Self {
+        if counts[0] == counts[1] { Self::Each(counts[0]) } else { Self::Pair(counts) }
+    }
+}
+
+impl fmt::Display for CellCounts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self([a, b]) = self;
+        if a == b { write!(f, "{a}") } else { write!(f, "{a}x{b}") }
+    }
+}
+
+impl FromStr for CellCounts {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let cure = || {
+            let (least, most) = (CELLS.start(), CELLS.end());
+            format!("{text} is no number from {least} to {most}, nor two such as 128x512, for the joints in turn")
+        };
+        let count = |text: &str| text.parse::<usize>().ok().filter(|n| CELLS.contains(n)).ok_or_else(cure);
+        match text.split_once('x') {
+            None => Ok(Self::square(count(text)?)),
+            Some((a, b)) => Ok(Self([count(a)?, count(b)?])),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_or_two() {
+        let of = |text: &str| text.parse::<CellCounts>();
+        assert_eq!(of("256"), Ok(CellCounts([256, 256])));
+        assert_eq!(of("128x512"), Ok(CellCounts([128, 512])));
+        for text in ["", "x", "7", "128x", "128x4096", "128x64x32", "-8", "12.5", "128 x 512"] {
+            assert!(of(text).unwrap_err().contains("8 to 2048"), "{text}");
+        }
+        for counts in [CellCounts([9, 9]), CellCounts([8, 2048])] {
+            assert_eq!(of(&counts.to_string()), Ok(counts));
+            let written = serde_json::to_string(&counts).unwrap();
+            assert_eq!(serde_json::from_str::<CellCounts>(&written).unwrap(), counts);
+        }
+        // As it was stored before there were two.
+        assert_eq!(serde_json::to_string(&CellCounts::square(64)).unwrap(), "64");
+        assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 is not from 8 to 2048".to_owned()));
+    }
+}

@@ -1,0 +1,103 @@
+//! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
+//!
+//! A producer makes a [`Roadmap`] of a space once; a query adds its start and its goals as nodes ([`Asked`]), joins them
+//! with what they can reach, and has the whole searched.
+
+mod nearby;
+mod search;
+
+pub(super) use nearby::Nearby;
+pub(super) use search::{Question, Searched, search};
+pub use search::{RoadmapSearch, SearchOrder};
+
+use super::terminals::Terminals;
+use crate::geometry::Point;
+use crate::space::{Configuration, Measure};
+use petgraph::graph::{NodeIndex, UnGraph};
+use std::collections::BTreeMap;
+
+/// Configurations and straight motions between them, which are as long as a measure says.
+#[derive(Debug, Clone)]
+pub(super) struct Roadmap {
+    graph: UnGraph<Point, f64>,
+    measure: Measure,
+}
+
+impl Roadmap {
+    /// Without any node.
+    pub fn new(measure: Measure) -> Self {
+        Self { graph: UnGraph::new_undirected(), measure }
+    }
+
+    /// A node more; nodes are numbered as they come.
+    pub fn add(&mut self, at: Point) -> NodeIndex {
+        self.graph.add_node(at)
+    }
+
+    /// Joins two nodes by a motion, if they are not joined yet.
+    pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
+        if self.graph.find_edge(a, b).is_none() {
+            let length = self.measure.norm(self.graph[b] - self.graph[a]);
+            self.graph.add_edge(a, b, length);
+        }
+    }
+
+    /// The same with a query's start.
+    pub fn asked(mut self, start: Point) -> Asked {
+        let start = self.add(start);
+        Asked { roadmap: self, start, goals: BTreeMap::new() }
+    }
+}
+
+/// A roadmap with the ends of a query.
+#[derive(Debug, Clone)]
+pub(super) struct Asked {
+    roadmap: Roadmap,
+    /// All nodes after it are goals.
+    pub start: NodeIndex,
+    /// Goals by the bits of their coordinates.
+    goals: BTreeMap<[u64; 2], NodeIndex>,
+}
+
+impl Asked {
+    /// The goal at a place, a node of its own.
+    pub fn goal(&mut self, at: Point) -> NodeIndex {
+        let roadmap = &mut self.roadmap;
+        *self.goals.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| roadmap.add(at))
+    }
+
+    /// Joins two nodes by a motion, if they are not joined yet.
+    pub fn join(&mut self, a: NodeIndex, b: NodeIndex) {
+        self.roadmap.join(a, b);
+    }
+
+    /// Where a node is.
+    pub fn at(&self, node: NodeIndex) -> Point {
+        self.roadmap.graph[node]
+    }
+
+    /// Nodes and edges.
+    pub fn size(&self) -> [usize; 2] {
+        [self.roadmap.graph.node_count(), self.roadmap.graph.edge_count()]
+    }
+
+    /// Both ends of each edge.
+    pub fn edges(&self) -> Vec<[Configuration; 2]> {
+        let edges = self.roadmap.graph.raw_edges().iter();
+        edges.map(|edge| [edge.source(), edge.target()].map(|node| self.at(node).coords)).collect()
+    }
+
+    /// Searches it; with the places that were expanded, in order.
+    pub fn search(&self, how: RoadmapSearch, terminals: &Terminals) -> (Option<Vec<NodeIndex>>, Vec<Configuration>) {
+        let Roadmap { graph, measure } = &self.roadmap;
+        let question = Question {
+            start: self.start,
+            is_goal: |node: NodeIndex| node > self.start,
+            cost: |length: &f64| *length,
+            ahead: |node: NodeIndex| terminals.distance(*measure, graph[node]),
+            behind: |node: NodeIndex| measure.norm(graph[node] - graph[self.start]),
+        };
+        let Searched { way, expanded } = search(graph, how, &question);
+        (way, expanded.into_iter().map(|node| graph[node].coords).collect())
+    }
+}

@@ -1,0 +1,105 @@
+//! Roadmaps on the command line: planners, searches, seeds; and grids of two numbers of cells.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::process::Output;
+
+const ROADMAPS: [&str; 4] = ["visibility", "trapezoid", "triangles", "prm"];
+
+fn cplan(options: &str) -> Output {
+    let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
+    let mut command = Command::cargo_bin("cplan").expect("the program is built");
+    command.args(files).args(options.split_whitespace()).output().expect("it runs")
+}
+
+fn json(options: &str) -> Value {
+    let output = cplan(&format!("{options} --json"));
+    assert_eq!(output.status.code(), Some(0), "{options}: {}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn length(result: &Value) -> f64 {
+    result["length"].as_f64().expect("a length")
+}
+
+#[test]
+fn every_roadmap_is_searched_in_every_order_both_ways() {
+    for planner in ROADMAPS {
+        let of = |search: &str| {
+            let path = if planner == "visibility" { "" } else { "--path own" };
+            json(&format!("--planner {planner} {path} {search}"))
+        };
+        let usual = of("");
+        assert!(usual.get("search").is_none(), "{planner}");
+        for search in ["bfs", "dfs", "dijkstra", "astar", "greedy"] {
+            for backward in [false, true] {
+                let found = of(&format!("--search {search} {}", if backward { "--backward" } else { "" }));
+                assert_eq!(found["certified"], true);
+                if search != "astar" || backward {
+                    assert_eq!(found["search"]["search"], search, "{planner}");
+                    assert_eq!(found["search"]["backward"], backward, "{planner}");
+                }
+                let (least, other) = (length(&usual), length(&found));
+                // Costs of a trapezoid's search are those of its own path, but for the cells at the ends.
+                let is_shortest = ["dijkstra", "astar"].contains(&search);
+                assert!(
+                    if is_shortest { (other - least).abs() < 1e-6 } else { other > least - 1e-6 },
+                    "{planner} {search}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_follow_from_the_seed() {
+    let of = |options: &str| cplan(&format!("--planner prm --path own --json {options}")).stdout;
+    assert_eq!(of(""), of("--seed 1 --samples 500 --nearest 12"));
+    assert_ne!(of(""), of("--seed 2"));
+    // More samples among which the first are the same make no longer path, when each is joined to all.
+    let [few, more] =
+        [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
+    assert!(more <= few, "{few} {more}");
+    let told = String::from_utf8(cplan("--planner prm --search greedy --backward").stdout).expect("text");
+    assert!(told.contains("prm (greedy, backward): "), "{told}");
+}
+
+#[test]
+fn what_a_planner_does_not_have_is_refused() {
+    for (options, told) in [
+        (
+            "--planner harmonic --search dfs",
+            "--search needs --planner wavefront, visibility, trapezoid, triangles or prm",
+        ),
+        ("--planner prm --search wave", "--search wave labels the cells of a grid"),
+        ("--planner wavefront --backward", "wavefront searches from the goal anyway"),
+        ("--backward", "--backward needs --planner visibility, trapezoid, triangles or prm: shortest has no roadmap"),
+        ("--planner triangles --samples 5", "--samples needs --planner prm"),
+        ("--planner prm --samples 0", "0 is not in 1..=100000"),
+        ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
+        ("--planner wavefront --cells 128x4", "nor two such as 128x512"),
+    ] {
+        let output = cplan(options);
+        assert_eq!(output.status.code(), Some(2), "{options}");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert!(message.contains(told), "{options}: {message}");
+    }
+}
+
+#[test]
+fn grids_may_have_other_numbers_of_cells_along_each_joint() {
+    for planner in ["wavefront", "harmonic"] {
+        let of = |cells: &str| json(&format!("--planner {planner} --cells {cells}"));
+        assert_eq!(of("96"), of("96x96"), "{planner}");
+        assert_ne!(of("96x160")["path"], of("160x96")["path"], "{planner}");
+    }
+    // Along the joint that has few cells the staircase has few steps.
+    let result = json("--planner wavefront --path own --cells 32x512");
+    let path = result["path"].as_array().expect("a path");
+    let at = |k: usize| (1..path.len() - 1).map(move |i| path[i][k].as_f64().expect("a number"));
+    let steps = |k: usize| {
+        let all: Vec<f64> = at(k).collect();
+        all.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > 1e-9).fold(f64::INFINITY, f64::min)
+    };
+    assert!(steps(0) > 4.0 * steps(1), "{} {}", steps(0), steps(1));
+}
