@@ -2,6 +2,7 @@
 
 use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
+use super::converge::ConvergeArgs;
 use super::demo::DemoArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
@@ -75,6 +76,8 @@ impl Cli {
 pub enum Command {
     /// Run every planner on the same problem, or on many, side by side.
     Compare(CompareArgs),
+    /// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
+    Converge(ConvergeArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.

@@ -61,6 +61,17 @@ pub enum OrderName {
     RedBlack,
 }
 
+impl From<OrderName> for Order {
+    fn from(name: OrderName) -> Self {
+        match name {
+            OrderName::Rows => Self::Lines(Scan::ROWS),
+            OrderName::Columns => Self::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
+            OrderName::Corners => Self::Corners(Lines::Rows),
+            OrderName::RedBlack => Self::RedBlack,
+        }
+    }
+}
+
 /// What lies beyond joint limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum LimitsName {
@@ -68,6 +79,15 @@ pub enum LimitsName {
     High,
     /// Mirrors: they neither attract nor repel.
     Reflecting,
+}
+
+impl From<LimitsName> for Limits {
+    fn from(name: LimitsName) -> Self {
+        match name {
+            LimitsName::High => Self::High,
+            LimitsName::Reflecting => Self::Reflecting,
+        }
+    }
 }
 
 /// The field of the harmonic planner.
@@ -160,10 +180,7 @@ impl FieldArgs {
                 max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
             },
         };
-        let limits = match self.limits {
-            Some(LimitsName::Reflecting) => Limits::Reflecting,
-            Some(LimitsName::High) | None => Limits::High,
-        };
+        let limits = self.limits.unwrap_or(LimitsName::High).into();
         Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
     }
 
@@ -228,12 +245,7 @@ impl FieldArgs {
 
     fn relaxation(&self) -> Result<Relaxation, String> {
         let name = self.relaxation.unwrap_or(RelaxationName::GaussSeidel);
-        let order = match self.order {
-            Some(OrderName::Rows) => Order::Lines(Scan::ROWS),
-            Some(OrderName::Columns) => Order::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
-            Some(OrderName::RedBlack) => Order::RedBlack,
-            Some(OrderName::Corners) | None => Order::Corners(Lines::Rows),
-        };
+        let order = self.order.unwrap_or(OrderName::Corners).into();
         let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
         if jacobi && self.order.is_some() {
             return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
@@ -281,11 +293,11 @@ fn listed(fields: &[FieldName]) -> String {
     }
 }
 
-fn finite(text: &str) -> Result<f64, String> {
+pub(super) fn finite(text: &str) -> Result<f64, String> {
     number_in(text, f64::is_finite, "that is finite")
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub(super) fn positive(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0")
 }
 
@@ -294,7 +306,7 @@ fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
 
-fn direction(text: &str) -> Result<Direction, String> {
+pub(super) fn direction(text: &str) -> Result<Direction, String> {
     let vector = match numbers(text)[..] {
         [a, b] => Direction::of([a, b]),
         _ => None,

@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod compare;
 mod completions;
+mod converge;
 mod demo;
 mod error_json;
 mod failure;
@@ -64,6 +65,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
+        (Some(Command::Converge(args)), _) => converge::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),

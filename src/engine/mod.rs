@@ -37,6 +37,7 @@ mod bound;
 mod cell_counts;
 mod clock;
 mod corners;
+mod field_problem;
 mod field_report;
 mod first;
 mod grid_space;
@@ -57,6 +58,7 @@ mod thinned;
 
 pub use bound::{Bound, bound, checked_bound, percent};
 pub use cell_counts::CellCounts;
+pub use field_problem::FieldProblem;
 pub use grid_space::GridSpace;
 pub use ladder::solve;
 pub use method::Method;

@@ -2,7 +2,8 @@
 //!
 //! - [`StepLabels`] and [`search`]: steps to the goal by waves, and the classical searches for comparison;
 //! - [`harmonic()`]: the harmonic potential by direct and multigrid solution, precise at any distance;
-//! - [`relax()`]: the family of field equations and relaxations as values that combine;
+//! - [`relax()`]: the family of field equations and relaxations as values that combine; [`trace()`]: how one converges, sweep by
+//!   sweep; [`eliminated`]: the solution that it converges to;
 //! - [`Khatib`]: attraction and repulsion, with their local minima;
 //! - [`follow()`]: the curve along the gradient of any of them, between the cells;
 //! - [`multigrid`]: the solver for five-point problems among walls.
@@ -22,8 +23,8 @@ pub use cplan_harmonic::{
 pub use cplan_multigrid as multigrid;
 pub use khatib::{Attraction, Downforce, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
 pub use relax::{
-    Boundary, Cell, Convergence, Difference, Direction, Domain, Equation, Factor, Influence, Levels, Limits, Lines,
-    Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Scan, Scheme, Slope, Stopping, Stuck, around,
-    descend, relax, relax_from,
+    Boundary, Cell, Convergence, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Levels, Limits,
+    Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Sample, Scan, Scheme, Slope, Stopping,
+    Stuck, Trace, Watched, around, descend, eliminated, relax, relax_from, relax_watched, trace,
 };
 pub use waves::{FreeCells, Move, Neighborhood, StepLabels, search};

@@ -68,11 +68,19 @@ impl PictureFormat {
     /// # Errors
     /// A picture that cannot be made of pixels.
     pub fn bytes(self, view: &View) -> Result<Vec<u8>, DrawError> {
+        self.bytes_of(|| draw::svg(view), || draw::page(view))
+    }
+
+    /// The same of anything that can be an SVG document and a page.
+    ///
+    /// # Errors
+    /// A picture that cannot be made of pixels.
+    pub fn bytes_of(self, svg: impl FnOnce() -> String, page: impl FnOnce() -> String) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
-            Self::Svg => draw::svg(view).into_bytes(),
+            Self::Svg => svg().into_bytes(),
             #[cfg(feature = "png")]
-            Self::Png => draw::png(&draw::svg(view), PNG_SCALE)?,
-            Self::Html => draw::page(view).into_bytes(),
+            Self::Png => draw::png(&svg(), PNG_SCALE)?,
+            Self::Html => page().into_bytes(),
         })
     }
 }

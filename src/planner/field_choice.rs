@@ -79,8 +79,11 @@ pub struct FieldPlanner {
 }
 
 impl EquationChoice {
-    /// The equation on a grid; the reason if there is none.
-    pub(super) fn on(self, space: &ZonedGrid) -> Result<Equation, String> {
+    /// The equation on a grid. `O(cells)`.
+    ///
+    /// # Errors
+    /// Why there is none, in words: a zone without the direction that it needs.
+    pub fn on(self, space: &ZonedGrid) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
         // A direction of joint space, in cells, which need not be square.
         let step = space.grid.step();

@@ -61,6 +61,15 @@ impl Planner for FieldPlanner {
     }
 }
 
+/// The cells of a field for a query: what each is, with the levels that [`FieldPlanner`] takes. `O(cells)`.
+///
+/// # Errors
+/// Where start or goal cannot be joined to the grid, in words.
+pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
+    let goals = Joined::new(grid, query)?.sources();
+    Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
+}
+
 /// A way that is looked for.
 struct Task<'a> {
     space: &'a ZonedGrid,

@@ -47,6 +47,7 @@ mod visibility;
 mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
+pub use field_planner::field_domain;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use harmonic::Harmonic;
 pub use path_kind::PathKind;

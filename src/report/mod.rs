@@ -1,4 +1,5 @@
-//! Comparisons of planners, on one problem or on many: for people, for spreadsheets, for programs.
+//! Comparisons of planners, on one problem or on many, and of relaxations ([`Convergence`]): for people, for spreadsheets, for
+//! programs.
 //!
 //! ```text
 //! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)
@@ -13,6 +14,7 @@
 
 mod arena;
 mod comparison;
+mod convergence;
 mod measure;
 mod page;
 mod row;
@@ -24,6 +26,7 @@ mod table;
 mod words;
 
 pub use comparison::Comparison;
+pub use convergence::{Convergence, Course, FactorScan, Point, Setup, StrengthScan, convergence};
 pub use measure::Measure;
 pub use page::{Overlay, Page, Picture, Spot};
 pub use row::{Family, OtherPath, Row};

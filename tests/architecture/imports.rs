@@ -28,7 +28,7 @@ const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ("motion", &["geometry", "space", "model", "check"]),
     ("engine", &["geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion"]),
     ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine"]),
-    ("report", &["geometry", "space", "model", "planner", "check", "motion", "engine"]),
+    ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
     (
         "cli",

@@ -7,16 +7,20 @@
 //! potential is given, not sought.
 
 mod descent;
+mod direct;
 mod domain;
 mod equation;
 mod relaxation;
 mod stencil;
 mod stopping;
 mod sweeps;
+mod trace;
 
 pub use descent::{Slope, Stuck, descend};
+pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};
 pub use relaxation::{Factor, Lines, Order, Precision, Relaxation, Scan, Scheme};
 pub use stopping::{Convergence, Measure, Stopping};
-pub use sweeps::{RelaxError, Relaxed, relax, relax_from};
+pub use sweeps::{RelaxError, Relaxed, Watched, relax, relax_from, relax_watched};
+pub use trace::{Ending, Sample, Trace, trace};

@@ -37,6 +37,11 @@ impl Weighted {
         });
         Self(weights.collect())
     }
+
+    /// Those of the unknown at `position`, in the order of its neighbours.
+    pub fn at(&self, position: usize) -> [f64; 4] {
+        self.0[position]
+    }
 }
 
 impl Stencil for Weighted {

@@ -116,6 +116,33 @@ pub fn relax_from(
     stopping: &Stopping,
     start: Vec<f64>,
 ) -> Result<Relaxed, RelaxError> {
+    relax_watched(domain, equation, relaxation, stopping, start, &mut |_| {})
+}
+
+/// The values after a sweep, while a field is relaxed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Watched<'a> {
+    /// The stage, from 0: with preferences 0 is the harmonic field, 1 that with them.
+    pub stage: usize,
+    /// Sweeps of this stage so far; 0 before the first.
+    pub sweep: usize,
+    /// One a cell.
+    pub values: &'a [f64],
+}
+
+/// As [`relax_from`], and `watch` sees the values before the first sweep of each stage and after every one. What it sees may be
+/// no numbers any more, where the relaxation diverges.
+///
+/// # Errors
+/// As [`relax_from`].
+pub fn relax_watched(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+    watch: &mut dyn FnMut(Watched),
+) -> Result<Relaxed, RelaxError> {
     if let Some(refusal) = equation.refusal(domain) {
         return Err(RelaxError::Refused(refusal));
     }
@@ -131,7 +158,7 @@ pub fn relax_from(
     {
         return Err(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
     }
-    let mut engine = Engine::new(domain, equation, relaxation, stopping, start);
+    let mut engine = Engine::new(domain, equation, relaxation, stopping, start, watch);
     match equation {
         Equation::Harmonic => engine.harmonic()?,
         Equation::Oriented { direction, epsilon, difference } => {
@@ -188,6 +215,7 @@ struct Engine<'a> {
     /// Places of their neighbours' values.
     around: Vec<[u32; 4]>,
     stages: Vec<Convergence>,
+    watch: &'a mut dyn FnMut(Watched),
 }
 
 impl<'a> Engine<'a> {
@@ -197,6 +225,7 @@ impl<'a> Engine<'a> {
         relaxation: &'a Relaxation,
         stopping: &'a Stopping,
         start: Vec<f64>,
+        watch: &'a mut dyn FnMut(Watched),
     ) -> Self {
         let kinds = domain.kinds();
         let limit = kinds.len() as u32;
@@ -218,7 +247,7 @@ impl<'a> Engine<'a> {
         }
         values.push(domain.levels().obstacle);
         let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
-        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new() }
+        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
     }
 
     fn harmonic(&mut self) -> Result<(), RelaxError> {
@@ -255,6 +284,7 @@ impl<'a> Engine<'a> {
         let mut next = vec![0.0; if passes.is_empty() { self.unknowns.len() } else { 0 }];
         let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: self.unknowns.is_empty() };
         let mut before = f64::INFINITY;
+        self.show(0);
         while !stage.converged && stage.sweeps < stopping.max_sweeps {
             checkpoint();
             let total = match passes.len() {
@@ -262,6 +292,7 @@ impl<'a> Engine<'a> {
                 count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),
             };
             stage.sweeps += 1;
+            self.show(stage.sweeps);
             stage.change = if stopping.measure == Measure::DifferenceOfSums { (total - before).abs() } else { total };
             before = total;
             stage.converged = stage.change < stopping.below || total == 0.0;
@@ -271,6 +302,12 @@ impl<'a> Engine<'a> {
         }
         self.stages.push(stage);
         Ok(())
+    }
+
+    fn show(&mut self, sweep: usize) {
+        // Without the last, which is what lies beyond limits.
+        let values = &self.values[..self.values.len() - 1];
+        (self.watch)(Watched { stage: self.stages.len(), sweep, values });
     }
 
     fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> f64 {

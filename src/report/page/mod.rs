@@ -3,10 +3,13 @@
 
 mod axis;
 mod boxes;
+mod convergence;
 mod markup;
 mod outcomes;
 mod overlay;
 
+pub(super) use axis::Axis;
+pub(super) use markup::number;
 pub use overlay::{Overlay, Spot};
 
 use super::measure::Measure;
@@ -43,15 +46,7 @@ impl Page<'_> {
     #[must_use]
     pub fn html(&self) -> String {
         let study = self.study;
-        let mut html = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
-             <meta name=\"color-scheme\" content=\"light dark\"/>\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
-             <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
-            markup(&study.title),
-            markup(&self.subtitle())
-        );
+        let mut html = head(&study.title, &self.subtitle());
         for alarm in study.alarms() {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
@@ -62,8 +57,7 @@ impl Page<'_> {
         html += &section("Distributions", &self.charts());
         html += &self.ways();
         html += &self.tables();
-        html += &format!("<footer>{HOW}</footer>\n</main>\n</body>\n</html>\n");
-        html
+        html + &foot(HOW)
     }
 
     fn subtitle(&self) -> String {
@@ -143,6 +137,24 @@ impl Page<'_> {
         }
         section("Tables", &html)
     }
+}
+
+/// What a page begins with.
+fn head(title: &str, subtitle: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <meta name=\"color-scheme\" content=\"light dark\"/>\n\
+         <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src 'unsafe-inline'\"/>\n\
+         <title>{0}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
+        markup(title),
+        markup(subtitle)
+    )
+}
+
+/// What it ends with, after words on how its numbers came about, as HTML.
+fn foot(how: &str) -> String {
+    format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
 }
 
 /// More problems than this are folded away.

@@ -1,0 +1,200 @@
+//! `cplan converge`: how relaxations converge on a world's grid.
+
+use super::DONE;
+use super::args::{Files, QueryArgs};
+use super::failure::Failure;
+use super::field_args::{LimitsName, OrderName, direction, finite, positive};
+use super::sinks::{self, Sink};
+use crate::engine::{FieldProblem, Problem};
+use crate::field::{Difference, Direction, Equation, Measure, Stopping};
+use crate::input;
+use crate::motion::{Format, check_writable, write_whole_set};
+use crate::output::title_of;
+use crate::planner::EquationChoice;
+use crate::report::{Convergence, Setup, convergence};
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+/// Arguments of `converge`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Jacobi's, weighted Jacobi's (0.8), Gauss-Seidel's and SOR's relaxations (the latter row by row, from the four corners in turn,
+red-black; SOR by the formula for empty rectangles) are measured on the cells of the harmonic planner: obstacles 0, goals 1, free
+cells from 0. Equations: harmonic; oriented by central and upwind differences; and bvp, where the world has preferences. The error is
+against the solution by elimination. What diverges is said to diverge.
+
+Examples:
+  cplan converge robots/planar_2r.urdf workspaces/shelf.toml --cells 24
+  cplan converge robots/planar_2r.urdf workspaces/u_trap.toml --cells 24 --epsilon 1 --direction 0,-1 --picture sweeps.svg
+  cplan converge robots/scara.urdf workspaces/scara_cell.toml --cells 16 --order red-black --output sweeps.csv --quiet
+
+Exit codes: 0 measured, 1 bad input or I/O, 2 wrong command line.")]
+pub struct ConvergeArgs {
+    #[command(flatten)]
+    pub files: Files,
+    #[command(flatten)]
+    pub query: QueryArgs,
+    /// Grid cells along each axis. Sweeps grow with its square, but for SOR's.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=256))]
+    pub cells: u32,
+    /// Strength of the drift, per grid cell, of the oriented equations.
+    #[arg(long, value_name = "E", default_value_t = 0.5, value_parser = finite, allow_hyphen_values = true)]
+    pub epsilon: f64,
+    /// Direction of the drift in joint space.
+    #[arg(long, value_name = "v1,v2", default_value = "1,0", value_parser = direction, allow_hyphen_values = true)]
+    pub direction: Direction,
+    /// In which order cells go in the scans over factor and epsilon.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows)]
+    pub order: OrderName,
+    /// What lies beyond joint limits.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = LimitsName::High)]
+    pub limits: LimitsName,
+    /// What of a sweep's changes must fall below the tolerance.
+    #[arg(long, value_enum, value_name = "NAME", default_value_t = MeasureName::Relative)]
+    pub measure: MeasureName,
+    /// Relax until the measure is below this.
+    #[arg(long, value_name = "SIZE", default_value_t = 1e-6, value_parser = positive, allow_hyphen_values = true)]
+    pub tolerance: f64,
+    /// At most so many sweeps.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_sweeps: u32,
+    /// Write all that was measured: .csv (a line a sample) or .json. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Vec<PathBuf>,
+    /// Draw charts of errors and sweeps: .svg, .png or .html (with the tables). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// Print all that was measured as JSON, and nothing else, on stdout.
+    #[arg(long)]
+    pub json: bool,
+    /// No tables, no progress.
+    #[arg(long)]
+    pub quiet: bool,
+}
+
+/// Stopping rules.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MeasureName {
+    /// Greatest change as a part of the value.
+    Relative,
+    /// Greatest change.
+    Greatest,
+    /// Sum of changes.
+    Sum,
+    /// Sum of squared changes.
+    Squares,
+    /// Difference between the sum of changes and that of the sweep before.
+    Sums,
+}
+
+impl From<MeasureName> for Measure {
+    fn from(name: MeasureName) -> Self {
+        match name {
+            MeasureName::Relative => Self::GreatestRelativeChange,
+            MeasureName::Greatest => Self::GreatestChange,
+            MeasureName::Sum => Self::SumOfChange,
+            MeasureName::Squares => Self::SumOfSquares,
+            MeasureName::Sums => Self::DifferenceOfSums,
+        }
+    }
+}
+
+/// Measures, and says what came of it.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
+    let outputs = outputs(&args.output)?;
+    let pictures = sinks::sinks(&[], &args.picture)?;
+    let files = || outputs.iter().map(|output| output.1.as_path()).chain(pictures.iter().map(Sink::path));
+    sinks::distinct(files())?;
+    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
+    sinks::spare_inputs(files())?;
+    loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    let problem = Problem::of_scene(loaded, &args.query.overrides())?;
+    let motion = problem.motion().ok_or_else(|| {
+        let world = args.files.world.display();
+        Failure::Option(format!(
+            "{world}: a world with steps has a field for each of its motions\n  cure: one with a start and a goal"
+        ))
+    })?;
+    let posed = FieldProblem::new(motion, args.cells as usize, args.limits.into()).map_err(Failure::Option)?;
+    let setup = args.setup(title_of(problem.scene()), &posed).map_err(Failure::Option)?;
+    let say = |text: &str| {
+        if !args.quiet {
+            sinks::say(&format!("{text} ..."));
+        }
+    };
+    let measured = convergence(&setup, &mut { say }).map_err(|error| Failure::Option(error.to_string()))?;
+    let mut written = Vec::new();
+    for (is_csv, path) in &outputs {
+        let text = if *is_csv { measured.to_csv() } else { json(&measured)? };
+        written.push((path.clone(), text.into_bytes()));
+    }
+    for sink in &pictures {
+        if let Sink::Picture(format, path) = sink {
+            written.push((path.clone(), format.bytes_of(|| measured.to_svg(), || measured.to_html())?));
+        }
+    }
+    write_whole_set(&written)?;
+    if args.json {
+        sinks::print_json(&json(&measured)?)?;
+    } else if !args.quiet {
+        sinks::tell(&measured.to_text())?;
+    }
+    Ok(DONE)
+}
+
+impl ConvergeArgs {
+    fn setup<'a>(&self, title: String, posed: &'a FieldProblem) -> Result<Setup<'a>, String> {
+        let oriented =
+            |difference| EquationChoice::Oriented { direction: self.direction, epsilon: self.epsilon, difference };
+        let mut choices = vec![
+            ("harmonic", EquationChoice::Harmonic),
+            ("oriented, central", oriented(Difference::Central)),
+            ("oriented, upwind", oriented(Difference::Upwind)),
+        ];
+        if !posed.space.zones.is_empty() {
+            choices.push(("bvp", EquationChoice::Preference { elsewhere: 0.0, difference: Difference::Central }));
+        }
+        let equations = choices.into_iter().map(|(name, choice)| Ok((name.to_owned(), choice.on(&posed.space)?)));
+        let equations: Vec<(String, Equation)> = equations.collect::<Result<_, String>>()?;
+        let in_cells = equations.iter().find_map(|(_, equation)| match equation {
+            Equation::Oriented { direction, .. } => Some(*direction),
+            _ => None,
+        });
+        let stopping =
+            Stopping { measure: self.measure.into(), below: self.tolerance, max_sweeps: self.max_sweeps as usize };
+        Ok(Setup {
+            title,
+            domain: &posed.domain,
+            equations,
+            direction: in_cells.unwrap_or(self.direction),
+            order: self.order.into(),
+            stopping,
+        })
+    }
+}
+
+/// The files of figures, and whether each is CSV.
+///
+/// # Errors
+/// Extensions that are none of ours, and files that cannot be written.
+fn outputs(paths: &[PathBuf]) -> Result<Vec<(bool, PathBuf)>, Failure> {
+    let of = |path: &PathBuf| match Format::from_path(path) {
+        Ok(Format::Csv) => Ok((true, path.clone())),
+        Ok(Format::Json) => Ok((false, path.clone())),
+        _ => {
+            let message = "the name of a file of measurements must end in .csv or .json";
+            Err(Failure::Usage(format!("{}: {message}", path.display())))
+        }
+    };
+    let outputs: Vec<_> = paths.iter().map(of).collect::<Result<_, _>>()?;
+    outputs.iter().try_for_each(|output| check_writable(&output.1))?;
+    Ok(outputs)
+}
+
+fn json(measured: &Convergence) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(&measured.to_json()).map_err(|e| Failure::Option(e.to_string()))?;
+    Ok(text + "\n")
+}

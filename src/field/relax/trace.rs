@@ -1,0 +1,183 @@
+//! How a relaxation converges, sweep by sweep.
+
+use super::{Domain, Equation, RelaxError, Relaxation, Stopping, Watched, relax_watched};
+
+/// How a relaxation ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Ending {
+    /// The stopping rule's measure fell below its bound, in all stages.
+    Converged,
+    /// Neither, after as many sweeps as the rule allows.
+    Unconverged,
+    /// Values grew without bound, or are numbers no more.
+    Diverged,
+}
+
+/// What is measured after a sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The stage, from 0: with preferences 0 is the harmonic field.
+    pub stage: usize,
+    /// Sweeps so far, of all stages together, from 1.
+    pub sweep: usize,
+    /// Sum of `change^2` over all cells.
+    pub squares: f64,
+    /// Greatest `|change| / |value after|` of a cell whose value changed.
+    pub relative: f64,
+    /// Greatest `|value - exact value|` of a cell over the greatest before the first sweep; where the solution is known, and was
+    /// not there at once.
+    pub error: Option<f64>,
+}
+
+/// A relaxation from its start to its end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    /// After every sweep up to the hundredth, from there on after each that is later by a hundredth part, and after the last.
+    /// Sweeps after which a measure is no finite number are left out.
+    pub samples: Vec<Sample>,
+    /// Passes over all cells, of all stages.
+    pub sweeps: usize,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// The share of a sweep's number by which the next sample is later.
+const LATER: f64 = 0.01;
+
+/// Sweeps, counted back from the end in samples, over which [`Trace::rate`] is measured: the last half.
+const SETTLED: f64 = 0.5;
+
+/// Below this error is nothing but rounding, which has no rate.
+const ROUNDING: f64 = 1e-13;
+
+/// Relaxes from `start` and measures as it goes. `exact` is the solution, for the error ([`eliminated`](super::eliminated));
+/// that of an equation with preferences has two stages and no error. It costs about as much again as the relaxation itself.
+///
+/// ```
+/// use cplan::field::*;
+///
+/// // A square without obstacles: Jacobi's error falls by cos(pi / 9) a sweep.
+/// let square = Domain::new([8, 8], vec![Cell::Free; 64], [Boundary::High; 2], Levels::PROBABILITY);
+/// let stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-20, max_sweeps: 1_000 };
+/// let exact = eliminated(&square, &Equation::Harmonic);
+/// let trace = trace(&square, &Equation::Harmonic, &Relaxation::JACOBI, &stopping, vec![1.0; 64], exact.as_deref())?;
+/// assert_eq!(trace.ending, Ending::Converged);
+/// assert!((trace.rate().unwrap() - (std::f64::consts::PI / 9.0).cos()).abs() < 1e-3);
+/// # Ok::<(), RelaxError>(())
+/// ```
+///
+/// # Errors
+/// [`RelaxError::Refused`] alone: that a relaxation diverges is what may be found out.
+pub fn trace(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+    exact: Option<&[f64]>,
+) -> Result<Trace, RelaxError> {
+    let exact = exact.filter(|exact| exact.len() == domain.kinds().len());
+    let mut observer = Observer { exact, ..Observer::default() };
+    let relaxed = relax_watched(domain, equation, relaxation, stopping, start, &mut |seen| observer.see(&seen));
+    let (sweeps, ending) = match relaxed {
+        Ok(field) if field.converged() => (field.sweeps(), Ending::Converged),
+        Ok(field) => (field.sweeps(), Ending::Unconverged),
+        Err(RelaxError::Diverged { .. }) => (observer.sweeps, Ending::Diverged),
+        Err(refused) => return Err(refused),
+    };
+    observer.keep_last();
+    Ok(Trace { samples: observer.samples, sweeps, ending })
+}
+
+impl Trace {
+    /// The factor that a sweep multiplies the error by, in the end: the geometric mean over the last half of the sweeps, as far as
+    /// the error is no rounding. None where the error is not known or there are too few sweeps.
+    #[must_use]
+    pub fn rate(&self) -> Option<f64> {
+        let errors: Vec<(usize, f64)> = self
+            .samples
+            .iter()
+            .filter_map(|sample| Some((sample.sweep, sample.error.filter(|&error| error > ROUNDING)?)))
+            .collect();
+        let &(end, last) = errors.last()?;
+        let from = (SETTLED * end as f64) as usize;
+        let &(begin, first) = errors.iter().find(|(sweep, _)| *sweep >= from)?;
+        // Of a few sweeps nothing has settled.
+        (end > begin + 1).then(|| (last / first).powf(1.0 / (end - begin) as f64))
+    }
+
+    /// The last error that was measured.
+    #[must_use]
+    pub fn error(&self) -> Option<f64> {
+        self.samples.last()?.error
+    }
+}
+
+/// Measures from the values before and after each sweep; it shares no code with the stopping rules.
+#[derive(Default)]
+struct Observer<'a> {
+    exact: Option<&'a [f64]>,
+    before: Vec<f64>,
+    /// The greatest error before the first sweep.
+    first: f64,
+    /// Of stages that have ended.
+    earlier: usize,
+    sweeps: usize,
+    /// Number of the sweep that is sampled next.
+    next: usize,
+    samples: Vec<Sample>,
+    /// Of the last sweep, if it was not kept.
+    last: Option<Sample>,
+}
+
+impl Observer<'_> {
+    fn see(&mut self, seen: &Watched) {
+        if seen.sweep == 0 {
+            // The last sweep of the stage before is its end.
+            self.keep_last();
+            (self.earlier, self.before) = (self.sweeps, seen.values.to_vec());
+            if seen.stage == 0 {
+                self.first = self.exact.map_or(0.0, |exact| greatest_error(exact, seen.values));
+                self.next = 1;
+            }
+            return;
+        }
+        self.sweeps = self.earlier + seen.sweep;
+        let sample = self.measured(seen);
+        self.before.copy_from_slice(seen.values);
+        if self.sweeps < self.next {
+            self.last = sample;
+            return;
+        }
+        self.samples.extend(sample);
+        self.last = None;
+        self.next = self.sweeps + 1 + (LATER * self.sweeps as f64) as usize;
+    }
+
+    fn keep_last(&mut self) {
+        self.samples.extend(self.last.take());
+    }
+
+    /// None if a number is not finite.
+    fn measured(&self, seen: &Watched) -> Option<Sample> {
+        let (mut squares, mut relative) = (0.0, 0.0_f64);
+        for (old, new) in self.before.iter().zip(seen.values) {
+            let change = (new - old).abs();
+            if change != 0.0 {
+                squares += change * change;
+                relative = relative.max(change / new.abs());
+            }
+        }
+        let error = self.exact.filter(|_| self.first > 0.0);
+        let error = error.map(|exact| greatest_error(exact, seen.values) / self.first);
+        let finite = f64::is_finite(squares) && relative.is_finite() && error.is_none_or(f64::is_finite);
+        finite.then_some(Sample { stage: seen.stage, sweep: self.sweeps, squares, relative, error })
+    }
+}
+
+/// Infinite where a value is no number.
+fn greatest_error(exact: &[f64], values: &[f64]) -> f64 {
+    let error = |(exact, value): (&f64, &f64)| (value - exact).abs();
+    let errors = exact.iter().zip(values).map(error);
+    errors.fold(0.0, |greatest: f64, error| if error.is_nan() { f64::INFINITY } else { greatest.max(error) })
+}
