@@ -1,6 +1,6 @@
 //! The field of a motion problem, before anything solves it.
 
-use super::GridSpace;
+use super::{CellCounts, GridSpace};
 use super::admission::Ends;
 use super::rungs::zoned_cells;
 use crate::cspace::ZonedGrid;
@@ -23,7 +23,7 @@ impl FieldProblem {
     /// # Errors
     /// Where start or goal has no free cell near it, or no free cell leads to the goal: why, in words.
     pub fn new(problem: &MotionProblem, cells: usize, limits: Limits) -> Result<Self, String> {
-        let space = zoned_cells(problem, GridSpace::Rows, Some(cells), 0);
+        let space = zoned_cells(problem, GridSpace::Rows, Some(CellCounts::square(cells)), 0);
         let space = space.ok_or_else(|| format!("there is no grid of {cells} x {cells} cells"))?;
         let domain = field_domain(&space.grid, &Ends::new(problem, &space).query, limits)?;
         if !domain.kinds().contains(&Cell::Free) {

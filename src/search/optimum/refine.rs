@@ -243,10 +243,7 @@ fn deepest(scene: &Scene, vicinity: &Vicinity, clearance: f64, ends: [Point; 2],
 /// smooth boundary falls with the square of the width.
 fn pieces(by: f64, allowed: Allowed) -> usize {
     match allowed {
-        Allowed::Depth(depth) => (1.1
-            * ((by.max(0.0) + depth) / depth).sqrt())
-        .ceil()
-        .min(16.0) as usize,
+        Allowed::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,
         Allowed::Detour(_) => 1,
     }
 }
