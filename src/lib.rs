@@ -54,6 +54,7 @@ pub mod check;
 pub mod search;
 pub mod motion;
 pub mod engine;
+pub mod explore;
 pub mod draw;
 pub mod report;
 pub mod output;

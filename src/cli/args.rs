@@ -4,6 +4,7 @@ use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
 use super::converge::ConvergeArgs;
 use super::demo::DemoArgs;
+use super::explore::ExploreArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
@@ -78,6 +79,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
     Converge(ConvergeArgs),
+    /// Plan in a world that is only seen bit by bit: what the sensor has not seen is solid.
+    Explore(ExploreArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.

@@ -7,6 +7,7 @@ mod completions;
 mod converge;
 mod demo;
 mod error_json;
+mod explore;
 mod failure;
 mod field_args;
 mod fresh;
@@ -66,6 +67,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Converge(args)), _) => converge::run(args),
+        (Some(Command::Explore(args)), _) => explore::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),

@@ -18,6 +18,7 @@ mod chart;
 mod color;
 mod copies;
 mod cspace;
+mod exploration;
 mod figure;
 mod frames;
 mod grid;
@@ -34,6 +35,7 @@ mod trace;
 mod view;
 mod workspace;
 
+pub use exploration::exploration_page;
 pub use view::{AxesFrame, Picture, TaskPicture, View, page, shell};
 
 /// Why there is no picture.

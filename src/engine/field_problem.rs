@@ -1,8 +1,8 @@
 //! The field of a motion problem, before anything solves it.
 
-use super::{CellCounts, GridSpace};
 use super::admission::Ends;
 use super::rungs::zoned_cells;
+use super::{CellCounts, GridSpace};
 use crate::cspace::ZonedGrid;
 use crate::field::{Cell, Domain, Limits};
 use crate::model::MotionProblem;

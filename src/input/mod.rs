@@ -19,6 +19,7 @@
 mod help;
 mod ends;
 mod error;
+mod explorable;
 mod group;
 mod identity;
 mod inspection;
@@ -37,6 +38,7 @@ mod problem;
 mod quantity;
 mod requirement;
 mod schema;
+mod sensor;
 mod sequence;
 mod source;
 mod start;
@@ -53,6 +55,7 @@ mod world_map;
 mod wrist;
 
 pub use error::{Diagnostic, DiagnosticKind, InputError};
+pub use explorable::Explorable;
 pub use identity::{FileIdentity, read_from};
 pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,

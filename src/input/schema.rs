@@ -128,6 +128,10 @@ stands_for! {
     UnknownAs, { "type": "string", "enum": ["solid", "free"] }
 }
 stands_for! {
+    /// What a sensor moves with.
+    SensorOn, { "type": "string", "enum": ["tip", "base"] }
+}
+stands_for! {
     /// In which order steps are done.
     DoneIn, { "type": "string", "enum": ["fixed", "free"] }
 }

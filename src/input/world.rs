@@ -9,6 +9,7 @@ use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::quantity::{JointPair, Written};
 use super::schema::{AngleOrLength, HeldAs, NotNegative, Positive, Two};
+use super::sensor::{SensorTable, SensorWishes};
 use super::sequence::{Sequence, write_out};
 use super::source::Source;
 use super::step::{StepReader, StepTable, TaskTable};
@@ -48,6 +49,7 @@ pub struct World {
     pub(super) in_degrees: Vec<JointPair>,
     pub(super) goal: Option<(Goal, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
+    pub(super) sensor: SensorWishes,
     /// With what is to be said of it.
     pub(super) wrist: Option<(Wrist, Option<String>)>,
 }
@@ -70,6 +72,7 @@ impl World {
             in_degrees: Vec::new(),
             goal: None,
             steps: None,
+            sensor: SensorWishes::default(),
             wrist: None,
         }
     }
@@ -153,6 +156,7 @@ pub(super) struct WorldFile {
     #[schemars(with = "Option<GoalTable>")]
     goal: Option<Spanned<Table<GoalTable>>>,
     map: Option<MapTable>,
+    sensor: Option<SensorTable>,
     /// What the arm must not touch.
     #[serde(default)]
     #[schemars(with = "Vec<ObstacleTable>")]
@@ -245,6 +249,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         Ok::<_, Diagnostic>((wrist, table.note(&wrist)))
     });
     let wrist = wrist.transpose()?;
+    let sensor = file.sensor.as_ref().map(|table| table.read(&reader)).transpose()?.unwrap_or_default();
     let payload = file.robot.payload.as_ref().map(|p| object::holding(&reader, p)).transpose()?;
     let pallets = Pallets::read(&reader, &file.pallet)?;
     let held = payload.unwrap_or(Holding::Rigid);
@@ -261,6 +266,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         goal: goal.or(map.goal.filter(|_| steps.is_none()).map(|(tip, at)| (Goal::Tip(tip), at))),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
         steps,
+        sensor,
         wrist,
         robot: file.robot,
         source,

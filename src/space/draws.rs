@@ -1,8 +1,8 @@
-//! Random configurations that follow from a seed.
+//! Random numbers and configurations that follow from a seed.
 
 use super::{Configuration, Topology};
 
-/// A sequence of random configurations, the same on every machine for the same seed.
+/// A sequence of random numbers, the same on every machine for the same seed.
 ///
 /// Sebastiano Vigna's SplitMix64: 64 bits of state. Written out here so that no release of a library can change what a seed
 /// stands for.
@@ -26,7 +26,7 @@ impl Draws {
     }
 
     /// Uniform in `[0, 1)`, a multiple of 2^-53.
-    fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 

@@ -11,7 +11,7 @@ const EVERYWHERE: [&str; 2] = ["cplan_interrupt", "text"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 19] = [
+const MAY_IMPORT: [(&str, &[&str]); 20] = [
     (EVERYWHERE[0], &[]),
     ("cplan_multigrid", &[]),
     ("cplan_harmonic", &["cplan_multigrid"]),
@@ -27,14 +27,15 @@ const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ("search", &["geometry", "space", "model", "check"]),
     ("motion", &["geometry", "space", "model", "check"]),
     ("engine", &["geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion"]),
-    ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine"]),
+    ("explore", &["geometry", "space", "model", "input", "cspace", "field", "check", "motion", "engine"]),
+    ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
     (
         "cli",
         &[
             "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
-            "draw", "report", "output",
+            "explore", "draw", "report", "output",
         ],
     ),
 ];

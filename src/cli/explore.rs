@@ -1,0 +1,266 @@
+//! `cplan explore`: planning in a world that is only seen bit by bit.
+
+use super::args::{Files, QueryArgs};
+use super::failure::Failure;
+use super::planner_args::PlannerArgs;
+use super::sinks::{self, Sink};
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::draw::{self, Picture, View};
+use crate::engine::{CellCounts, Method, Options};
+use crate::explore::{Ending, Exploration, Settings, Strategy, explore, map_description, map_picture};
+use crate::input::{self, Explorable};
+use crate::model::{Scene, Status};
+use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
+use crate::output::{Line, contours, laid_out, title_of};
+use crate::space::{Configuration, Path as JointPath};
+use crate::text::counted;
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `explore`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The world file is what is really there. The arm knows of it what its range sensor has seen ([sensor] in the world file says
+what it is like: on the tip or the base, rays, field of view, range, noise); what it has not seen is solid. Every motion is certified
+within what is known to be free before it begins. It ends at the goal (\"reached\"); or when nothing new can be seen from any
+configuration of the grid that can be reached (\"explored\"); or when it is proven that there is no way in what is known.
+
+Examples:
+  cplan explore robots/planar_2r.urdf workspaces/shelf.toml
+  cplan explore robots/planar_2r.urdf workspaces/shelf.toml --strategy nearest --picture explored.html --map map.yaml
+  cplan explore robots/gantry.urdf workspaces/explore/rooms.toml --strategy harmonic --output explored.json
+
+Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3 proven that the goal cannot be reached, 4 unknown.")]
+pub struct ExploreArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to the nearest place from which
+    /// something new can be seen (the default elsewhere); or up the harmonic potential of all such places.
+    #[arg(long, value_enum, value_name = "NAME")]
+    pub strategy: Option<StrategyName>,
+    /// What plans the ways that are hoped for, where strategy "goal" takes unknown space as free.
+    #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
+    pub planner: Method,
+    #[command(flatten)]
+    pub query: QueryArgs,
+    /// Configurations that count: cells of a grid along both axes of joint space.
+    #[arg(long, value_name = "N|AxB", default_value = "96")]
+    pub grid: CellCounts,
+    /// The world is known within this distance of the arm at first, metres; by default two cells of the map.
+    #[arg(long, value_name = "METRES", value_parser = super::field_args::positive)]
+    pub surveyed: Option<f64>,
+    /// At most so many decisions.
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub decisions: u32,
+    /// Write the exploration: .json, or its whole motion: .csv, .yaml (ROS 2 JointTrajectory). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Vec<PathBuf>,
+    /// Write the map as ROS's map server reads it: FILE.yaml, and FILE.pgm beside it. A world takes it as an obstacle's `image`.
+    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath)]
+    pub map: Option<PathBuf>,
+    /// Draw the world and the whole way: .svg or .png; or .html, a page that plays what is known and seen. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// Print the exploration as JSON, and nothing else, on stdout.
+    #[arg(long)]
+    pub json: bool,
+    /// Say how long decisions took; without it the same input gives the same output.
+    #[arg(long)]
+    pub timings: bool,
+    /// No summary, no progress.
+    #[arg(long)]
+    pub quiet: bool,
+    // Last, because its headings are for all that follows.
+    #[command(flatten)]
+    pub options: PlannerArgs,
+}
+
+/// Strategies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum StrategyName {
+    Goal,
+    Nearest,
+    Harmonic,
+}
+
+impl From<StrategyName> for Strategy {
+    fn from(name: StrategyName) -> Self {
+        match name {
+            StrategyName::Goal => Self::Goal,
+            StrategyName::Nearest => Self::Nearest,
+            StrategyName::Harmonic => Self::Harmonic,
+        }
+    }
+}
+
+/// Explores, and says what came of it.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
+    let sinks = sinks::sinks(&args.output, &args.picture)?;
+    if let Some(Sink::Result(_, path)) = sinks.iter().find(|sink| !is_known(sink)) {
+        let path = path.display();
+        return Err(Failure::Usage(format!("{path}: an exploration is written as .json, .csv or .yaml")));
+    }
+    let map = args.map.as_deref().map(map_files).transpose()?;
+    let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
+    sinks::distinct(files())?;
+    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&args.query.overrides())?;
+    sinks::spare_inputs(files())?;
+    world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
+    let settings = args.settings(world.goals.is_some())?;
+    let mut say = |text: &str| {
+        if !args.quiet {
+            sinks::say(&format!("{text} ..."));
+        }
+    };
+    let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
+        .map_err(|error| Failure::Option(error.to_string()))?;
+    let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
+    let json = || done.to_json(joints.each_ref().map(String::as_str), &world.sensor, args.timings).to_string() + "\n";
+    let mut files = Vec::new();
+    for sink in &sinks {
+        match sink {
+            Sink::Result(Format::Json, path) => files.push((path.clone(), json().into_bytes())),
+            Sink::Result(format, path) => match &done.trajectory {
+                None => sinks::warn_unwritten(path),
+                Some(trajectory) => {
+                    let text = match format {
+                        Format::Csv => csv(&joints, trajectory, false, None),
+                        _ => ros_yaml(&JointMotion::new(&world.robot.joints, trajectory, false)),
+                    };
+                    files.push((path.clone(), text.into_bytes()));
+                }
+            },
+            Sink::Picture(format, path) => {
+                let view = || view(&world, &done);
+                let page = || draw::exploration_page(&title_of(&world.scene), &world.scene, &world.sensor, &done);
+                files.push((path.clone(), format.bytes_of(|| draw::svg(&view()), page)?));
+            }
+        }
+    }
+    if let Some([description, picture]) = &map {
+        let name = picture.file_name().unwrap_or_default().to_string_lossy();
+        files.push((picture.clone(), map_picture(&done.survey)));
+        files.push((description.clone(), map_description(&done.survey, &name).into_bytes()));
+    }
+    write_whole_set(&files)?;
+    if args.json {
+        sinks::print_json(&json())?;
+    } else if !args.quiet {
+        sinks::tell(&summary(&world, &done, args.timings))?;
+    }
+    Ok(match done.ending {
+        Ending::Reached | Ending::Explored { .. } => DONE,
+        Ending::Unreachable(_) => INFEASIBLE,
+        Ending::Unknown(_) => UNKNOWN,
+    })
+}
+
+impl ExploreArgs {
+    fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
+        let usual = Settings::default();
+        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::Nearest }, Strategy::from);
+        let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
+        if let Some(error) = self.grid.error() {
+            return Err(Failure::Usage(format!("--grid: {error}")));
+        }
+        Ok(Settings {
+            strategy,
+            cells: self.grid.0,
+            surveyed: self.surveyed,
+            decisions: self.decisions as usize,
+            options: Options { planner, levels: self.options.levels(), ..usual.options },
+        })
+    }
+}
+
+/// Whether an exploration can be written so.
+fn is_known(sink: &Sink) -> bool {
+    matches!(sink, Sink::Result(Format::Json | Format::Csv | Format::Yaml, _) | Sink::Picture(..))
+}
+
+/// The description and the picture of a map.
+fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
+    if !matches!(description.extension().and_then(|e| e.to_str()), Some("yaml" | "yml")) {
+        return Err(Failure::Usage(format!("{}: a map's name must end in .yaml", description.display())));
+    }
+    let files = [description.to_path_buf(), description.with_extension("pgm")];
+    files.iter().try_for_each(|file| check_writable(file))?;
+    Ok(files)
+}
+
+/// The whole way, all legs one after the other.
+fn way(done: &Exploration, start: Configuration) -> JointPath {
+    let legs = done.legs.iter().flat_map(|leg| leg.curve.curve().path().waypoints().iter().copied());
+    JointPath::new(std::iter::once(start).chain(legs).collect())
+}
+
+fn view(world: &Explorable, done: &Exploration) -> View {
+    let scene: &Scene = &world.scene;
+    let way = way(done, world.start);
+    let status = match done.ending {
+        Ending::Reached | Ending::Explored { .. } => Status::Found,
+        Ending::Unreachable(_) => Status::Infeasible,
+        Ending::Unknown(_) => Status::Unknown,
+    };
+    View::of_picture(&Picture {
+        title: vec![
+            title_of(scene),
+            format!("{} after {}", done.ending.name(), counted(done.readings.len(), "reading")),
+        ],
+        status: done.ending.name().into(),
+        ending: Some(status),
+        facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        goals: world.goals.as_ref().map_or(&[], |goals| goals.pieces()),
+        paths: vec![("way".to_owned(), &way)],
+        trajectory: done.trajectory.as_ref(),
+        c_obstacles: &contours(scene),
+        ..Picture::new(scene, world.start)
+    })
+}
+
+/// What there is to say, by name.
+fn facts(done: &Exploration) -> Vec<Line> {
+    let map = done.survey.map();
+    let [free, occupied, unknown] = done.survey.counts();
+    let seen = 100.0 * (free + occupied) as f64 / map.cells.len() as f64;
+    let [width, height] = map.size;
+    let duration = done.trajectory.as_ref().map_or(0.0, |trajectory| trajectory.duration());
+    let [rows, columns] = done.cells;
+    vec![
+        (
+            "map",
+            format!(
+                "{width} x {height} cells of {} m: {free} free, {occupied} occupied, {unknown} unknown",
+                map.resolution
+            ),
+        ),
+        ("seen", format!("{seen:.1} % of the map")),
+        ("grid", format!("{rows} x {columns} configurations")),
+        ("way", format!("{:.4} (rad, m), {duration:.3} s, {}", done.length, counted(done.legs.len(), "leg"))),
+        ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
+    ]
+}
+
+fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
+    let ending = match &done.ending {
+        Ending::Reached => "reached: the arm is at the goal".to_owned(),
+        Ending::Explored { configurations } => {
+            format!(
+                "explored: nothing new can be seen from any of the {configurations} configurations that can be reached"
+            )
+        }
+        Ending::Unreachable(why) => format!("unreachable: {why}"),
+        Ending::Unknown(why) => format!("unknown: {why}"),
+    };
+    let mut lines: Vec<Line> = facts(done);
+    if timed {
+        let mut times: Vec<f64> = done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
+        times.sort_unstable_by(f64::total_cmp);
+        let [median, longest] = [times[times.len() / 2], times[times.len() - 1]];
+        lines.push(("decision", format!("{median:.1} ms (median), {longest:.1} ms (longest)")));
+    }
+    format!("{}\n{ending}\n{}", title_of(&world.scene), laid_out(&lines))
+}

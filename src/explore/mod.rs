@@ -1,0 +1,48 @@
+//! Planning in a world that is only seen bit by bit.
+//!
+//! The world that is given is what is really there. The explorer knows of it what its [`Sensor`](crate::model::Sensor) has
+//! seen, as a map of cells; what it has not seen is solid. Every motion is certified within what is known to be free before it is
+//! begun, so the arm stops before it enters what it has not seen; and it is certified once more against the world itself by who
+//! plays it.
+//!
+//! ```text
+//! read -> known map -> scene, grid of configurations -> where to? -> certified leg -> on the way: read ...
+//! ```
+//!
+//! # How it ends
+//!
+//! - *Reached*: the goal.
+//! - *Explored*: from no configuration of the grid that can be reached would a reading show anything new. That is decided, not
+//!   guessed: rays are as wide as the cells that they cross, so what a reading adds is known beforehand up to the first unknown
+//!   cell of each ray ([`Survey::promise`]).
+//! - *Unreachable*: among what is known to be solid there is no way to the goal, proven, whatever lies in what was not seen; or
+//!   nothing new can be seen, and there is none in what is known, proven.
+//! - *Unknown*: none of these within the decisions allowed, or the grid is too coarse for the way.
+//!
+//! ```
+//! use cplan::explore::{Ending, Settings, explore};
+//! use cplan::model::{Scene, Sensor};
+//! use cplan::{Arm, Configuration, Obstacle, Workspace};
+//!
+//! let arm = Arm::rr([0.6, 0.4], 0.04)?;
+//! let post = Obstacle::circle("post", [0.5, 0.6], 0.1)?;
+//! let scene = Scene::new(arm, Workspace::new([post]))?;
+//! let sensor = Sensor { cell: 0.05, ..Sensor::usual(scene.arm()) };
+//! let settings = Settings { cells: [48, 48], ..Settings::default() };
+//! let exploration = explore(&scene, &sensor, Configuration::new(-2.0, 0.5), None, &settings, &mut |_| ())?;
+//! assert!(matches!(exploration.ending, Ending::Explored { .. }));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod explorer;
+mod json;
+mod map_files;
+mod outlook;
+mod result;
+mod roads;
+mod survey;
+
+pub use explorer::{ExploreError, Settings, Strategy, explore};
+pub use map_files::{map_description, map_picture};
+pub use result::{Ending, Exploration, Leg, Reading};
+pub use survey::{MOST_CELLS, Survey};

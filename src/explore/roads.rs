@@ -1,0 +1,149 @@
+//! Ways over a grid of configurations, and the paths that they become.
+
+use crate::check::certify;
+use crate::cspace::Grid;
+use crate::field::{FreeCells, Neighborhood};
+use crate::geometry::OpenList;
+use crate::interrupt::checkpoint;
+use crate::model::Scene;
+use crate::space::{Configuration, Path};
+use std::collections::BTreeSet;
+
+/// Steps from a cell's middle to another's that are not free, though both ends are.
+pub type Closed = BTreeSet<[usize; 2]>;
+
+/// The cells that can be reached from a configuration, and the shortest ways there, from cell to cell.
+#[derive(Debug)]
+pub struct Reach {
+    start: Configuration,
+    /// Costs; infinite where no way leads.
+    costs: Vec<f64>,
+    before: Vec<u32>,
+    /// In the order of their costs.
+    pub cells: Vec<usize>,
+}
+
+/// No cell.
+const NONE: u32 = u32::MAX;
+
+impl Reach {
+    /// From the cell `first`, which `start` is joined to. Stops at the first cell for which `is_enough`.
+    pub fn new(
+        grid: &Grid,
+        closed: &Closed,
+        start: Configuration,
+        first: usize,
+        mut is_enough: impl FnMut(usize) -> bool,
+    ) -> Self {
+        let free = FreeCells::new(grid);
+        let count = grid.blocked.len();
+        let mut reach = Self { start, costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
+        let mut open = OpenList::default();
+        reach.costs[first] = grid.topology.distance(start, grid.center(first));
+        open.push(reach.costs[first], first);
+        while let Some((cost, cell)) = open.pop() {
+            checkpoint();
+            if cost > reach.costs[cell] {
+                continue;
+            }
+            reach.cells.push(cell);
+            if is_enough(cell) {
+                break;
+            }
+            let here = grid.center(cell);
+            for step in free.moves(cell, Neighborhood::Eight) {
+                let cost = cost + grid.topology.distance(here, grid.center(step.to));
+                if cost < reach.costs[step.to] && !closed.contains(&[cell, step.to]) {
+                    reach.costs[step.to] = cost;
+                    reach.before[step.to] = cell as u32;
+                    open.push(cost, step.to);
+                }
+            }
+        }
+        reach
+    }
+
+    /// Length of the way to a cell; infinite where none leads.
+    pub fn cost(&self, cell: usize) -> f64 {
+        self.costs[cell]
+    }
+
+    /// The cells on the way to one, itself last.
+    pub fn way(&self, cell: usize) -> Vec<usize> {
+        let mut way = vec![cell];
+        while let Some(&last) = way.last().filter(|&&last| self.before[last] != NONE) {
+            way.push(self.before[last] as usize);
+        }
+        way.reverse();
+        way
+    }
+
+    /// The configurations on a way from cell to cell, the start first, unwrapped.
+    pub fn unwrapped(&self, grid: &Grid, way: &[usize]) -> Vec<Configuration> {
+        let mut at = vec![self.start];
+        for &cell in way {
+            at.push(grid.topology.lift(grid.center(cell), at[at.len() - 1]));
+        }
+        at.dedup();
+        at
+    }
+}
+
+/// The cell whose middle a configuration can go to straight: of those next to it the nearest.
+pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Option<usize> {
+    let middle = grid.locate(q);
+    let beside = std::iter::once(middle).chain(grid.neighbors(middle));
+    let mut near: Vec<usize> = beside.flat_map(|cell| std::iter::once(cell).chain(grid.neighbors(cell))).collect();
+    near.sort_unstable();
+    near.dedup();
+    near.retain(|&cell| !grid.blocked[cell]);
+    near.sort_by(|a, b| {
+        let far = |cell: usize| grid.topology.distance(q, grid.center(cell));
+        far(*a).total_cmp(&far(*b)).then(a.cmp(b))
+    });
+    near.into_iter().find(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)))
+}
+
+/// Whether a straight motion is certified free.
+pub fn is_free(scene: &Scene, from: Configuration, to: Configuration) -> bool {
+    certify(scene, Path::new(vec![from, to]), scene.workspace().clearance).is_ok()
+}
+
+/// Leaves out waypoints: each time the farthest is gone to straight that doubling steps, then halves, find free. The number of the
+/// first step that is not free, if one is not.
+pub fn tightened(scene: &Scene, waypoints: &[Configuration]) -> Result<Path, usize> {
+    let mut kept = vec![waypoints[0]];
+    let mut at = 0;
+    while at + 1 < waypoints.len() {
+        let goes = |to: usize| is_free(scene, waypoints[at], waypoints[to]);
+        if !goes(at + 1) {
+            return Err(at);
+        }
+        let (mut good, mut bad) = (at + 1, waypoints.len());
+        let mut step = 2;
+        while good + 1 < bad {
+            let next = if bad == waypoints.len() { (at + step).min(bad - 1) } else { usize::midpoint(good, bad) };
+            if goes(next) {
+                good = next
+            } else {
+                bad = next
+            }
+            step *= 2;
+            if good == waypoints.len() - 1 {
+                break;
+            }
+        }
+        kept.push(waypoints[good]);
+        at = good;
+    }
+    Ok(Path::new(kept))
+}
+
+/// Configurations along a path, no farther apart than `step`, its corners among them; the start is not.
+pub fn places(path: &Path, step: f64) -> Vec<Configuration> {
+    let pieces = path.segments().flat_map(|(from, to)| {
+        let count = ((to - from).norm() / step).ceil().max(1.0) as usize;
+        (1..=count).map(move |k| if k == count { to } else { from + (to - from) * (k as f64 / count as f64) })
+    });
+    pieces.collect()
+}

@@ -1,0 +1,286 @@
+//! What is known of a world, cell by cell, and what really is there.
+
+use crate::geometry::{Convex, Point, Vector, shapes_meet};
+use crate::input::{Occupancy, OccupancyMap};
+use crate::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
+use crate::space::{Configuration, Draws};
+use nalgebra::{Isometry2, Vector2};
+
+/// Cells of the largest map.
+pub const MOST_CELLS: usize = 1 << 22;
+
+/// Margin of the map about what the arm can touch, in cells.
+const MARGIN: f64 = 2.0;
+
+/// A map that fills up with what a sensor sees. What was said of a cell once stays so.
+///
+/// The sensor's rays are as wide as the cells that they cross: one ends at the first cell that anything is in, and the cells
+/// before it are empty. So what is known to be free is free, whole cells of it; and what a reading would add to the map is known
+/// beforehand up to the first unknown cell of each ray.
+#[derive(Debug, Clone)]
+pub struct Survey {
+    known: OccupancyMap,
+    /// Whether anything is in a cell.
+    truth: Vec<bool>,
+}
+
+/// A cell that a ray crosses.
+struct Crossing {
+    cell: usize,
+    /// Distances at which the ray enters and leaves it, metres.
+    enters: f64,
+    leaves: f64,
+}
+
+impl Survey {
+    /// Knows nothing yet of the obstacles of a scene. None if the map would have more than [`MOST_CELLS`].
+    #[must_use]
+    pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
+        let [low, high] = extent(scene.arm());
+        let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
+        if !(size[0] * size[1] <= MOST_CELLS as f64) {
+            return None;
+        }
+        // The middle of the map is that of what the arm can touch.
+        let origin = [0, 1].map(|k| f64::midpoint(low[k], high[k]) - size[k] * cell / 2.0);
+        let size = size.map(|n| n as usize);
+        let known = OccupancyMap {
+            size,
+            resolution: cell,
+            pose: Isometry2::new(Vector2::from(origin), 0.0),
+            cells: vec![Occupancy::Unknown; size[0] * size[1]],
+        };
+        let mut survey = Self { truth: vec![false; known.cells.len()], known };
+        let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
+        let occupied: Vec<usize> = pieces.flat_map(|piece| survey.touched(piece, 0.0)).collect();
+        occupied.into_iter().for_each(|cell| survey.truth[cell] = true);
+        Some(survey)
+    }
+
+    /// What is known.
+    #[must_use]
+    pub fn map(&self) -> &OccupancyMap {
+        &self.known
+    }
+
+    /// How many cells are free, occupied and unknown.
+    #[must_use]
+    pub fn counts(&self) -> [usize; 3] {
+        let count = |label| self.known.cells.iter().filter(|&&cell| cell == label).count();
+        [count(Occupancy::Free), count(Occupancy::Occupied), count(Occupancy::Unknown)]
+    }
+
+    /// The corner of the map from which cells are counted.
+    fn origin(&self) -> Vector {
+        self.known.pose.translation.vector
+    }
+
+    /// The number of a cell, by column from the left and row from below.
+    fn index(&self, x: usize, y: usize) -> usize {
+        (self.known.size[1] - 1 - y) * self.known.size[0] + x
+    }
+
+    /// The cells that a shape meets, grown by a margin.
+    fn touched(&self, shape: &Convex, margin: f64) -> Vec<usize> {
+        let cell = self.known.resolution;
+        let around = shape.radius() + margin;
+        let local: Vec<Vector> = shape.core().iter().map(|p| p.coords - self.origin()).collect();
+        let range = |k: usize| {
+            let least = local.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min) - around;
+            let most = local.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) + around;
+            // A cell more to either side: rounding must not lose one.
+            let at = |value: f64| (value / cell).floor();
+            (at(least) - 1.0).max(0.0) as usize..((at(most) + 2.0).max(0.0) as usize).min(self.known.size[k])
+        };
+        let grown = Convex::trusted(shape.core().to_vec(), around);
+        let mut touched = Vec::new();
+        for y in range(1) {
+            for x in range(0) {
+                let at = |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * cell);
+                let square = vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
+                if shapes_meet(&Convex::trusted(square, 0.0), &grown) {
+                    touched.push(self.index(x, y));
+                }
+            }
+        }
+        touched
+    }
+
+    /// The cells that the arm meets at `q`, grown by a margin; in ascending order.
+    fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+        let poses = arm.poses(q);
+        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| part.shape.at(&poses[link])));
+        let mut cells: Vec<usize> = parts.flat_map(|shape| self.touched(&shape, margin)).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+
+    /// The cells that a ray crosses as far as the sensor sees, those whole that it leaves before that, in order.
+    ///
+    /// From side to side (Amanatides, Woo 1987).
+    fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
+        let cell = self.known.resolution;
+        let (size, local) = (self.known.size, (from.coords - self.origin()) / cell);
+        let ahead = [angle.cos(), angle.sin()];
+        let step = ahead.map(|d| if d > 0.0 { 1_i64 } else { -1 });
+        // Distance from one side across to the next.
+        let across = ahead.map(|d| cell / d.abs());
+        let mut at = [local.x, local.y].map(|v| v.floor() as i64);
+        let mut next = [0, 1].map(|k| {
+            let to_side = if step[k] > 0 { at[k] as f64 + 1.0 - local[k] } else { local[k] - at[k] as f64 };
+            if ahead[k] == 0.0 { f64::INFINITY } else { to_side * across[k] }
+        });
+        let mut enters = 0.0;
+        std::iter::from_fn(move || {
+            let inside = (0..2).all(|k| 0 <= at[k] && at[k] < size[k] as i64);
+            let k = usize::from(next[1] < next[0]);
+            let leaves = next[k];
+            if !inside || leaves > range {
+                return None;
+            }
+            let crossing = Crossing { cell: (size[1] - 1 - at[1] as usize) * size[0] + at[0] as usize, enters, leaves };
+            enters = leaves;
+            at[k] += step[k];
+            next[k] += across[k];
+            Some(crossing)
+        })
+    }
+
+    /// The first unknown cell that a reading at `q` would come to; none if it would show nothing new.
+    #[must_use]
+    pub fn promise(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> Option<usize> {
+        self.first_unknown(sensor, arm, q).next()
+    }
+
+    /// Of each ray of a reading at `q` the first cell that is not known to be free, if it is unknown.
+    fn first_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
+        let (from, ahead) = sensor.pose(arm, q.into());
+        sensor.rays(ahead).filter_map(move |angle| {
+            let seen = self.crossings(from, angle, sensor.range).map(|crossing| crossing.cell);
+            let mut seen = seen.skip_while(|&cell| self.known.cells[cell] == Occupancy::Free);
+            seen.next().filter(|&cell| self.known.cells[cell] == Occupancy::Unknown)
+        })
+    }
+
+    /// Whether a reading at `q` would show any of some unknown cells, in ascending order: one that a ray comes to first.
+    #[must_use]
+    pub fn shows_any(&self, sensor: &Sensor, arm: &Arm, q: Configuration, wanted: &[usize]) -> bool {
+        self.first_unknown(sensor, arm, q).any(|cell| wanted.binary_search(&cell).is_ok())
+    }
+
+    /// The unknown cells that the arm meets at `q`, in ascending order.
+    #[must_use]
+    pub fn unknown_at(&self, arm: &Arm, q: Configuration) -> Vec<usize> {
+        let mut cells = self.under(arm, q, 0.0);
+        cells.retain(|&cell| self.is_unknown(cell));
+        cells
+    }
+
+    /// Whether nothing is known of a cell.
+    #[must_use]
+    pub fn is_unknown(&self, cell: usize) -> bool {
+        self.known.cells[cell] == Occupancy::Unknown
+    }
+
+    /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.
+    ///
+    /// Of a distance that may be wrong only what holds whatever the error is noted: cells that end before it less the greatest
+    /// error are free, and one that all possible ends lie in is occupied.
+    pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut Draws) -> Vec<usize> {
+        let (from, ahead) = sensor.pose(arm, q.into());
+        let mut new = Vec::new();
+        for angle in sensor.rays(ahead) {
+            let crossings: Vec<Crossing> = self.crossings(from, angle, sensor.range).collect();
+            let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
+            let hit = crossings.iter().position(|crossing| self.truth[crossing.cell]);
+            let told = hit.map_or(f64::INFINITY, |hit| crossings[hit].enters + error);
+            for (k, Crossing { cell, enters, leaves }) in crossings.into_iter().enumerate() {
+                let is_first = hit == Some(k);
+                let label = if hit.is_none_or(|hit| k < hit) && leaves <= told - sensor.noise {
+                    Occupancy::Free
+                } else if is_first
+                    && (sensor.noise == 0.0 || enters <= told - sensor.noise && told + sensor.noise < leaves)
+                {
+                    Occupancy::Occupied
+                } else {
+                    continue;
+                };
+                if self.is_unknown(cell) {
+                    self.known.cells[cell] = label;
+                    new.push(cell);
+                }
+            }
+        }
+        new
+    }
+
+    /// Notes what is in the cells that the arm meets at `q`, and in those about them, as far as `margin`: whoever puts an arm somewhere
+    /// has looked where it stands.
+    pub fn survey_about(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+        let mut new = self.under(arm, q, margin);
+        new.retain(|&cell| self.is_unknown(cell));
+        for &cell in &new {
+            self.known.cells[cell] = if self.truth[cell] { Occupancy::Occupied } else { Occupancy::Free };
+        }
+        new
+    }
+
+    /// The arm among all that is not known to be free; or, with `unknown_is_free`, among what is known to be there.
+    #[must_use]
+    pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
+        let name = if unknown_is_free { "seen" } else { "not seen to be free" };
+        let pieces = self.known.pieces(unknown_is_free, usize::MAX).unwrap_or_default();
+        let solid = Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+        let obstacles = if solid.pieces.is_empty() { Vec::new() } else { vec![solid] };
+        let workspace = Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new() };
+        Scene::trusted(arm.clone(), workspace)
+    }
+}
+
+/// The corners of a rectangle that holds all that an arm can touch.
+fn extent(arm: &Arm) -> [Point; 2] {
+    let [first, second] = &arm.joints;
+    let discs: Vec<(Point, f64)> = match first.joint_type {
+        JointType::Revolute { .. } => {
+            let slides = match second.joint_type {
+                JointType::Revolute { .. } => 0.0,
+                JointType::Prismatic { .. } => farthest(second.range.domain()),
+            };
+            vec![(arm.base, arm.reach() + slides)]
+        }
+        JointType::Prismatic { .. } => {
+            let (least, greatest) = first.range.domain();
+            let ends =
+                |turns: bool| if turns { vec![0.0] } else { [second.range.domain()].map(|(a, b)| [a, b]).concat() };
+            let turns = matches!(second.joint_type, JointType::Revolute { .. });
+            let values = [least, greatest].into_iter().flat_map(|q1| ends(turns).into_iter().map(move |q2| [q1, q2]));
+            values
+                .flat_map(|q| {
+                    let poses = arm.poses(q.into());
+                    let elbow = arm.elbow_at(q[0]);
+                    let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
+                    parts
+                        .flat_map(|(link, part)| {
+                            let shape = part.shape.at(&poses[link]);
+                            if turns && link == 1 {
+                                return vec![(elbow, shape.reach_from(elbow))];
+                            }
+                            shape.core().iter().map(|p| (*p, shape.radius())).collect()
+                        })
+                        .collect::<Vec<_>>()
+                })
+                .collect()
+        }
+    };
+    let side = |k: usize, sign: f64| {
+        let values = discs.iter().map(|(center, radius)| sign * center[k] + radius);
+        sign * values.fold(f64::NEG_INFINITY, f64::max)
+    };
+    [-1.0, 1.0].map(|sign| Point::new(side(0, sign), side(1, sign)))
+}
+
+/// The greatest distance of an interval's values from 0.
+fn farthest((least, greatest): (f64, f64)) -> f64 {
+    least.abs().max(greatest.abs())
+}

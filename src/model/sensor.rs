@@ -1,0 +1,99 @@
+//! A range sensor on an arm.
+
+use super::Arm;
+use crate::geometry::{Point, Vector};
+use serde::Serialize;
+use std::f64::consts::TAU;
+
+/// What a sensor moves with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mount {
+    /// The tip. Straight ahead is from link 2's origin to the tip (link 2's x axis where they coincide).
+    Tip,
+    /// Nothing: it stands on the base. Straight ahead is the plane's x axis.
+    Base,
+}
+
+/// A range sensor: rays in a fan, each of which tells how far it goes before it meets something. The arm does not stand in
+/// its way.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Sensor {
+    /// What it moves with.
+    pub mount: Mount,
+    /// Number of rays, at least one.
+    pub rays: usize,
+    /// Angle between the outermost rays, radians, at most a whole turn, over which rays are spread evenly.
+    pub field_of_view: f64,
+    /// How far it sees, metres.
+    pub range: f64,
+    /// Distance in joint space from one reading to the next on the way, rad and m as they come.
+    pub step: f64,
+    /// The greatest error of a distance, metres: errors are uniform within it to both sides.
+    pub noise: f64,
+    /// What its errors follow from.
+    pub seed: u64,
+    /// Side of the cells of the map, metres.
+    pub cell: f64,
+}
+
+impl Sensor {
+    /// Cells of the map across the arm's reach, if nothing else is said.
+    const CELLS: f64 = 40.0;
+
+    /// The usual one for an arm: on the tip, 360 rays all around (what the arm moves into lies beside it as a rule, not ahead), as far
+    /// as half the arm reaches, a reading every tenth of a radian or metre, without errors.
+    #[must_use]
+    pub fn usual(arm: &Arm) -> Self {
+        let cell = arm.reach() / Self::CELLS;
+        let range = arm.reach() / 2.0;
+        Self { mount: Mount::Tip, rays: 360, field_of_view: TAU, range, step: 0.1, noise: 0.0, seed: 0, cell }
+    }
+
+    /// Where it is and where straight ahead is, as an angle.
+    #[must_use]
+    pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
+        match self.mount {
+            Mount::Base => (arm.base, 0.0),
+            Mount::Tip => {
+                let pose = arm.pose(1, q.into());
+                let ahead = if arm.tip == Point::origin() { Vector::x() } else { arm.tip.coords };
+                let ahead = pose * ahead;
+                (pose * arm.tip, ahead.y.atan2(ahead.x))
+            }
+        }
+    }
+
+    /// The angles of its rays, from right to left.
+    pub fn rays(&self, ahead: f64) -> impl Iterator<Item = f64> + use<> {
+        let Self { rays, field_of_view, .. } = *self;
+        // On a whole turn the last ray must not be the first once more.
+        let gaps = if field_of_view < TAU { rays.max(2) - 1 } else { rays };
+        let first = if rays == 1 { ahead } else { ahead - field_of_view / 2.0 };
+        (0..rays).map(move |k| first + field_of_view * (k as f64 / gaps as f64))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::ConvexError;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn rays_fan_out_about_straight_ahead() -> Result<(), ConvexError> {
+        let arm = Arm::rr([1.0, 0.5], 0.1)?;
+        let sensor = Sensor { rays: 3, field_of_view: PI, ..Sensor::usual(&arm) };
+        let (at, ahead) = sensor.pose(&arm, [PI / 2.0, -PI / 2.0]);
+        assert!((at - Point::new(0.5, 1.0)).norm() < 1e-12 && ahead.abs() < 1e-12, "{at} {ahead}");
+        let rays: Vec<f64> = sensor.rays(ahead).collect();
+        assert!(rays.iter().zip([-PI / 2.0, 0.0, PI / 2.0]).all(|(a, b)| (a - b).abs() < 1e-12), "{rays:?}");
+        let round = Sensor { field_of_view: TAU, rays: 4, ..sensor };
+        let rays: Vec<f64> = round.rays(0.0).collect();
+        assert!(rays.windows(2).all(|w| (w[1] - w[0] - TAU / 4.0).abs() < 1e-12), "{rays:?}");
+        assert_eq!(Sensor { rays: 1, ..sensor }.rays(0.3).collect::<Vec<_>>(), [0.3]);
+        let (at, ahead) = Sensor { mount: Mount::Base, ..sensor }.pose(&arm, [1.0, 2.0]);
+        assert_eq!((at, ahead), (arm.base, 0.0));
+        Ok(())
+    }
+}
