@@ -29,7 +29,7 @@ pub struct Table {
 }
 
 /// The names of the relaxations, the source's "simples" and "simultâneo".
-const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
+pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
 
 /// Lines are those of increasing `x`. Gauss-Seidel's values are kept as `float`s: in doubles the counts on 250 x 250 cells are
 /// 8928, 8931, 5572, 5575. Over-relaxed `float`s never settle among preferences, and over-relaxed values must be brought
@@ -67,6 +67,17 @@ pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps 
     let first = stages.first().filter(|stage| stage.converged).map(|stage| stage.sweeps);
     let second = stages.get(1).filter(|stage| stage.converged).map(|stage| stage.sweeps);
     [first, first.zip(second).map(|(first, second)| first + second)]
+}
+
+impl Table {
+    /// What is printed: sweeps of one of [`RELAXATIONS`] at one of [`SCALES`]; of stage 0 those before preferences, of 1 and 2 all with
+    /// preferences and with altered ones.
+    pub fn published(&self, of: usize, stage: usize, scale: usize) -> usize {
+        match stage {
+            0 => self.before[of][scale].0,
+            stage => self.after[stage - 1][of][scale].0,
+        }
+    }
 }
 
 /// Reads the map of a table.

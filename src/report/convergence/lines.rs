@@ -144,3 +144,41 @@ impl Line {
         format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{dash}", self.color())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chart(points: &[[f64; 2]]) -> String {
+        let line = Line { name: "<a>".into(), pen: [1, 1], points: points.to_vec(), dots: true };
+        let axes = ["x", "y"];
+        LineChart { title: "t".into(), axes, lines: vec![line], marks: vec![(1.0, "here")] }.svg([0.0, 0.0])
+    }
+
+    /// Centres of the dots.
+    fn dots(svg: &str) -> Vec<[f64; 2]> {
+        let document = roxmltree::Document::parse(svg).unwrap();
+        let dots = document.descendants().filter(|node| node.has_tag_name("circle"));
+        dots.map(|dot| ["cx", "cy"].map(|key| dot.attribute(key).unwrap().parse().unwrap())).collect()
+    }
+
+    #[test]
+    fn equal_factors_are_equally_far_apart_where_values_differ_much() {
+        let svg = chart(&[[1.0, 1.0], [10.0, 1e-3], [100.0, 1e-6]]);
+        let [a, b, c] = dots(&svg)[..] else { panic!("{svg}") };
+        for k in [0, 1] {
+            assert!((a[k] + c[k] - 2.0 * b[k]).abs() < 0.02, "{a:?} {b:?} {c:?}");
+        }
+        assert!(a[0] < c[0] && a[1] < c[1], "sweeps go to the right, small errors lie below");
+        assert!(svg.contains("&lt;a&gt;") && svg.contains("stroke-dasharray=\"7 3\"") && svg.contains(">here<"));
+    }
+
+    #[test]
+    fn what_has_no_place_is_left_out() {
+        // No error at all has no logarithm.
+        let svg = chart(&[[1.0, 1.0], [2.0, 1e-3], [3.0, 0.0]]);
+        assert_eq!(dots(&svg).len(), 2);
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        assert_eq!(chart(&[]), "");
+    }
+}

@@ -2,6 +2,7 @@
 //! difference quotients; and its promises on random grids.
 
 mod charges;
+mod convergence;
 mod direct;
 mod divergence;
 mod khatib;

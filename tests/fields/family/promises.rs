@@ -11,7 +11,7 @@ use super::direct::drawn;
 const BOUNDARIES: [Boundary; 3] = [Boundary::High, Boundary::Reflecting, Boundary::Periodic];
 
 /// Up to 8 x 8 cells with one goal at least; cells that are not connected with one count as obstacles.
-fn random_domain() -> impl Strategy<Value = Domain> {
+pub fn random_domain() -> impl Strategy<Value = Domain> {
     let shape = (1..9_usize, 1..9_usize, 0.0..0.6_f64);
     shape.prop_flat_map(|(rows, columns, density)| {
         let n = rows * columns;
@@ -57,7 +57,7 @@ fn flood(domain: &Domain, goal: usize) -> Vec<bool> {
 }
 
 /// A monotone equation. Drifts are so small that no difference of values within 8 cells drowns in rounding.
-fn monotone(n: usize) -> impl Strategy<Value = Equation> {
+pub fn monotone(n: usize) -> impl Strategy<Value = Equation> {
     let difference = prop_oneof![Just(Difference::Central), Just(Difference::Upwind)];
     let vector = [-1.0..1.0_f64, -1.0..1.0_f64];
     prop_oneof![

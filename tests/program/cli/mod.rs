@@ -3,6 +3,7 @@
 mod as_written;
 mod commands;
 mod compare;
+mod converge;
 mod diagnostics;
 mod error_json;
 mod fields;

@@ -1,0 +1,72 @@
+//! Which reading of a source explains most of its sweep counts: a search through what the text of Tables 17 to 19 (L. E. Deicu
+//! 2012) leaves open, by a plain relaxation of its own.
+//!
+//! ```text
+//! CPLAN_REFERENCE=folder cargo run --release --example published_counts [-- 100]
+//! ```
+//!
+//! The search is done on 100 x 100 cells, for the harmonic stage; then the choice that explains most is put to all counts, on 100 x
+//! 100 and, without the argument, on 250 x 250 cells. `folder/data` is as for `published_tables`. The exit code is 1 if another
+//! choice explains more than the one that the documentation names.
+
+#[path = "published_tables/deicu.rs"]
+#[allow(dead_code, reason = "what the library measures is for published_tables")]
+mod deicu;
+#[path = "published_tables/line_maps.rs"]
+mod line_maps;
+#[path = "published_counts/plain.rs"]
+mod plain;
+#[path = "published_tables/row.rs"]
+#[allow(dead_code, reason = "claims are for published_tables")]
+mod row;
+#[path = "published_counts/search.rs"]
+mod search;
+
+use cplan::input::InputError;
+use deicu::{RELAXATIONS, SCALES, TABLES};
+use plain::Choice;
+use search::{Maps, OF_GAUSS_SEIDEL, OF_SOR, Tally};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+fn main() -> Result<ExitCode, InputError> {
+    let Some(data) = std::env::var_os("CPLAN_REFERENCE").map(|folder| PathBuf::from(folder).join("data")) else {
+        println!("CPLAN_REFERENCE must name the folder with data/map1.map and the files beside it.");
+        return Ok(ExitCode::FAILURE);
+    };
+    let maps = Maps::read(&data)?;
+    let small = std::env::args().nth(1).is_some_and(|scale| scale == "100");
+    let scales = if small { 0..1 } else { 0..SCALES.len() };
+    let mut as_said = true;
+    let groups = [([0, 1], search::gauss_seidel(), OF_GAUSS_SEIDEL), ([2, 3], search::over_relaxation(), OF_SOR)];
+    for (relaxations, choices, said) in groups {
+        let names = relaxations.map(|of| RELAXATIONS[of]);
+        println!("{} and {}, before preferences, 100 x 100 cells, all tables", names[0], names[1]);
+        let tried: Vec<(Choice, Tally)> = choices
+            .into_iter()
+            .map(|choice| {
+                let tally = search::together(maps.harmonic(relaxations, &choice, 0));
+                println!("  {tally}  {choice}");
+                (choice, tally)
+            })
+            .collect();
+        as_said &= search::best(&tried) == Some(&said);
+        println!("most is explained by: {said}\n");
+        for scale in scales.clone() {
+            println!("all stages, {0} x {0} cells: published and found", SCALES[scale]);
+            for (table, tally) in TABLES.iter().zip(maps.all(relaxations, &said, scale)) {
+                println!("  {}", table.title);
+                for (name, counts) in names.iter().zip(tally.0.chunks(3)) {
+                    let shown = |(printed, found): &(usize, Option<usize>)| {
+                        format!("{printed} {}", found.map_or_else(|| "-".into(), |found| found.to_string()))
+                    };
+                    let [harmonic, bvp, altered] = [0, 1, 2].map(|stage| shown(&counts[stage]));
+                    println!("    {name:<16} harmonic {harmonic:<12} BVP {bvp:<12} BVP 2 {altered}");
+                }
+                println!("    {tally}");
+            }
+            println!();
+        }
+    }
+    Ok(if as_said { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

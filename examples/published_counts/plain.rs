@@ -1,0 +1,156 @@
+//! A plain relaxation with every choice that the source of Tables 17 to 19 leaves open. It shares no code with the library's.
+
+use cplan::field::{Cell, Domain};
+use std::f64::consts::PI;
+use std::fmt;
+
+/// What becomes of a value above 1, to which over-relaxation leads: the source does not say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beyond {
+    /// It stays.
+    Kept,
+    /// It becomes 1, and one below 0 becomes 0.
+    Clamped,
+    /// It becomes this, which is less than 1: perhaps so that no free cell is taken for an obstacle.
+    Reset(f64),
+}
+
+/// What must fall below the tolerance; `change` is that of a cell in a sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rule {
+    /// The sum of `|change|`.
+    SumOfChanges,
+    /// `|sum of change|`: how much the sum of all values changes.
+    ChangeOfSum,
+    /// How much the sum of `|change|` differs from that of the sweep before: what the text says.
+    DifferenceOfSums,
+    /// The sum of `change^2`.
+    SumOfSquares,
+    /// The greatest `|change|`.
+    GreatestChange,
+}
+
+/// A way to read the source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice {
+    /// Whether values are stored as `float`s.
+    pub single: bool,
+    /// Values above 1.
+    pub beyond: Beyond,
+    /// When it ends.
+    pub rule: Rule,
+    /// What the rule's measure must be below.
+    pub tolerance: f64,
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rule = match self.rule {
+            Rule::SumOfChanges => "sum of |change|",
+            Rule::ChangeOfSum => "|sum of change|",
+            Rule::DifferenceOfSums => "difference of sums",
+            Rule::SumOfSquares => "sum of change^2",
+            Rule::GreatestChange => "greatest |change|",
+        };
+        write!(f, "{}, {rule} < {:e}", if self.single { "floats" } else { "doubles" }, self.tolerance)?;
+        match self.beyond {
+            Beyond::Kept => Ok(()),
+            Beyond::Clamped => write!(f, ", clamped to 0..1"),
+            Beyond::Reset(value) => write!(f, ", above 1 becomes {value}"),
+        }
+    }
+}
+
+/// A field under way, on `n x n` cells whose outermost ones are walls.
+#[derive(Clone)]
+pub struct Plain<'a> {
+    n: usize,
+    domain: &'a Domain,
+    values: Vec<f64>,
+}
+
+/// Sweeps after which nothing is expected any more.
+const MOST: [usize; 2] = [30_000, 1_500];
+
+impl<'a> Plain<'a> {
+    /// Obstacles 1, goals and free cells 0.
+    pub fn new(domain: &'a Domain) -> Self {
+        let values = domain.kinds().iter().map(|&kind| if kind == Cell::Obstacle { 1.0 } else { 0.0 });
+        Self { n: domain.cells()[0], domain, values: values.collect() }
+    }
+
+    /// Relaxes until the rule says so, by one of the four relaxations of the tables, and returns how many sweeps it took; none if
+    /// it does not come to an end. `drift` is what is added to a cell's value, of its neighbours' `-x, +x, -y, +y`.
+    pub fn relax(&mut self, of: usize, choice: &Choice, drift: impl Fn(usize, [f64; 4]) -> f64) -> Option<usize> {
+        let n = self.n;
+        let over = of >= 2;
+        let factor = if over { best_factor(n) } else { 1.0 };
+        let mut before = f64::INFINITY;
+        for sweep in 0..MOST[usize::from(over)] {
+            // From the corners in turn, or from the first alone.
+            let corner = if of.is_multiple_of(2) { 0 } else { sweep % 4 };
+            let [mut sum, mut signed, mut squares, mut greatest] = [0.0_f64; 4];
+            for a in 1..n - 1 {
+                for b in 1..n - 1 {
+                    let x = if corner >= 2 { n - 1 - a } else { a };
+                    let y = if corner % 2 == 1 { n - 1 - b } else { b };
+                    let cell = x * n + y;
+                    if self.domain.kinds()[cell] != Cell::Free {
+                        continue;
+                    }
+                    let v = &self.values;
+                    let around = [v[cell - n], v[cell + n], v[cell - 1], v[cell + 1]];
+                    let old = v[cell];
+                    let mean = 0.25 * ((around[0] + around[1]) + (around[2] + around[3]));
+                    let mut new = if over { old + factor * (mean - old) } else { mean } + drift(cell, around);
+                    match choice.beyond {
+                        Beyond::Kept => {}
+                        Beyond::Clamped => new = new.clamp(0.0, 1.0),
+                        Beyond::Reset(value) => new = if new > 1.0 { value } else { new },
+                    }
+                    if choice.single {
+                        new = f64::from(new as f32);
+                    }
+                    self.values[cell] = new;
+                    let change = new - old;
+                    sum += change.abs();
+                    signed += change;
+                    squares += change * change;
+                    greatest = greatest.max(change.abs());
+                }
+            }
+            let measure = match choice.rule {
+                Rule::SumOfChanges => sum,
+                Rule::ChangeOfSum => signed.abs(),
+                Rule::DifferenceOfSums => (sum - before).abs(),
+                Rule::SumOfSquares => squares,
+                Rule::GreatestChange => greatest,
+            };
+            before = sum;
+            if measure < choice.tolerance {
+                return Some(sweep + 1);
+            }
+        }
+        None
+    }
+
+    /// The direction in which each cell's value rises, by central differences.
+    pub fn directions(&self) -> Vec<[f64; 2]> {
+        let (n, v) = (self.n, &self.values);
+        let at = |cell: usize| {
+            if self.domain.kinds()[cell] != Cell::Free {
+                return [0.0; 2];
+            }
+            let [x, y] = [v[cell + n] - v[cell - n], v[cell + 1] - v[cell - 1]];
+            let length = x.hypot(y);
+            if length > 0.0 { [x / length, y / length] } else { [0.0; 2] }
+        };
+        (0..n * n).map(at).collect()
+    }
+}
+
+/// The text's formula, with as many rows and columns as there are cells.
+fn best_factor(n: usize) -> f64 {
+    let c = 2.0 * (PI / n as f64).cos();
+    4.0 / (2.0 + (4.0 - c * c).sqrt())
+}

@@ -1,0 +1,172 @@
+//! `cplan converge`.
+
+use super::{FREE, Place, shelf, shipped};
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Coarse, so that debug builds answer soon.
+fn files() -> Vec<String> {
+    let mut words = vec!["converge".to_owned()];
+    words.extend(shelf());
+    words.extend(["--cells".to_owned(), "20".to_owned()]);
+    words
+}
+
+#[test]
+fn the_tables_fit_a_terminal_and_say_what_the_json_says() {
+    let place = Place::new();
+    let done = place.run(&files(), "");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stdout.lines().all(|line| line.chars().count() <= 80), "{}", done.stdout);
+    assert!(done.stderr.contains("harmonic: relaxations ..."), "{}", done.stderr);
+    let quiet = place.run(&files(), "--quiet");
+    assert_eq!((quiet.code, quiet.stdout.as_str(), quiet.stderr.as_str()), (0, "", ""));
+    let json = place.run(&files(), "--json --quiet").json();
+    let relaxations = json["relaxations"].as_array().unwrap();
+    assert_eq!(relaxations.len(), 24);
+    for entry in relaxations {
+        let (equation, sweeps) = (entry["equation"].as_str().unwrap(), entry["sweeps"].as_u64().unwrap());
+        let name = entry["relaxation"].as_str().unwrap();
+        let order = entry["order"].as_str().unwrap_or(name);
+        let line = done.stdout.lines().find(|line| {
+            let relaxation = line.strip_prefix(equation).unwrap_or_default().trim_start();
+            relaxation.starts_with(name) && relaxation.contains(order)
+        });
+        let line = line.unwrap_or_else(|| panic!("{equation}, {name}, {order}: {}", done.stdout));
+        assert!(line.split_whitespace().any(|word| word == sweeps.to_string()), "{line}: {sweeps}");
+        let samples = entry["samples"]["sweep"].as_array().unwrap();
+        assert_eq!((samples[0].as_u64(), samples.last().unwrap().as_u64()), (Some(1), Some(sweeps)));
+        let lengths = entry["samples"].as_object().unwrap().values().map(|list| list.as_array().unwrap().len());
+        assert!(lengths.into_iter().all(|length| length == samples.len()));
+    }
+}
+
+#[test]
+fn files_hold_one_measurement_the_same_each_time() {
+    let place = Place::new();
+    let outputs = "--output a.csv --output a.json --picture a.svg --picture a.html --quiet";
+    assert_eq!(place.run(&files(), outputs).code, 0);
+    let kept = ["a.csv", "a.json", "a.svg", "a.html"].map(|file| (file, place.read(file)));
+    assert_eq!(place.run(&files(), outputs).code, 0);
+    for (file, content) in &kept {
+        assert!(place.read(file) == *content, "{file} differs");
+    }
+    let json: Value = serde_json::from_str(&kept[1].1).unwrap();
+    // CSV: as many cells a line as columns, and the samples of the JSON.
+    let mut lines = csv_lines(&kept[0].1);
+    let header = lines.remove(0);
+    let mut sweeps: BTreeMap<[String; 4], Vec<(u64, String)>> = BTreeMap::new();
+    for cells in &lines {
+        assert_eq!(cells.len(), header.len(), "{cells:?}");
+        let key = [&cells[1], &cells[2], &cells[3], &cells[4]].map(String::clone);
+        if cells[0] == "error" {
+            sweeps.entry(key).or_default().push((cells[7].parse().unwrap(), cells[11].clone()));
+        }
+    }
+    assert_eq!(sweeps.len(), 24);
+    for entry in json["relaxations"].as_array().unwrap() {
+        let key = ["equation", "relaxation", "order"].map(|k| entry[k].as_str().unwrap_or_default().to_owned());
+        let [equation, relaxation, order] = key;
+        let found = &sweeps[&[equation, relaxation, order, entry["factor"].to_string().replace(".0", "")]];
+        let expected: Vec<u64> =
+            entry["samples"]["sweep"].as_array().unwrap().iter().map(|s| s.as_u64().unwrap()).collect();
+        assert_eq!(found.iter().map(|f| f.0).collect::<Vec<_>>(), expected);
+        assert_eq!(found.last().unwrap().1, entry["ending"].as_str().unwrap());
+        assert!(found[..found.len() - 1].iter().all(|f| f.1.is_empty()));
+    }
+    for series in ["factor", "epsilon"] {
+        assert!(lines.iter().filter(|cells| cells[0] == series).count() > 60, "{series}");
+    }
+    let svg = roxmltree::Document::parse(&kept[2].1).unwrap();
+    let titles = svg.descendants().filter(|n| n.attribute("font-size") == Some("14")).count();
+    assert_eq!(titles, 5, "three equations, factor and epsilon");
+    assert!(!kept[2].1.contains("NaN"));
+    assert!(kept[3].1.contains("<svg") || kept[3].1.contains("data:image/svg+xml"));
+}
+
+/// The cells of each line; names may hold a comma within quotes.
+fn csv_lines(text: &str) -> Vec<Vec<String>> {
+    let cells = |line: &str| {
+        let mut cells = vec![String::new()];
+        let mut quoted = false;
+        for c in line.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                ',' if !quoted => cells.push(String::new()),
+                c => cells.last_mut().unwrap().push(c),
+            }
+        }
+        cells
+    };
+    text.lines().map(cells).collect()
+}
+
+#[test]
+fn divergence_is_said() {
+    let place = Place::new();
+    let done = place.run(&files(), "--epsilon 30 --direction 1,1 --json --quiet");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let json = done.json();
+    let of = |equation: &str, relaxation: &str| {
+        let all = json["relaxations"].as_array().unwrap().iter();
+        let of = all.filter(|e| e["equation"] == equation && e["relaxation"] == relaxation);
+        of.map(|e| e["ending"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(of("oriented, central", "jacobi"), ["diverged"]);
+    assert!(of("oriented, central", "gauss-seidel").iter().all(|ending| ending != "converged"));
+    assert_eq!(of("oriented, upwind", "gauss-seidel"), ["converged"; 3]);
+    assert!(!done.stdout.contains("NaN"));
+    let text = place.run(&files(), "--epsilon 30 --direction 1,1 --quiet --output a.csv");
+    assert_eq!(text.code, 0);
+    assert!(csv_lines(&place.read("a.csv")).iter().any(|c| c[2] == "jacobi" && c[11] == "diverged"));
+}
+
+#[test]
+fn regions_of_the_world_are_relaxed_too() {
+    let place = Place::new();
+    let region = "[[preference]]\nname = \"bay\"\nepsilon = 1\nconfigurations = [[0, 0], [1, 0], [0, 1]]\n";
+    place.write("world.toml", format!("{FREE}{region}"));
+    let urdf = shipped("robots/planar_2r.urdf");
+    let done = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet");
+    let json = done.json();
+    let bvp: Vec<&Value> =
+        json["relaxations"].as_array().unwrap().iter().filter(|entry| entry["equation"] == "bvp").collect();
+    assert_eq!(bvp.len(), 8);
+    for entry in bvp {
+        let stages: Vec<u64> =
+            entry["samples"]["stage"].as_array().unwrap().iter().map(|s| s.as_u64().unwrap()).collect();
+        assert!(stages.is_sorted() && stages.contains(&0) && stages.contains(&1), "{stages:?}");
+        assert!(entry["samples"]["error"].as_array().unwrap().iter().all(Value::is_null));
+    }
+}
+
+#[test]
+fn bad_input_gives_one_error() {
+    let place = Place::new();
+    for (options, code, parts) in [
+        ("--cells 4", 2, ["8..=256", ""]),
+        ("--cells 1000", 2, ["8..=256", ""]),
+        ("--direction 0,0", 2, ["not both 0", ""]),
+        ("--epsilon nan", 2, ["finite", ""]),
+        ("--tolerance 0", 2, ["more than 0", ""]),
+        ("--order spiral", 2, ["red-black", ""]),
+        ("--measure norm", 2, ["squares", ""]),
+        ("--output a.txt", 2, ["a.txt", ".csv or .json"]),
+        ("--picture a.pdf", 2, ["a.pdf", ".svg, .png or .html"]),
+        ("--output a.json --output ./a.json", 1, ["one file", ""]),
+        ("--output nowhere/a.csv", 1, ["nowhere", ""]),
+    ] {
+        let mut words = vec!["converge".to_owned()];
+        words.extend(shelf());
+        place.run(&words, options).refused(code, &parts);
+    }
+    let urdf = shipped("robots/scara.urdf");
+    let task = shipped("workspaces/tasks/kitting_cell.toml");
+    place.run(&["converge", &urdf, &task], "").refused(1, &["a world with steps", "cure: "]);
+    place.run(&["converge", "no.urdf", "no.toml"], "").refused(1, &["no.toml: cannot be read"]);
+    // One file that cannot be written: none is.
+    let mut words = files();
+    words.extend(["--output", "b.csv", "--picture", "nowhere/b.svg"].map(str::to_owned));
+    place.run(&words, "").refused(1, &["nowhere"]);
+    assert!(!place.path("b.csv").exists());
+}
