@@ -27,7 +27,7 @@ const EPSILON: f64 = 0.5;
 const RADIUS: f64 = 10.0;
 
 /// The sum of squared changes in a sweep must fall below this.
-const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 5000 };
+pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 5000 };
 
 /// Middle, reach and periods in seconds of the curves: three robots of ours, three of theirs, the ball.
 const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
@@ -48,7 +48,7 @@ fn place(k: usize, seconds: f64) -> [f64; 2] {
 }
 
 /// The first of our robots plans: the other five are obstacles of 8 cm, the ball is the goal.
-fn state(seconds: f64) -> Domain {
+pub fn state(seconds: f64) -> Domain {
     let [length, width] = CELLS;
     let mut kinds = vec![Cell::Free; length * width];
     for x in (0..DEPTH).chain(length - DEPTH..length) {
@@ -69,14 +69,18 @@ fn state(seconds: f64) -> Domain {
 
 /// The source's three fields; drifts point along the field.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub enum Kind {
+    /// Laplace's equation.
     Harmonic,
+    /// One drift everywhere.
     Oriented(Difference),
+    /// A drift around each of our robots.
     LocallyOriented(Difference),
 }
 
 impl Kind {
-    fn equation(self, domain: &Domain, seconds: f64) -> Option<Equation> {
+    /// On a state of play.
+    pub fn equation(self, domain: &Domain, seconds: f64) -> Option<Equation> {
         let direction = Direction::of([1.0, 0.0])?;
         Some(match self {
             Self::Harmonic => Equation::Harmonic,

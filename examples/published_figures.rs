@@ -1,0 +1,130 @@
+//! Published figures of convergence, done again: figures 39 to 47 of L. E. Deicu (2012) and 6.1 to 6.4 of M. Oliveira da Silva (2011),
+//! whose curves are pictures; what their text says of them stands beside ours.
+//!
+//! ```text
+//! CPLAN_REFERENCE=folder cargo run --release --example published_figures
+//! ```
+//!
+//! Figures 39 to 47 need `folder/data/map1.map` and `preference1.map`; the others are of a state of play of our own. Prints numbers,
+//! and writes figures 6.1 to 6.4 as `target/figure_6_1.svg`.
+
+#[path = "published_tables/deicu.rs"]
+#[allow(dead_code, reason = "sweep counts are for published_tables")]
+mod deicu;
+#[path = "published_tables/line_maps.rs"]
+mod line_maps;
+#[path = "published_tables/row.rs"]
+#[allow(dead_code, reason = "claims are for published_tables")]
+mod row;
+#[path = "published_tables/silva.rs"]
+#[allow(dead_code, reason = "sweep counts are for published_tables")]
+mod silva;
+
+use cplan::field::{
+    Difference, Direction, Equation, Factor, Lines, Measure, Order, Precision, Relaxation, Scan, Stopping, trace,
+};
+use cplan::report::{Setup, convergence};
+use silva::Kind;
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+/// Sweeps after which the figures of the first source begin, and later ones.
+const SHOWN: [usize; 8] = [1, 20, 40, 100, 200, 500, 1000, 1400];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    match std::env::var_os("CPLAN_REFERENCE") {
+        Some(folder) => errors(&PathBuf::from(folder).join("data"))?,
+        None => println!("Figures 39 to 47 need CPLAN_REFERENCE to name the folder with data/map1.map.\n"),
+    }
+    factors()
+}
+
+/// Figures 39 to 47: the error of map 1, 100 x 100 cells, sweep by sweep.
+fn errors(data: &Path) -> Result<(), Box<dyn Error>> {
+    let scene = deicu::scene(&deicu::TABLES[0], data)?;
+    let domain = scene.domain(100);
+    println!("Figures 39 to 47: squared changes of a sweep on map 1, 100 x 100 cells, after so many sweeps;");
+    println!("where preferences begin the error leaps, from the first of the two numbers to the second");
+    print!("{:<24}", "");
+    SHOWN.iter().for_each(|sweep| print!("{sweep:>9}"));
+    println!("  preferences at");
+    let [rows, corners] = [Order::Lines(Scan::ROWS), Order::Corners(Lines::Rows)];
+    let relaxations = [
+        Relaxation::gauss_seidel(rows).kept(Precision::Single),
+        Relaxation::gauss_seidel(corners).kept(Precision::Single),
+        Relaxation::sor(Factor::Formula, rows).clamped([0.0, 1.0]),
+        Relaxation::sor(Factor::Formula, corners).clamped([0.0, 1.0]),
+    ];
+    for altered in [false, true] {
+        for (of, relaxation) in relaxations.iter().enumerate() {
+            let share = if altered { -1.0 } else { 1.0 } / relaxation.factor([100, 100]);
+            let epsilon = scene.epsilon(100).into_iter().map(|epsilon| share * epsilon).collect();
+            let equation = match altered {
+                true => Equation::AlteredPreference { epsilon },
+                false => Equation::Preference { epsilon, difference: Difference::Central },
+            };
+            let stopping = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 30_000 };
+            let run = trace(&domain, &equation, relaxation, &stopping, domain.start(), None)?;
+            print!("{:<24}", format!("{} {}", ["BVP", "BVP 2"][usize::from(altered)], deicu::RELAXATIONS[of]));
+            for shown in SHOWN {
+                // Samples are a hundredth apart.
+                let sample = run.samples.iter().find(|s| s.sweep >= shown);
+                print!("{:>9}", sample.map_or_else(|| "-".into(), |sample| format!("{:.1e}", sample.squares)));
+            }
+            let leap = run.samples.windows(2).find(|pair| pair[0].stage < pair[1].stage);
+            let [before, after] = leap.map_or([f64::NAN; 2], |pair| [pair[0].squares, pair[1].squares]);
+            let end = leap.map_or(0, |pair| pair[0].sweep);
+            println!("  {end}: {before:.1e} to {after:.1e}, {} in all", run.sweeps);
+        }
+    }
+    println!();
+    Ok(())
+}
+
+/// Figures 6.1 to 6.4: sweeps against the factor of SOR, and against epsilon.
+fn factors() -> Result<(), Box<dyn Error>> {
+    let domain = silva::state(0.0);
+    let kinds = [
+        ("CPH", Kind::Harmonic, [1.9, 1.9]),
+        ("CPO central", Kind::Oriented(Difference::Central), [1.9, 1.9]),
+        ("CPO upwind", Kind::Oriented(Difference::Upwind), [1.5, 1.5]),
+        ("CPLO central", Kind::LocallyOriented(Difference::Central), [1.8, 1.8]),
+        ("CPLO upwind", Kind::LocallyOriented(Difference::Upwind), [1.7, 1.9]),
+    ];
+    let mut equations = Vec::new();
+    for (name, kind, _) in kinds {
+        equations.push((name.to_owned(), kind.equation(&domain, 0.0).ok_or("a direction")?));
+    }
+    for (k, order) in [Order::Lines(Scan::ROWS), Order::RedBlack].into_iter().enumerate() {
+        let setup = Setup {
+            title: "Robot soccer, a state of play of ours".into(),
+            domain: &domain,
+            equations: equations.clone(),
+            direction: Direction::of([1.0, 0.0]).ok_or("a direction")?,
+            order,
+            stopping: silva::STOPPING,
+        };
+        let measured = convergence(&setup, &mut |_| {})?;
+        println!("Figures 6.1 to 6.3, SOR {order}: best factor, published and ours from a standing start");
+        for (scan, (name, _, published)) in measured.factors.iter().zip(kinds) {
+            let best = scan.best().map_or_else(|| "-".into(), |p| format!("{:.2}, {} sweeps", p.at, p.sweeps));
+            let theirs = scan.points.iter().find(|p| (p.at - published[k]).abs() < 1e-9);
+            let theirs = theirs.and_then(|p| p.converged()).map_or_else(|| "-".into(), |sweeps| sweeps.to_string());
+            println!("  {name:<13} {:.1} (takes {theirs:>4} here)   {best}", published[k]);
+        }
+        println!(
+            "Figure 6.4, Gauss-Seidel {order}: published: central differences diverge above 3.4, upwind ones do not"
+        );
+        for scan in &measured.strengths {
+            match scan.lost_from() {
+                Some(p) => println!("  {}: lost from {:.1} on ({:?})", scan.difference, p.at, p.ending),
+                None => println!("  {}: converge up to 6", scan.difference),
+            }
+        }
+        if k == 0 {
+            std::fs::create_dir_all("target")?;
+            std::fs::write("target/figure_6_1.svg", measured.to_svg())?;
+        }
+    }
+    Ok(())
+}
