@@ -128,16 +128,15 @@ pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
         threads.into_iter().map(|(scale, of, altered, t)| (scale, of, altered, t.join().expect("no panic"))).collect()
     });
     let line = |name: &str, scale: usize, of: usize, before: Option<usize>, after: Option<Count>| {
-        let (published, claim) = table.before[of][scale];
-        let before = Count::of_sweeps(published, before, claim);
+        let before = Count::of_sweeps(table.published(of, 0, scale), before, table.before[of][scale].1);
         Line { algorithm: format!("{name} {}", RELAXATIONS[of]), cells: SCALES[scale], before, after }
     };
     let harmonic = results.iter().filter(|(_, _, altered, _)| *altered == 0);
     let mut lines: Vec<Line> =
         harmonic.map(|&(scale, of, _, [first, _])| line("HFPP", scale, of, first, None)).collect();
     for &(scale, of, altered, [first, both]) in &results {
-        let (published, claim) = table.after[altered][of][scale];
-        let after = Count::of_sweeps(published, both, claim);
+        let claim = table.after[altered][of][scale].1;
+        let after = Count::of_sweeps(table.published(of, 1 + altered, scale), both, claim);
         lines.push(line(["BVP", "BVP 2"][altered], scale, of, first, Some(after)));
     }
     lines
