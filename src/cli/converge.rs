@@ -26,7 +26,7 @@ against the solution by elimination. What diverges is said to diverge.
 Examples:
   cplan converge robots/planar_2r.urdf workspaces/shelf.toml --cells 24
   cplan converge robots/planar_2r.urdf workspaces/u_trap.toml --cells 24 --epsilon 1 --direction 0,-1 --picture sweeps.svg
-  cplan converge robots/scara.urdf workspaces/scara_cell.toml --cells 16 --order red-black --output sweeps.csv --quiet
+  cplan converge robots/scara.urdf workspaces/scara_cell.toml --cells 32 --order red-black --output sweeps.csv --quiet
 
 Exit codes: 0 measured, 1 bad input or I/O, 2 wrong command line.")]
 pub struct ConvergeArgs {
@@ -118,7 +118,8 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
             "{world}: a world with steps has a field for each of its motions\n  cure: one with a start and a goal"
         ))
     })?;
-    let posed = FieldProblem::new(motion, args.cells as usize, args.limits.into()).map_err(Failure::Option)?;
+    let posed = FieldProblem::new(motion, args.cells as usize, args.limits.into())
+        .map_err(|reason| Failure::Option(format!("{reason}\n  cure: more --cells")))?;
     let setup = args.setup(title_of(problem.scene()), &posed).map_err(Failure::Option)?;
     let say = |text: &str| {
         if !args.quiet {

@@ -164,6 +164,8 @@ fn bad_input_gives_one_error() {
     let task = shipped("workspaces/tasks/kitting_cell.toml");
     place.run(&["converge", &urdf, &task], "").refused(1, &["a world with steps", "cure: "]);
     place.run(&["converge", "no.urdf", "no.toml"], "").refused(1, &["no.toml: cannot be read"]);
+    let coarse = place.run(&["converge", &urdf, &shipped("workspaces/scara_cell.toml")], "--cells 16 --quiet");
+    coarse.refused(1, &["16 x 16 cells", "cure: more --cells"]);
     // One file that cannot be written: none is.
     let mut words = files();
     words.extend(["--output", "b.csv", "--picture", "nowhere/b.svg"].map(str::to_owned));
