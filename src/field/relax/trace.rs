@@ -22,7 +22,7 @@ pub struct Sample {
     pub sweep: usize,
     /// Sum of `change^2` over all cells.
     pub squares: f64,
-    /// Greatest `|change| / |value after|` of a cell whose value changed.
+    /// Greatest `|change| / |value after|` of a cell whose value changed; infinite where one became 0.
     pub relative: f64,
     /// Greatest `|value - exact value|` of a cell over the greatest before the first sweep; where the solution is known, and was
     /// not there at once.
@@ -33,7 +33,7 @@ pub struct Sample {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// After every sweep up to the hundredth, from there on after each that is later by a hundredth part, and after the last.
-    /// Sweeps after which a measure is no finite number are left out.
+    /// Sweeps after which squares or error are no finite numbers are left out.
     pub samples: Vec<Sample>,
     /// Passes over all cells, of all stages.
     pub sweeps: usize,
@@ -170,7 +170,7 @@ impl Observer<'_> {
         }
         let error = self.exact.filter(|_| self.first > 0.0);
         let error = error.map(|exact| greatest_error(exact, seen.values) / self.first);
-        let finite = f64::is_finite(squares) && relative.is_finite() && error.is_none_or(f64::is_finite);
+        let finite = f64::is_finite(squares) && error.is_none_or(f64::is_finite);
         finite.then_some(Sample { stage: seen.stage, sweep: self.sweeps, squares, relative, error })
     }
 }

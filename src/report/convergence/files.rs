@@ -113,7 +113,7 @@ impl Convergence {
         text
     }
 
-    /// All there is, as a JSON object; samples as lists of numbers of one length each.
+    /// All there is, as a JSON object; samples as lists of one length each, with null for what is not known or infinite.
     #[must_use]
     pub fn to_json(&self) -> Value {
         let course = |Course { equation, relaxation, trace }: &Course| {

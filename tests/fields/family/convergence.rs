@@ -94,7 +94,7 @@ fn central_differences_are_lost_where_the_closed_form_says_and_upwind_ones_are_n
     }
     let lost = traced(&domain, &oriented(9.0, Difference::Central), &gauss_seidel, 1e-20);
     assert_eq!((lost.ending, lost.rate().is_some_and(f64::is_nan)), (Ending::Diverged, false));
-    assert!(lost.samples.iter().all(|s| s.squares.is_finite() && s.relative.is_finite()));
+    assert!(lost.samples.iter().all(|s| s.squares.is_finite() && !s.relative.is_nan()));
     assert!(lost.samples.last().unwrap().error.is_none_or(|error| error > 1e6));
 }
 
