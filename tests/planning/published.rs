@@ -48,7 +48,7 @@ fn the_unfurnished_room_takes_the_same_multiple_of_the_published_sweeps_for_ever
 /// The tally of docs/convergence.md, on 100 x 100 cells.
 #[test]
 #[ignore = "needs the published data that CPLAN_REFERENCE names"]
-fn one_reading_of_the_source_explains_half_of_the_counts() {
+fn the_tally_of_the_published_counts_holds() {
     let maps = Maps::read(&published("data")).unwrap_or_else(|e| panic!("{e}"));
     let counts = |relaxations, choice: &Choice| -> Vec<[usize; 3]> {
         let numbers = |tally: &Tally| [tally.exact(), tally.within_2(), tally.within_5_per_cent()];
