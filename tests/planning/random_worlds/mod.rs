@@ -13,6 +13,7 @@
 //! shortest, visibility and subdivision answer every so many worlds, 20), `CPLAN_LEVELS` (attempts of a planner, as
 //! [`Options::default`] has it), `CPLAN_THREADS`.
 
+mod exploring;
 mod flood;
 mod oracle;
 pub mod solid;

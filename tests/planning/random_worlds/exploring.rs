@@ -1,0 +1,235 @@
+//! Explorations of random worlds against brute force: what is called free is free, what is called explored shows nothing new, what is
+//! called unreachable is, and the arm moves where it may.
+//!
+//! `CPLAN_WORLDS=50` looks at so many of each kind of arm, and says how long ways and decisions were.
+
+use super::flood::{Truth, connected};
+use super::oracle::Oracle;
+use super::solid::Solid;
+use super::world::{KINDS, world};
+use crate::common::random::seeds;
+use cplan::explore::{Ending, Exploration, Settings, Strategy, explore, map_description, map_picture};
+use cplan::geometry::Convex;
+use cplan::input::{Occupancy, OccupancyMap};
+use cplan::model::{MotionProblem, Mount, Scene, Sensor};
+use cplan::space::{Configuration, Path, Topology};
+use cplan::{Point, engine};
+use std::f64::consts::TAU;
+
+const STRATEGIES: [Strategy; 3] = [Strategy::Goal, Strategy::Nearest, Strategy::Harmonic];
+
+/// Rounding of a distance.
+const ROUNDING: f64 = 1e-9;
+
+/// Two sides of cells that a ray meets nearer to each other than this are met at a corner, where rounding decides what it sees.
+const CORNER: f64 = 1e-9;
+
+/// Cells along both axes of joint space.
+const GRID: [usize; 2] = [36, 40];
+
+/// A sensor whose rays do not go along the map's sides.
+fn sensor(scene: &Scene, seed: u64) -> Sensor {
+    let usual = Sensor::usual(scene.arm());
+    let mount = if seed.is_multiple_of(5) { Mount::Base } else { Mount::Tip };
+    let noise = if seed % 3 == 1 { 0.3 * usual.cell } else { 0.0 };
+    Sensor { mount, rays: 97, field_of_view: TAU - 0.1, noise, seed, ..usual }
+}
+
+fn explored(problem: &MotionProblem, sensor: &Sensor, strategy: Strategy) -> Exploration {
+    let options = engine::Options { boxes: 2000, levels: 1, ..Settings::default().options };
+    let settings = Settings { strategy, cells: GRID, decisions: 3000, options, ..Settings::default() };
+    let (scene, start) = (problem.scene(), problem.start());
+    explore(scene, sensor, start, Some(problem.goals()), &settings, &mut |_| ()).expect("an exploration")
+}
+
+fn square(map: &OccupancyMap, cell: usize) -> [Point; 4] {
+    let [width, height] = map.size;
+    let (x, y) = ((cell % width) as f64, (height - 1 - cell / width) as f64);
+    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        .map(|[u, v]| map.pose * Point::new((x + u) * map.resolution, (y + v) * map.resolution))
+}
+
+/// Free cells hold nothing, occupied ones something.
+fn map_is_true(scene: &Scene, map: &OccupancyMap) {
+    let obstacles: Vec<Solid> =
+        scene.workspace().obstacles.iter().flat_map(|obstacle| obstacle.pieces.iter().map(Solid::new)).collect();
+    for cell in 0..map.cells.len() {
+        let square = Solid::new(&Convex::new(square(map, cell).to_vec(), 0.0).expect("a square"));
+        let nearest = obstacles.iter().map(|obstacle| square.distance(obstacle)).fold(f64::INFINITY, f64::min);
+        match map.cells[cell] {
+            Occupancy::Free => assert!(nearest > -ROUNDING, "free cell {cell} is {nearest} from an obstacle"),
+            Occupancy::Occupied => assert!(nearest < ROUNDING, "occupied cell {cell} is {nearest} from an obstacle"),
+            Occupancy::Unknown => {}
+        }
+    }
+}
+
+/// An unknown cell that a ray would show, by all sides that it meets, in order.
+fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Option<usize> {
+    let local = map.pose.inverse_transform_point(&from) / map.resolution;
+    let (from, ahead, far) = ([local.x, local.y], [angle.cos(), angle.sin()], range / map.resolution);
+    let mut sides = vec![0.0];
+    for k in 0..2 {
+        sides
+            .extend((0..=map.size[k]).map(|side| (side as f64 - from[k]) / ahead[k]).filter(|t| 0.0 < *t && *t <= far));
+    }
+    sides.sort_by(f64::total_cmp);
+    for ends in sides.windows(2) {
+        if ends[1] - ends[0] < CORNER {
+            return None;
+        }
+        let middle = f64::midpoint(ends[0], ends[1]);
+        let at = [0, 1].map(|k| (from[k] + ahead[k] * middle).floor());
+        if (0..2).any(|k| at[k] < 0.0 || at[k] >= map.size[k] as f64) {
+            return None;
+        }
+        let cell = (map.size[1] - 1 - at[1] as usize) * map.size[0] + at[0] as usize;
+        match map.cells[cell] {
+            Occupancy::Free => {}
+            Occupancy::Occupied => return None,
+            Occupancy::Unknown => return Some(cell),
+        }
+    }
+    None
+}
+
+fn center(topology: &Topology, at: [usize; 2]) -> Configuration {
+    Configuration::from_fn(|k, _| {
+        let (lower, upper) = topology.ranges[k].domain();
+        lower + (upper - lower) * (at[k] as f64 + 0.5) / GRID[k] as f64
+    })
+}
+
+/// The cells of the grid that can be reached from where the exploration ended, by brute force in what is known.
+fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<[usize; 2]> {
+    let mut cells: Vec<[usize; 2]> = (0..GRID[0]).flat_map(|i| (0..GRID[1]).map(move |j| [i, j])).collect();
+    let is_free: Vec<bool> = cells.iter().map(|&at| oracle.room(center(topology, at)) > ROUNDING).collect();
+    let goes = |from: Configuration, to: Configuration| {
+        let way = topology.displacement(from, to);
+        oracle.violation(&Path::new(vec![from, from + way]), 0.0, 1e-2).is_none()
+    };
+    let mut seen = vec![false; cells.len()];
+    let mut open: Vec<usize> = (0..cells.len())
+        .filter(|&cell| {
+            let way = topology.displacement(from, center(topology, cells[cell]));
+            let step = [0, 1].map(|k| topology.ranges[k].extent() / GRID[k] as f64);
+            is_free[cell] && (0..2).all(|k| way[k].abs() <= 1.01 * step[k]) && goes(from, center(topology, cells[cell]))
+        })
+        .collect();
+    open.iter().for_each(|&cell| seen[cell] = true);
+    while let Some(cell) = open.pop() {
+        for [di, dj] in [[-1, 0], [1, 0], [0, -1], [0, 1]] {
+            let mut next = [0; 2];
+            let inside = [di, dj].into_iter().enumerate().all(|(k, d)| {
+                let (at, n) = (cells[cell][k] as i64 + d, GRID[k] as i64);
+                next[k] = at.rem_euclid(n) as usize;
+                topology.ranges[k].is_circle() || (0..n).contains(&at)
+            });
+            let index = next[0] * GRID[1] + next[1];
+            if inside && is_free[index] && !seen[index] && goes(center(topology, cells[cell]), center(topology, next)) {
+                seen[index] = true;
+                open.push(index);
+            }
+        }
+    }
+    let mut number = 0;
+    cells.retain(|_| {
+        number += 1;
+        seen[number - 1]
+    });
+    cells
+}
+
+/// Looks at all that an exploration says; how it ended.
+fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'static str {
+    let (scene, arm) = (problem.scene(), problem.scene().arm());
+    let (topology, map) = (arm.topology(), done.survey.map());
+    map_is_true(scene, map);
+    let oracle = Oracle::new(scene);
+    let mut at = problem.start();
+    for leg in &done.legs {
+        let path = leg.curve.curve().path();
+        assert!((path.start() - at).norm() < ROUNDING, "a leg begins elsewhere");
+        assert_eq!(oracle.violation(path, -ROUNDING, 1e-3), None);
+        at = path.goal();
+    }
+    let clearance = scene.workspace().clearance;
+    match &done.ending {
+        Ending::Reached => {
+            assert!(problem.goals().contains(&topology, at, ROUNDING));
+            let end = done.trajectory.as_ref().map_or(problem.start(), |t| t.position[t.position.len() - 1].into());
+            assert!((end - at).norm() < ROUNDING);
+        }
+        Ending::Explored { .. } => {
+            let known = done.survey.scene(arm, clearance, false);
+            for cell in reachable(&Oracle::new(&known), &topology, at) {
+                let q = center(&topology, cell);
+                let (from, ahead) = sensor.pose(arm, q.into());
+                let new = sensor.rays(ahead).find_map(|angle| shown_by_ray(map, from, angle, sensor.range));
+                // Where distances are wrong a reading may have shown nothing there.
+                assert!(new.is_none() || sensor.noise > 0.0, "cell {new:?} of the map can be seen from {q:?}");
+            }
+        }
+        Ending::Unreachable(why) => {
+            // Occupied cells are solid, in what is hoped for as in what is known.
+            let unknown_is_free = !why.contains("known") && !why.contains("not free");
+            let solid = Oracle::new(&done.survey.scene(arm, clearance, unknown_is_free));
+            let goals: Vec<Configuration> = problem.goals().points().collect();
+            assert_ne!(connected(&solid, at, &goals, 256), Truth::Connected, "{why}");
+        }
+        Ending::Unknown(_) => {}
+    }
+    done.ending.name()
+}
+
+#[test]
+fn explorations_say_what_is_true() {
+    let worlds: Option<u64> = std::env::var("CPLAN_WORLDS").ok().map(|n| n.parse().expect("a number of worlds"));
+    let mut endings = std::collections::BTreeMap::<&str, usize>::new();
+    let mut lengths = Vec::new();
+    for kind in KINDS {
+        for seed in seeds(worlds.unwrap_or(4)) {
+            let Some(problem) = world(kind, seed) else { continue };
+            let sensor = sensor(problem.scene(), seed);
+            let all = STRATEGIES.map(|strategy| explored(&problem, &sensor, strategy));
+            for done in &all {
+                *endings.entry(is_true(&problem, &sensor, done)).or_default() += 1;
+            }
+            let is_whole = |done: &Exploration| matches!(done.ending, Ending::Explored { .. }) && done.length > 0.0;
+            if is_whole(&all[1]) && is_whole(&all[2]) {
+                lengths.push(all[2].length / all[1].length);
+            }
+        }
+    }
+    if worlds.is_some() {
+        lengths.sort_by(f64::total_cmp);
+        println!("{endings:?}; harmonic over nearest: {lengths:.2?}");
+    }
+    for ending in ["reached", "explored", "unreachable"] {
+        assert!(endings.get(ending).is_some_and(|count| *count > 0), "{endings:?}");
+    }
+}
+
+#[test]
+fn explorations_are_the_same_every_time() {
+    let problem = seeds(9).find_map(|seed| world("RR", seed)).expect("a world");
+    let sensor = Sensor { noise: 0.01, ..sensor(problem.scene(), 3) };
+    let [one, other] = [0, 1].map(|_| explored(&problem, &sensor, Strategy::Nearest));
+    assert_eq!(one.readings, other.readings);
+    assert_eq!(one.ending, other.ending);
+    let different = explored(&problem, &Sensor { seed: 4, ..sensor }, Strategy::Nearest);
+    assert!(one.readings[0].new != different.readings[0].new, "the errors do not follow from the seed");
+}
+
+#[test]
+fn maps_are_read_back_as_they_were() {
+    let problem = seeds(9).find_map(|seed| world("PP", seed)).expect("a world");
+    let done = explored(&problem, &sensor(problem.scene(), 0), Strategy::Harmonic);
+    let folder = tempfile::tempdir().unwrap();
+    let [picture, description] = ["a.pgm", "a.yaml"].map(|name| folder.path().join(name));
+    std::fs::write(picture, map_picture(&done.survey)).unwrap();
+    std::fs::write(&description, map_description(&done.survey, "a.pgm")).unwrap();
+    let read = OccupancyMap::read(&description).unwrap();
+    assert_eq!(&read, done.survey.map());
+    assert!(done.survey.counts()[0] > 0, "{:?}", done.survey.counts());
+}
