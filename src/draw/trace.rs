@@ -61,11 +61,7 @@ fn edges(lines: &Chain, chart: &Chart) -> Item {
 fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     let last = expanded.0.len().saturating_sub(1).max(1) as f64;
     let shade = move |k: usize| color::scale(k as f64 / last);
-    expanded
-        .0
-        .iter()
-        .enumerate()
-        .map(move |(k, &q)| Item::Disc(chart.place(q.into()), 2.2, Style::fill(shade(k)).faded(0.8)))
+    expanded.0.iter().enumerate().map(move |(k, &q)| Item::Disc(chart.place(q), 2.2, Style::fill(shade(k)).faded(0.8)))
 }
 
 /// Legend of the trace.

@@ -168,21 +168,21 @@ impl Prm {
 /// A path pulled tight through the triangles that it crosses; none if it passes through a vertex, or along a side.
 fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
-        let (mut at, mut doors) = (first, Vec::new());
+        let (mut at, mut portals) = (first, Vec::new());
         for leg in path.windows(2) {
-            for door in mesh.walk(at, leg[0], leg[1])? {
-                let back = mesh.twin(door)?;
+            for portal in mesh.walk(at, leg[0], leg[1])? {
+                let back = mesh.twin(portal)?;
                 at = back / 3;
                 // What is left by the way that it was entered need not be entered.
-                if doors.last() == Some(&back) {
-                    doors.pop();
+                if portals.last() == Some(&back) {
+                    portals.pop();
                 } else {
-                    doors.push(door);
+                    portals.push(portal);
                 }
             }
         }
-        Some(doors)
+        Some(portals)
     };
-    let doors = mesh.triangles_at(path[0]).find_map(crossed)?;
-    Some(taut(mesh, path[0], &Segment::point(path[path.len() - 1].coords), &doors))
+    let portals = mesh.triangles_at(path[0]).find_map(crossed)?;
+    Some(taut(mesh, path[0], &Segment::point(path[path.len() - 1].coords), &portals))
 }

@@ -62,10 +62,10 @@ impl Planner for Triangles {
                 let (way, expanded) = map.way(&terminals, self.search);
                 match way {
                     None => (Proposal::NoPath, Vec::new(), expanded),
-                    Some(Way { own, channel, doors, goals }) => {
+                    Some(Way { own, channel, portals, goals }) => {
                         let waypoints = match self.path {
                             PathKind::Own => own,
-                            PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &doors),
+                            PathKind::Taut => taut(&map.mesh, terminals.start, &goals, &portals),
                         };
                         let path = Path::new(waypoints.into_iter().map(|p| p.coords).collect());
                         (
@@ -88,12 +88,12 @@ impl Planner for Triangles {
 
 /// The shortest way from the start to the nearest of some goals through sides of triangles, each seen from the triangle that is
 /// left.
-pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, doors: &[u32]) -> Vec<Point> {
-    let portal = |&door: &u32| {
-        let [right, left] = mesh.ends(door);
+pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) -> Vec<Point> {
+    let portal = |&side: &u32| {
+        let [right, left] = mesh.ends(side);
         Portal { left, right }
     };
-    let portals: Vec<Portal> = doors.iter().map(portal).collect();
+    let portals: Vec<Portal> = sides.iter().map(portal).collect();
     funnel_path(start, nearest_end(start, goals, &portals), &portals)
 }
 
@@ -104,7 +104,7 @@ struct Way {
     /// The triangles that it passes.
     channel: Vec<u32>,
     /// The sides by which it leaves them, one less.
-    doors: Vec<u32>,
+    portals: Vec<u32>,
     /// The goals in the last triangle that it can end at.
     goals: Segment,
 }
@@ -126,9 +126,9 @@ impl TrianglesMap {
         }
         let node = |side: u32| NodeIndex::new(middles[side as usize] as usize);
         for triangle in triangles {
-            let doors: Vec<NodeIndex> = mesh.doors(triangle).map(node).collect();
-            for (k, &a) in doors.iter().enumerate() {
-                doors[k + 1..].iter().for_each(|&b| roadmap.join(a, b));
+            let portals: Vec<NodeIndex> = mesh.portals(triangle).map(node).collect();
+            for (k, &a) in portals.iter().enumerate() {
+                portals[k + 1..].iter().for_each(|&b| roadmap.join(a, b));
             }
         }
         Self { mesh, corners, roadmap, sides, middles }
@@ -142,7 +142,7 @@ impl TrianglesMap {
         let first: Vec<u32> = mesh.triangles_at(start).collect();
         let mut asked = self.roadmap.clone().asked(start);
         let begin = asked.start;
-        for side in first.iter().flat_map(|&triangle| mesh.doors(triangle)) {
+        for side in first.iter().flat_map(|&triangle| mesh.portals(triangle)) {
             asked.join(begin, node(side));
         }
         // Of each goal the triangle and the part that it is of.
@@ -153,7 +153,7 @@ impl TrianglesMap {
                 asked.join(from, goal);
                 goals.push((goal, triangle, part));
             };
-            mesh.doors(triangle).for_each(|side| join(node(side)));
+            mesh.portals(triangle).for_each(|side| join(node(side)));
             if first.contains(&triangle) {
                 join(begin);
             }
@@ -170,12 +170,12 @@ impl TrianglesMap {
                 }
                 goals.iter().filter(|goal| goal.0 == node).map(|goal| goal.1).collect()
             };
-            let (mut channel, mut doors): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+            let (mut channel, mut portals): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
             for pair in nodes.windows(2) {
                 let [a, b] = [pair[0], pair[1]].map(around);
                 let Some(&triangle) = a.iter().find(|triangle| b.contains(triangle)) else { continue };
                 if let Some(&last) = channel.last().filter(|&&last| last != triangle) {
-                    doors.extend(mesh.doors(last).find(|&side| node(side) == pair[0]));
+                    portals.extend(mesh.portals(last).find(|&side| node(side) == pair[0]));
                 }
                 if channel.last() != Some(&triangle) {
                     channel.push(triangle);
@@ -185,7 +185,7 @@ impl TrianglesMap {
             let part = goals.iter().find(|goal| goal.0 == end && Some(&goal.1) == channel.last()).map(|goal| goal.2);
             let own: Vec<Point> = nodes.iter().map(|&node| asked.at(node)).collect();
             let goals = part.unwrap_or_else(|| Segment::point(own[own.len() - 1].coords));
-            Way { own, channel, doors, goals }
+            Way { own, channel, portals, goals }
         });
         (way, expanded)
     }

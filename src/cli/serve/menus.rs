@@ -7,7 +7,7 @@ use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
 use crate::engine::{FIRST_CELLS, GridSpace, Method, Planner};
 use crate::field::Neighborhood;
-use crate::planner::GridSearch;
+use crate::planner::{GridSearch, Prm};
 use clap::{Arg, Command, ValueEnum};
 
 /// An option with a menu of its own. All others can be typed.
@@ -23,7 +23,7 @@ struct Choice {
     is_for: fn(Method) -> bool,
 }
 
-const CHOICES: [Choice; 7] = [
+const CHOICES: [Choice; 8] = [
     Choice {
         name: "gap",
         label: "proven within",
@@ -51,6 +51,13 @@ const CHOICES: [Choice; 7] = [
         label: "search",
         numbers: &[],
         standard: |planner| word(&if planner.has_roadmap() { GridSearch::AStar } else { GridSearch::default() }),
+        is_for: |_| true,
+    },
+    Choice {
+        name: "samples",
+        label: "samples",
+        numbers: &[("100", "100"), ("500", "500"), ("2000", "2000"), ("10000", "10000")],
+        standard: |_| Some(Prm::default().samples.to_string()),
         is_for: |_| true,
     },
     Choice {
@@ -127,7 +134,11 @@ mod tests {
         };
         let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
         let optimum = pairs(&[("--gap", "as it comes"), ("--metric", "euclidean")]);
-        assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum.clone(), optimum, Vec::new()));
+        let roadmap = [("--path", "taut"), ("--search", "astar")];
+        let visibility = [optimum.clone(), pairs(&roadmap[1..])].concat();
+        assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum, visibility, Vec::new()));
+        assert_eq!([of("trapezoid"), of("triangles")], [pairs(&roadmap), pairs(&roadmap)]);
+        assert_eq!(of("prm"), pairs(&[&roadmap[..], &[("--samples", "500")]].concat()));
         let search = [("--search", "wave"), ("--neighbors", "4"), ("--space", "rows")];
         assert_eq!(of("wavefront"), pairs(&[&[("--cells", "256"), ("--path", "taut")][..], &search[..]].concat()));
         assert_eq!(of("harmonic"), pairs(&[("--cells", "256, square"), ("--path", "own"), ("--space", "rows")]));

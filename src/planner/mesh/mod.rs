@@ -181,5 +181,38 @@ mod tests {
                 prop_assert_eq!(found, expected);
             }
         }
+
+        /// Against the squares that a segment meets: those that pass through no vertex are decided exactly, all others are free
+        /// if they are said to be.
+        #[test]
+        fn straight_motions_are_clear_where_no_square_is_met(
+            blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
+            ends in [[-7i8..47, -7i8..47], [-7i8..47, -7i8..47]],
+        ) {
+            let mesh = Mesh::new(Boundary::new(&board(&blocked, matrix).contours()));
+            // Eighths, and a hair off, so that few lines pass through vertices.
+            let place = |[x, y]: [i8; 2], off: f64| [f64::from(x) / 8.0 + off, f64::from(y) / 8.0 - off / 4.0];
+            let [p, q] = [place(ends[0], 1.0 / 1024.0), place(ends[1], 1.0 / 4096.0)];
+            let [a, b, c, d] = matrix;
+            let mapped = |[x, y]: [f64; 2]| Point::new(a * x + b * y, c * x + d * y);
+            // Of the square with this lower corner: whether the segment meets it, by the line and by the bounds.
+            let meets = |x: f64, y: f64| {
+                let sides = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)]
+                    .map(|(x, y)| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]));
+                let straddles = sides.iter().any(|s| *s <= 0.0) && sides.iter().any(|s| *s >= 0.0);
+                let within = |k: usize, low: f64| p[k].min(q[k]) <= low + 1.0 && p[k].max(q[k]) >= low;
+                straddles && within(0, x) && within(1, y)
+            };
+            let square = |k: usize| ((k / 5) as f64, (k % 5) as f64);
+            let meets_any = (0..25).filter(|&k| blocked[k]).any(|k| { let (x, y) = square(k); meets(x, y) });
+            let through_vertex = (-1..=6).flat_map(|x| (-1..=6).map(move |y| (f64::from(x), f64::from(y))))
+                .any(|(x, y)| (q[0] - p[0]) * (y - p[1]) == (q[1] - p[1]) * (x - p[0]));
+            prop_assume!(p.iter().chain(&q).all(|v| (-1.0..=6.0).contains(v)));
+            let clear = mesh.is_clear(mapped(p), mapped(q));
+            prop_assert!(!clear || !meets_any);
+            if !through_vertex {
+                prop_assert_eq!(clear, !meets_any, "{:?} {:?}", p, q);
+            }
+        }
     }
 }

@@ -11,9 +11,9 @@ impl Mesh {
         self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
     }
 
-    /// The half-edges by which the segment from `a`, in a triangle, to `b` leaves triangles; none as [`Mesh::is_clear`] has it.
+    /// The portals, as half-edges, by which the segment from `a`, in a triangle, to `b` leaves triangles; none as [`Mesh::is_clear`] has it.
     pub fn walk(&self, triangle: u32, a: Point, b: Point) -> Option<Vec<u32>> {
-        let mut doors = Vec::new();
+        let mut portals = Vec::new();
         let mut at = triangle;
         loop {
             let sides = 3 * at..3 * at + 3;
@@ -22,20 +22,20 @@ impl Mesh {
                 orientation(from, to, b) == Orientation::Clockwise
             };
             if !sides.clone().any(is_beyond) {
-                return Some(doors);
+                return Some(portals);
             }
             let leaves = |&side: &u32| {
                 let [right, left] = self.ends(side).map(|end| orientation(a, b, end));
                 right == Orientation::Clockwise && left == Orientation::CounterClockwise && is_beyond(side)
             };
-            let door = sides.clone().find(leaves)?;
-            doors.push(door);
-            at = self.twin(door)? / 3;
+            let portal = sides.clone().find(leaves)?;
+            portals.push(portal);
+            at = self.twin(portal)? / 3;
         }
     }
 
-    /// The sides of a triangle that lead into another one.
-    pub fn doors(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+    /// The sides of a triangle that it shares with another one.
+    pub fn portals(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         (3 * triangle..3 * triangle + 3).filter(|&side| !self.is_wall(side))
     }
 }
