@@ -204,6 +204,7 @@ The same words follow a planner's name in `cplan compare --with \"PLANNER OPTION
 Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --gap 0.01
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
+  cplan robots/planar_2r.urdf workspaces/shelf.toml --planner prm --seed 7 --search greedy --backward
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
 
 Exit codes: 0 the options are printed, 2 wrong command line.")]

@@ -1,6 +1,6 @@
 //! How many cells a grid has along its axes.
 
-use super::options::{CELLS, wrong_number};
+use super::planner_options::{CELLS, wrong_number};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -60,7 +60,7 @@ impl FromStr for CellCounts {
     fn from_str(text: &str) -> Result<Self, String> {
         let cure = || {
             let (least, most) = (CELLS.start(), CELLS.end());
-            format!("{text} is no number from {least} to {most}, nor two such as 128x512, for the joints in turn")
+            format!("{text} is not in {least}..={most}, nor two such numbers, as 128x512, for the joints in turn")
         };
         let count = |text: &str| text.parse::<usize>().ok().filter(|n| CELLS.contains(n)).ok_or_else(cure);
         match text.split_once('x') {
@@ -80,7 +80,7 @@ mod tests {
         assert_eq!(of("256"), Ok(CellCounts([256, 256])));
         assert_eq!(of("128x512"), Ok(CellCounts([128, 512])));
         for text in ["", "x", "7", "128x", "128x4096", "128x64x32", "-8", "12.5", "128 x 512"] {
-            assert!(of(text).unwrap_err().contains("8 to 2048"), "{text}");
+            assert!(of(text).unwrap_err().contains("8..=2048"), "{text}");
         }
         for counts in [CellCounts([9, 9]), CellCounts([8, 2048])] {
             assert_eq!(of(&counts.to_string()), Ok(counts));

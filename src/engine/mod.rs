@@ -46,6 +46,7 @@ mod method;
 mod motion_plan;
 mod options;
 mod plan;
+mod planner_options;
 mod problem;
 mod result;
 mod rungs;
@@ -63,11 +64,10 @@ pub use grid_space::GridSpace;
 pub use ladder::solve;
 pub use method::Method;
 pub use motion_plan::MotionPlan;
-pub use options::{
-    CELLS, Criterion, FIRST_CELLS, LEVELS, MOST_MARGIN, NEAREST, NamedJoints, Options, Planner, SAMPLES,
-};
+pub use options::{LEVELS, NamedJoints, Options};
 pub(crate) use plan::Made;
 pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
+pub use planner_options::{CELLS, Criterion, FIRST_CELLS, MOST_MARGIN, NEAREST, Planner, SAMPLES};
 pub use problem::{Problem, ProblemError};
 pub use result::{Choice, Report, TaskFigures};
 pub use settle::decide;

@@ -1,6 +1,6 @@
 //! The representation of each level: finer and finer approximations of one configuration space.
 
-use super::options::FIRST_CELLS;
+use super::planner_options::FIRST_CELLS;
 use super::{CellCounts, GridSpace, Space};
 use crate::cspace::{
     Grid, Proves, Regions, ZonedGrid, grid_from_slices, outer_grid, regions, sampled_grid, traced_pairs,

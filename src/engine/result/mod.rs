@@ -7,7 +7,7 @@ mod task;
 pub use task::{Choice, TaskFigures};
 
 use super::Bound;
-use super::options::Planner;
+use super::Planner;
 use super::task::MessageError;
 use crate::check::{CertifiedCurve, CheckedProof};
 use crate::model::{AssumedLimits, Joint, RobotJoints, Status};
