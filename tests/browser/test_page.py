@@ -138,6 +138,8 @@ def test_pointing_into_the_configuration_space_puts_the_arm_there(program, show_
 LAYERS = [
     (("planar_2r", "workbench"), ("--planner", "visibility"), {"roadmap"}),
     (("planar_2r", "workbench"), ("--planner", "trapezoid"), {"cells", "channel"}),
+    (("planar_2r", "workbench"), ("--planner", "triangles"), {"cells", "channel", "expanded"}),
+    (("planar_2r_continuous", "torus_open"), ("--planner", "prm"), {"roads", "expanded"}),
     (("planar_2r", "workbench"), ("--planner", "wavefront"), {"wavefront"}),
     (("planar_2r_continuous", "torus_open"), ("--planner", "harmonic"), {"equipotentials", "flow"}),
     (("planar_2r", "workbench"), ("--planner", "subdivision"), {"boxes"}),
