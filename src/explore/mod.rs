@@ -6,7 +6,7 @@
 //! plays it.
 //!
 //! ```text
-//! read -> known map -> scene, grid of configurations -> where to? -> certified leg -> on the way: read ...
+//! look -> known map -> scene, grid of configurations -> where to? -> certified leg -> on the way: look ...
 //! ```
 //!
 //! # How it ends

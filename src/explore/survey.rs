@@ -20,6 +20,8 @@ const MARGIN: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub struct Survey {
     known: OccupancyMap,
+    /// What is between the lowest obstacle's floor and the highest one's top; what is above or below is free, as everybody knows.
+    heights: Heights,
     /// Whether anything is in a cell.
     truth: Vec<bool>,
 }
@@ -36,7 +38,13 @@ impl Survey {
     /// Knows nothing yet of the obstacles of a scene. None if the map would have more than [`MOST_CELLS`].
     #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
-        let [low, high] = extent(scene.arm());
+        let obstacles = &scene.workspace().obstacles;
+        let heights = obstacles
+            .iter()
+            .map(|obstacle| obstacle.heights)
+            .reduce(|all, one| Heights { lower: all.lower.min(one.lower), upper: all.upper.max(one.upper) });
+        let heights = heights.unwrap_or(Heights::ALL);
+        let [low, high] = extent(scene.arm(), heights);
         let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
         if !(size[0] * size[1] <= MOST_CELLS as f64) {
             return None;
@@ -50,8 +58,8 @@ impl Survey {
             pose: Isometry2::new(Vector2::from(origin), 0.0),
             cells: vec![Occupancy::Unknown; size[0] * size[1]],
         };
-        let mut survey = Self { truth: vec![false; known.cells.len()], known };
-        let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
+        let mut survey = Self { truth: vec![false; known.cells.len()], heights, known };
+        let pieces = obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
         let occupied: Vec<usize> = pieces.flat_map(|piece| survey.touched(piece, 0.0)).collect();
         occupied.into_iter().for_each(|cell| survey.truth[cell] = true);
         Some(survey)
@@ -109,8 +117,10 @@ impl Survey {
     /// The cells that the arm meets at `q`, grown by a margin; in ascending order.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let poses = arm.poses(q);
-        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| part.shape.at(&poses[link])));
-        let mut cells: Vec<usize> = parts.flat_map(|shape| self.touched(&shape, margin)).collect();
+        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
+        let shapes =
+            parts.filter(|(_, part)| part.heights.meet(self.heights)).map(|(link, part)| part.shape.at(&poses[link]));
+        let mut cells: Vec<usize> = shapes.flat_map(|shape| self.touched(&shape, margin)).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
@@ -231,56 +241,49 @@ impl Survey {
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
         let name = if unknown_is_free { "seen" } else { "not seen to be free" };
         let pieces = self.known.pieces(unknown_is_free, usize::MAX).unwrap_or_default();
-        let solid = Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+        let solid = Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights: self.heights };
         let obstacles = if solid.pieces.is_empty() { Vec::new() } else { vec![solid] };
         let workspace = Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new() };
         Scene::trusted(arm.clone(), workspace)
     }
 }
 
-/// The corners of a rectangle that holds all that an arm can touch.
-fn extent(arm: &Arm) -> [Point; 2] {
-    let [first, second] = &arm.joints;
-    let discs: Vec<(Point, f64)> = match first.joint_type {
-        JointType::Revolute { .. } => {
-            let slides = match second.joint_type {
-                JointType::Revolute { .. } => 0.0,
-                JointType::Prismatic { .. } => farthest(second.range.domain()),
-            };
-            vec![(arm.base, arm.reach() + slides)]
-        }
-        JointType::Prismatic { .. } => {
-            let (least, greatest) = first.range.domain();
-            let ends =
-                |turns: bool| if turns { vec![0.0] } else { [second.range.domain()].map(|(a, b)| [a, b]).concat() };
-            let turns = matches!(second.joint_type, JointType::Revolute { .. });
-            let values = [least, greatest].into_iter().flat_map(|q1| ends(turns).into_iter().map(move |q2| [q1, q2]));
-            values
-                .flat_map(|q| {
-                    let poses = arm.poses(q.into());
-                    let elbow = arm.elbow_at(q[0]);
-                    let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
-                    parts
-                        .flat_map(|(link, part)| {
-                            let shape = part.shape.at(&poses[link]);
-                            if turns && link == 1 {
-                                return vec![(elbow, shape.reach_from(elbow))];
-                            }
-                            shape.core().iter().map(|p| (*p, shape.radius())).collect()
-                        })
-                        .collect::<Vec<_>>()
-                })
-                .collect()
-        }
-    };
+/// The corners of a rectangle that holds the base and all that an arm can touch at some heights.
+fn extent(arm: &Arm, heights: Heights) -> [Point; 2] {
+    let discs = swept(arm, heights);
     let side = |k: usize, sign: f64| {
         let values = discs.iter().map(|(center, radius)| sign * center[k] + radius);
-        sign * values.fold(f64::NEG_INFINITY, f64::max)
+        sign * values.fold(sign * arm.base[k], f64::max)
     };
     [-1.0, 1.0].map(|sign| Point::new(side(0, sign), side(1, sign)))
 }
 
-/// The greatest distance of an interval's values from 0.
-fn farthest((least, greatest): (f64, f64)) -> f64 {
-    least.abs().max(greatest.abs())
+/// Discs, by their centres and radii, whose hull holds all that an arm can touch at some heights.
+fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
+    let [first, second] = &arm.joints;
+    let (turns, ends) = match second.joint_type {
+        JointType::Revolute { .. } => (true, vec![0.0]),
+        JointType::Prismatic { .. } => (false, <[f64; 2]>::from(second.range.domain()).to_vec()),
+    };
+    if matches!(first.joint_type, JointType::Revolute { .. }) {
+        let slides = ends.iter().map(|q2| q2.abs()).fold(0.0, f64::max);
+        return vec![(arm.base, arm.reach() + slides)];
+    }
+    let mut discs = Vec::new();
+    for q1 in <[f64; 2]>::from(first.range.domain()) {
+        for &q2 in &ends {
+            let poses = arm.poses([q1, q2].into());
+            for link in 0..2 {
+                for part in arm.links[link].parts.iter().filter(|part| part.heights.meet(heights)) {
+                    let (shape, elbow) = (part.shape.at(&poses[link]), arm.elbow_at(q1));
+                    if turns && link == 1 {
+                        discs.push((elbow, shape.reach_from(elbow)));
+                    } else {
+                        discs.extend(shape.core().iter().map(|p| (*p, shape.radius())));
+                    }
+                }
+            }
+        }
+    }
+    discs
 }
