@@ -7,7 +7,7 @@ use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
-use crate::explore::{Ending, Exploration, Settings, Strategy, explore, map_description, map_picture};
+use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
 use crate::input::{self, Explorable};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
@@ -23,14 +23,15 @@ use std::path::{Path, PathBuf};
 The world file is what is really there. The arm knows of it what its range sensor has seen ([sensor] in the world file says
 what it is like: on the tip or the base, rays, field of view, range, noise); what it has not seen is solid. Every motion is certified
 within what is known to be free before it begins. It ends at the goal (\"reached\"); or when nothing new can be seen from any
-configuration of the grid that can be reached (\"explored\"); or when it is proven that there is no way in what is known.
+configuration of the grid that can be reached (\"explored\"); or when it is proven that there is no way to the goal in what is known, where
+cells of the map that hold anything are solid as a whole.
 
 Examples:
   cplan explore robots/planar_2r.urdf workspaces/shelf.toml
   cplan explore robots/planar_2r.urdf workspaces/shelf.toml --strategy nearest --picture explored.html --map map.yaml
   cplan explore robots/gantry.urdf workspaces/explore/rooms.toml --strategy harmonic --output explored.json
 
-Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3 proven that the goal cannot be reached, 4 unknown.")]
+Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3 proven that no way leads to the goal in what is known, 4 unknown.")]
 pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
@@ -116,7 +117,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         }
     };
     let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
-        .map_err(|error| Failure::Option(error.to_string()))?;
+        .map_err(|error| refused(&error, &args.files.world))?;
     let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
     let json = || done.to_json(joints.each_ref().map(String::as_str), &world.sensor, args.timings).to_string() + "\n";
     let mut files = Vec::new();
@@ -176,6 +177,15 @@ impl ExploreArgs {
     }
 }
 
+/// Why there is no exploration, with what to do about it.
+fn refused(error: &ExploreError, world: &Path) -> Failure {
+    let cure = match error {
+        ExploreError::Map(_) => "give its [sensor] a larger cell, or joint 1 narrower limits",
+        ExploreError::NoGoal => "give it a [goal], or explore with --strategy nearest",
+    };
+    Failure::Option(format!("{}: {error}\n  cure: {cure}", world.display()))
+}
+
 /// Whether an exploration can be written so.
 fn is_known(sink: &Sink) -> bool {
     matches!(sink, Sink::Result(Format::Json | Format::Csv | Format::Yaml, _) | Sink::Picture(..))
@@ -213,7 +223,7 @@ fn view(world: &Explorable, done: &Exploration) -> View {
         status: done.ending.name().into(),
         ending: Some(status),
         facts: facts(done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
-        goals: world.goals.as_ref().map_or(&[], |goals| goals.pieces()),
+        goals: world.goals.as_ref().filter(|_| done.strategy == Strategy::Goal).map_or(&[], |goals| goals.pieces()),
         paths: vec![("way".to_owned(), &way)],
         trajectory: done.trajectory.as_ref(),
         c_obstacles: &contours(scene),
@@ -247,15 +257,20 @@ fn facts(done: &Exploration) -> Vec<Line> {
 fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
     let ending = match &done.ending {
         Ending::Reached => "reached: the arm is at the goal".to_owned(),
-        Ending::Explored { configurations } => {
+        Ending::Explored { configurations, given_up } => {
+            let given_up = match given_up {
+                0 => String::new(),
+                n => format!("; {n} of them were given up after a reading whose errors hid what it promised"),
+            };
             format!(
-                "explored: nothing new can be seen from any of the {configurations} configurations that can be reached"
+                "explored: nothing new can be seen from any of the {configurations} configurations that can be reached{given_up}"
             )
         }
         Ending::Unreachable(why) => format!("unreachable: {why}"),
         Ending::Unknown(why) => format!("unknown: {why}"),
     };
-    let mut lines: Vec<Line> = facts(done);
+    let mut lines: Vec<Line> = world.notes.iter().map(|note| ("note", note.clone())).collect();
+    lines.extend(facts(done));
     if timed {
         let mut times: Vec<f64> = done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
         times.sort_unstable_by(f64::total_cmp);

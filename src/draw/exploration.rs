@@ -57,7 +57,7 @@ fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration) -> Valu
     });
     let (status, text) = match &done.ending {
         Ending::Reached => ("found", "reached".to_owned()),
-        Ending::Explored { configurations } => {
+        Ending::Explored { configurations, .. } => {
             ("found", format!("explored: {configurations} configurations show nothing new"))
         }
         Ending::Unreachable(why) => ("infeasible", format!("unreachable: {why}")),

@@ -10,15 +10,17 @@ use crate::engine::{Options, Verdict, solve};
 use crate::field::{Component, Lattice, harmonic};
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene, Sensor};
-use crate::motion::{Drive, TimingError, Trajectory};
+use crate::motion::{Drive, Trajectory};
 use crate::space::{Configuration, Draws, GoalSet, Metric, Path, Segment};
 use crate::text::counted;
+use serde::Serialize;
 use std::collections::BTreeSet;
 use std::time::Instant;
 use thiserror::Error;
 
 /// How the explorer decides where to go next.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Strategy {
     /// To the goal, by the way that the options' planner finds where what is unknown counts as free, as far as that is known to be
     /// free; where that shows nothing new, to where something new can be seen, soonest on the way to the goal.
@@ -70,9 +72,6 @@ pub enum ExploreError {
     /// There is no goal to go to.
     #[error("the strategy \"goal\" has no goal to go to")]
     NoGoal,
-    /// A leg cannot be timed.
-    #[error(transparent)]
-    Timing(#[from] TimingError),
 }
 
 /// Explores the world of `scene`, of which nothing is known but what the sensor sees, from `start`. `progress` hears of it now and then.
@@ -81,7 +80,7 @@ pub enum ExploreError {
 /// slices among the map's rectangles, a shortest-path search over it, and certificates.
 ///
 /// # Errors
-/// A map of too many cells, a strategy without its goal, a motion that cannot be timed.
+/// A map of too many cells, a strategy without its goal.
 pub fn explore(
     scene: &Scene,
     sensor: &Sensor,
@@ -107,16 +106,21 @@ pub fn explore(
         readings: Vec::new(),
         legs: Vec::new(),
         trajectory: None,
+        is_stalled: false,
+        is_back: false,
     };
-    let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell).max(scene.workspace().clearance);
+    let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + scene.workspace().clearance;
     let surroundings = explorer.survey.survey_about(scene.arm(), start, margin);
     explorer.look();
     let (mut decisions, mut opened) = (Vec::new(), Vec::new());
     let mut is_open = vec![false; settings.cells[0] * settings.cells[1]];
     let ending = loop {
         checkpoint();
+        if explorer.is_at_goal() {
+            break Ending::Reached;
+        }
         if decisions.len() == settings.decisions {
-            break Ending::Unknown(format!("there is more to see after {}", counted(decisions.len(), "decision")));
+            break Ending::Unknown(format!("not done after {}", counted(decisions.len(), "decision")));
         }
         let clock = Instant::now();
         let mut known = explorer.known();
@@ -127,7 +131,11 @@ pub fn explore(
         opened.push((explorer.readings.len(), new));
         match decision {
             Decision::Done(ending) => break ending,
-            Decision::Go(way, until) => explorer.go(&known, &way, until)?,
+            Decision::Go(way, until) => {
+                if let Err(why) = explorer.go(&known, &way, until) {
+                    break Ending::Unknown(why);
+                }
+            }
         }
         if decisions.len().is_multiple_of(50) {
             let [free, occupied, unknown] = explorer.survey.counts();
@@ -136,8 +144,20 @@ pub fn explore(
         }
     };
     let Explorer { survey, readings, legs, trajectory, length, .. } = explorer;
-    let cells = settings.cells;
-    Ok(Exploration { ending, survey, surroundings, readings, opened, legs, trajectory, length, decisions, cells })
+    let (cells, strategy) = (settings.cells, settings.strategy);
+    Ok(Exploration {
+        strategy,
+        ending,
+        survey,
+        surroundings,
+        readings,
+        opened,
+        legs,
+        trajectory,
+        length,
+        decisions,
+        cells,
+    })
 }
 
 /// What comes next.
@@ -160,6 +180,10 @@ struct Explorer<'a> {
     readings: Vec<Reading>,
     legs: Vec<Leg>,
     trajectory: Option<Trajectory>,
+    /// Whether the last leg along a way that was hoped for showed nothing new: another one would not, either.
+    is_stalled: bool,
+    /// Whether the last leg was one back.
+    is_back: bool,
 }
 
 /// What is known now.
@@ -189,8 +213,24 @@ impl Explorer<'_> {
         if let (Strategy::Goal, Some(goals)) = (self.settings.strategy, self.goals) {
             return self.towards_goal(known, goals);
         }
-        let Some(first) = join(&known.scene, &known.grid, self.at) else { return Decision::Done(self.too_coarse()) };
-        self.exploring(known, first)
+        let joined = join(&known.scene, &known.grid, self.at);
+        if joined.is_empty() { self.back(known) } else { self.exploring(known, &joined) }
+    }
+
+    /// Whether the arm is where it is to go.
+    fn is_at_goal(&self) -> bool {
+        let topology = self.scene.arm().topology();
+        let goals = self.goals.filter(|_| self.settings.strategy == Strategy::Goal);
+        goals.is_some_and(|goals| goals.contains(&topology, self.at, AT_GOAL))
+    }
+
+    /// Back to where the last leg began, from where no middle of a cell can be reached; not twice.
+    fn back(&mut self, known: &Known) -> Decision {
+        let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
+        let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
+        let certified = reversed.and_then(|path| certify(&known.scene, path, known.scene.workspace().clearance).ok());
+        self.is_back = true;
+        certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
     fn too_coarse(&self) -> Ending {
@@ -199,7 +239,7 @@ impl Explorer<'_> {
     }
 
     /// To where something new can be seen; explored if that is nowhere.
-    fn exploring(&mut self, known: &mut Known, first: usize) -> Decision {
+    fn exploring(&mut self, known: &mut Known, joined: &[usize]) -> Decision {
         loop {
             checkpoint();
             let (arm, sensor) = (self.scene.arm(), self.sensor);
@@ -207,13 +247,17 @@ impl Explorer<'_> {
             let mut promises = |cell: usize| self.outlook.promises(&self.survey, sensor, arm, grid, cell);
             let (way, target) = match self.settings.strategy {
                 Strategy::Harmonic => {
-                    let reach = Reach::new(grid, closed, self.at, first, |_| false);
+                    let reach = Reach::new(grid, closed, self.at, joined, |_| false);
                     let frontier: Vec<usize> = reach.cells.iter().copied().filter(|&cell| promises(cell)).collect();
                     if frontier.is_empty() {
-                        return Decision::Done(Ending::Explored { configurations: reach.cells.len() });
+                        return Decision::Done(self.explored(&reach));
                     }
-                    let Some(way) = uphill(grid, &frontier, first) else { return Decision::Done(self.too_coarse()) };
-                    let target = way[way.len() - 1];
+                    let ascent = joined.iter().find_map(|&from| uphill(grid, &frontier, from));
+                    let Some(ascent) = ascent else { return Decision::Done(self.too_coarse()) };
+                    let target = ascent[ascent.len() - 1];
+                    // The potential knows of no steps that are closed.
+                    let is_closed = ascent.windows(2).any(|step| closed.contains(&[step[0], step[1]]));
+                    let way = if is_closed { reach.way(target) } else { ascent };
                     (reach.unwrapped(grid, &way), target)
                 }
                 Strategy::Nearest | Strategy::Goal => {
@@ -223,41 +267,44 @@ impl Explorer<'_> {
                         found = is_promising.then_some(cell);
                         is_promising
                     };
-                    let reach = Reach::new(grid, closed, self.at, first, &mut nearest);
+                    let reach = Reach::new(grid, closed, self.at, joined, &mut nearest);
                     let Some(target) = found else {
-                        return Decision::Done(Ending::Explored { configurations: reach.cells.len() });
+                        return Decision::Done(self.explored(&reach));
                     };
                     (reach.unwrapped(grid, &reach.way(target)), target)
                 }
             };
             match self.certified(known, &way) {
-                Some(path) => return Decision::Go(path, Some(target)),
-                None => continue,
+                Ok(Some(path)) => return Decision::Go(path, Some(target)),
+                Ok(None) => {}
+                Err(ending) => return Decision::Done(ending),
             }
         }
     }
 
-    /// The way as a certified path; if a step of it is not free, that is noted.
-    fn certified(&self, known: &mut Known, way: &[Configuration]) -> Option<CertifiedPath> {
+    fn explored(&self, reach: &Reach) -> Ending {
+        Ending::Explored { configurations: reach.cells.len(), given_up: self.outlook.given_up }
+    }
+
+    /// The way as a certified path; none if a step of it is not free, which is noted.
+    fn certified(&self, known: &mut Known, way: &[Configuration]) -> Result<Option<CertifiedPath>, Ending> {
         let clearance = known.scene.workspace().clearance;
         let path = match tightened(&known.scene, way) {
             Ok(path) => path,
             Err(step) => {
                 let [from, to] = [way[step], way[step + 1]].map(|q| known.grid.locate(q));
+                let before = known.closed.len();
                 known.closed.extend([[from, to], [to, from]]);
-                return None;
+                return if known.closed.len() > before { Ok(None) } else { Err(self.too_coarse()) };
             }
         };
-        certify(&known.scene, path, clearance).ok()
+        certify(&known.scene, path, clearance).map(Some).map_err(|_| self.too_coarse())
     }
 
     /// Along the planner's way through what may be free, as far as it is known to be.
     fn towards_goal(&mut self, known: &mut Known, goals: &GoalSet) -> Decision {
         let arm = self.scene.arm();
         let clearance = self.scene.workspace().clearance;
-        if goals.contains(&arm.topology(), self.at, AT_GOAL) {
-            return Decision::Done(Ending::Reached);
-        }
         let problem = match problem(self.survey.scene(arm, clearance, true), self.at, goals) {
             Ok(problem) => problem,
             Err(ending) => return Decision::Done(ending),
@@ -281,11 +328,11 @@ impl Explorer<'_> {
             }
             free.push(place);
         }
-        // There and no farther has been looked before, and it showed what it could.
+        // Where nothing new was seen on the way, more of it shows nothing, either.
         let is_new = free.len() > 1;
         let ahead = &places[(free.len() - 1).min(places.len())..];
         match certify(&known.scene, Path::new(free), clearance) {
-            Ok(path) if is_new => Decision::Go(path, None),
+            Ok(path) if is_new && !self.is_stalled => Decision::Go(path, None),
             _ => {
                 let ahead = ahead.iter().take(PLACES_AHEAD).flat_map(|&q| self.survey.unknown_at(arm, q));
                 let wanted: BTreeSet<usize> = ahead.collect();
@@ -298,7 +345,10 @@ impl Explorer<'_> {
     /// for the way there and on to the goal; if that is nowhere, to the goal within what is known.
     fn aside(&mut self, known: &mut Known, goals: &GoalSet, wanted: &[usize]) -> Decision {
         let (arm, sensor) = (self.scene.arm(), self.sensor);
-        let Some(first) = join(&known.scene, &known.grid, self.at) else { return Decision::Done(self.too_coarse()) };
+        let joined = join(&known.scene, &known.grid, self.at);
+        if joined.is_empty() {
+            return self.back(known);
+        }
         loop {
             checkpoint();
             let Known { grid, closed, .. } = &*known;
@@ -310,7 +360,7 @@ impl Explorer<'_> {
                 wanting = is_shown.then_some(cell);
                 is_shown
             };
-            let reach = Reach::new(grid, closed, self.at, first, &mut shows);
+            let reach = Reach::new(grid, closed, self.at, &joined, &mut shows);
             let on = |cell: usize| goals.distance(&grid.topology, Metric::Euclidean, grid.center(cell));
             let mut best: Option<(f64, usize)> = None;
             for &cell in reach.cells.iter().filter(|_| wanting.is_none()) {
@@ -323,8 +373,10 @@ impl Explorer<'_> {
             }
             let Some(target) = wanting.or(best.map(|best| best.1)) else { return self.within_known(known, goals) };
             let way = reach.unwrapped(grid, &reach.way(target));
-            if let Some(path) = self.certified(known, &way) {
-                return Decision::Go(path, Some(target));
+            match self.certified(known, &way) {
+                Ok(Some(path)) => return Decision::Go(path, Some(target)),
+                Ok(None) => {}
+                Err(ending) => return Decision::Done(ending),
             }
         }
     }
@@ -346,7 +398,10 @@ impl Explorer<'_> {
     }
 
     /// Moves along a path and looks on the way. Gone to for what can be seen from a cell, the arm stops as soon as that is nothing new.
-    fn go(&mut self, known: &Known, way: &CertifiedPath, until: Option<usize>) -> Result<(), ExploreError> {
+    ///
+    /// # Errors
+    /// A part of the path that cannot be certified, or not be timed: why, in words.
+    fn go(&mut self, known: &Known, way: &CertifiedPath, until: Option<usize>) -> Result<(), String> {
         let before = self.readings.len();
         let mut gone = vec![self.at];
         let mut is_new = false;
@@ -365,13 +420,17 @@ impl Explorer<'_> {
         if let Some(cell) = until.filter(|_| !is_new) {
             self.outlook.disappointed(cell);
         }
+        self.is_stalled = until.is_none() && !is_new;
+        self.is_back &= !is_new && until.is_none();
         if gone.len() == 1 {
             return Ok(());
         }
         // Part of what is certified is free, too.
         let clearance = known.scene.workspace().clearance;
-        let Ok(path) = certify(&known.scene, Path::new(gone), clearance) else { return Ok(()) };
-        let timed = self.settings.options.drive.along(&known.scene, &path, 1.0)?;
+        let path =
+            certify(&known.scene, Path::new(gone), clearance).map_err(|rejection| format!("a leg: {rejection:?}"))?;
+        let timed =
+            self.settings.options.drive.along(&known.scene, &path, 1.0).map_err(|error| format!("a leg: {error}"))?;
         match &mut self.trajectory {
             Some(trajectory) => trajectory.then(0.0, &timed.trajectory),
             None => self.trajectory = Some(timed.trajectory),
@@ -381,13 +440,14 @@ impl Explorer<'_> {
     }
 }
 
-/// The problem of going to those of the goals that are free; the end of it all if there are none.
+/// The problem of going to those of the goals that are free; the end of it all if none is known to be. The goals are free in the world:
+/// such cells are too coarse, or were not seen.
 fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
     let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
-    if open.is_empty() {
-        let why = scene.obstructions(blocked[0].ends()[0]).iter().map(|o| scene.explain(o)).collect::<Vec<_>>();
-        return Err(Ending::Unreachable(format!("the goal meets what is not free: {}", why.join("; "))));
+    if let (true, Some(first)) = (open.is_empty(), blocked.first()) {
+        let why = scene.obstructions(first.ends()[0]).iter().map(|o| scene.explain(o)).collect::<Vec<_>>();
+        return Err(Ending::Unknown(format!("the goal meets cells that are not known to be free: {}", why.join("; "))));
     }
     let open: GoalSet = open.into_iter().copied().collect();
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))

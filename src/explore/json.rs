@@ -23,6 +23,7 @@ impl Exploration {
         let mut value = json!({
             "status": self.ending.name(),
             "joints": joints,
+            "strategy": self.strategy,
             "sensor": sensor,
             "grid": self.cells,
             "map": {
@@ -42,7 +43,10 @@ impl Exploration {
         });
         match &self.ending {
             Ending::Unreachable(why) | Ending::Unknown(why) => value["reason"] = json!(why),
-            Ending::Explored { configurations } => value["configurations"] = json!(configurations),
+            Ending::Explored { configurations, given_up } => {
+                value["configurations"] = json!(configurations);
+                value["given_up"] = json!(given_up);
+            }
             Ending::Reached => {}
         }
         if timed {

@@ -12,8 +12,12 @@ pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();
     let origin = map.pose.translation.vector;
     format!(
-        "image: {picture:?}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-        map.resolution, origin.x, origin.y
+        "image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+        // A string of JSON is one of YAML.
+        serde_json::Value::from(picture),
+        map.resolution,
+        origin.x,
+        origin.y
     )
 }
 

@@ -15,8 +15,10 @@
 //! - *Explored*: from no configuration of the grid that can be reached would a reading show anything new. That is decided, not
 //!   guessed: rays are as wide as the cells that they cross, so what a reading adds is known beforehand up to the first unknown
 //!   cell of each ray ([`Survey::promise`]).
-//! - *Unreachable*: among what is known to be solid there is no way to the goal, proven, whatever lies in what was not seen; or
-//!   nothing new can be seen, and there is none in what is known, proven.
+//!   (Where distances have errors a reading may hide what it promised; such configurations are counted.)
+//! - *Unreachable*: no way leads to the goal past the cells that hold something, proven, whatever lies in what was not seen; or
+//!   nothing new can be seen, and none leads there in what is known, proven. A cell that holds anything counts as solid, so that a
+//!   passage narrower than cells is none: this speaks of what is known, not of the world.
 //! - *Unknown*: none of these within the decisions allowed, or the grid is too coarse for the way.
 //!
 //! ```

@@ -9,6 +9,8 @@ use crate::model::{Arm, Sensor};
 #[derive(Debug)]
 pub struct Outlook {
     cells: Vec<Prospect>,
+    /// How many were given up, though they promised something.
+    pub given_up: usize,
 }
 
 /// What is known of a reading.
@@ -24,7 +26,7 @@ enum Prospect {
 impl Outlook {
     /// Over so many configurations.
     pub fn new(count: usize) -> Self {
-        Self { cells: vec![Prospect::NotAsked; count] }
+        Self { cells: vec![Prospect::NotAsked; count], given_up: 0 }
     }
 
     /// Whether a reading at the middle of a cell would show something new.
@@ -44,6 +46,9 @@ impl Outlook {
     /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance it may promise more than it
     /// holds, and is not asked again.
     pub fn disappointed(&mut self, cell: usize) {
-        self.cells[cell] = Prospect::Nothing;
+        if self.cells[cell] != Prospect::Nothing {
+            self.cells[cell] = Prospect::Nothing;
+            self.given_up += 1;
+        }
     }
 }

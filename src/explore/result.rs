@@ -1,5 +1,6 @@
 //! What became of an exploration.
 
+use super::explorer::Strategy;
 use super::survey::Survey;
 use crate::check::CertifiedCurve;
 use crate::motion::Trajectory;
@@ -15,8 +16,11 @@ pub enum Ending {
     Explored {
         /// How many configurations these are.
         configurations: usize,
+        /// How many of them were given up after a reading that showed nothing, though it promised something, as errors may make it;
+        /// none without errors.
+        given_up: usize,
     },
-    /// There is no way to the goal in what is known: proven, and why.
+    /// There is no way to the goal in what is known, where cells that hold anything are solid as a whole: proven, and why.
     Unreachable(String),
     /// None of these: why.
     Unknown(String),
@@ -58,6 +62,8 @@ pub struct Leg {
 /// An exploration from its beginning to its end.
 #[derive(Debug, Clone)]
 pub struct Exploration {
+    /// Where it went next.
+    pub strategy: Strategy,
     /// How it ended.
     pub ending: Ending,
     /// The map in the end.

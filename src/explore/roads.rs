@@ -27,20 +27,22 @@ pub struct Reach {
 const NONE: u32 = u32::MAX;
 
 impl Reach {
-    /// From the cell `first`, which `start` is joined to. Stops at the first cell for which `is_enough`.
+    /// From the cells that `start` is joined to. Stops at the first cell for which `is_enough`.
     pub fn new(
         grid: &Grid,
         closed: &Closed,
         start: Configuration,
-        first: usize,
+        joined: &[usize],
         mut is_enough: impl FnMut(usize) -> bool,
     ) -> Self {
         let free = FreeCells::new(grid);
         let count = grid.blocked.len();
         let mut reach = Self { start, costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
         let mut open = OpenList::default();
-        reach.costs[first] = grid.topology.distance(start, grid.center(first));
-        open.push(reach.costs[first], first);
+        for &cell in joined {
+            reach.costs[cell] = grid.topology.distance(start, grid.center(cell));
+            open.push(reach.costs[cell], cell);
+        }
         while let Some((cost, cell)) = open.pop() {
             checkpoint();
             if cost > reach.costs[cell] {
@@ -89,8 +91,8 @@ impl Reach {
     }
 }
 
-/// The cell whose middle a configuration can go to straight: of those next to it the nearest.
-pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Option<usize> {
+/// The cells about a configuration whose middles it can go to straight, the nearest first.
+pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
     let middle = grid.locate(q);
     let beside = std::iter::once(middle).chain(grid.neighbors(middle));
     let mut near: Vec<usize> = beside.flat_map(|cell| std::iter::once(cell).chain(grid.neighbors(cell))).collect();
@@ -101,7 +103,8 @@ pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Option<usize> {
         let far = |cell: usize| grid.topology.distance(q, grid.center(cell));
         far(*a).total_cmp(&far(*b)).then(a.cmp(b))
     });
-    near.into_iter().find(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)))
+    near.retain(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)));
+    near
 }
 
 /// Whether a straight motion is certified free.

@@ -44,7 +44,7 @@ impl Survey {
             .map(|obstacle| obstacle.heights)
             .reduce(|all, one| Heights { lower: all.lower.min(one.lower), upper: all.upper.max(one.upper) });
         let heights = heights.unwrap_or(Heights::ALL);
-        let [low, high] = extent(scene.arm(), heights);
+        let [low, high] = extent(scene, heights);
         let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
         if !(size[0] * size[1] <= MOST_CELLS as f64) {
             return None;
@@ -248,17 +248,18 @@ impl Survey {
     }
 }
 
-/// The corners of a rectangle that holds the base and all that an arm can touch at some heights.
-fn extent(arm: &Arm, heights: Heights) -> [Point; 2] {
+/// The corners of a rectangle that holds the base, and all that an arm can come nearer to than the clearance at some heights.
+fn extent(scene: &Scene, heights: Heights) -> [Point; 2] {
+    let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
     let discs = swept(arm, heights);
     let side = |k: usize, sign: f64| {
-        let values = discs.iter().map(|(center, radius)| sign * center[k] + radius);
+        let values = discs.iter().map(|(center, radius)| sign * center[k] + radius + clearance);
         sign * values.fold(sign * arm.base[k], f64::max)
     };
     [-1.0, 1.0].map(|sign| Point::new(side(0, sign), side(1, sign)))
 }
 
-/// Discs, by their centres and radii, whose hull holds all that an arm can touch at some heights.
+/// Discs, by their centres and radii, whose hull holds the tip and all that an arm can touch at some heights.
 fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
     let [first, second] = &arm.joints;
     let (turns, ends) = match second.joint_type {
@@ -273,6 +274,11 @@ fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
     for q1 in <[f64; 2]>::from(first.range.domain()) {
         for &q2 in &ends {
             let poses = arm.poses([q1, q2].into());
+            discs.push(if turns {
+                (arm.elbow_at(q1), arm.tip.coords.norm())
+            } else {
+                (arm.tip_at([q1, q2].into()), 0.0)
+            });
             for link in 0..2 {
                 for part in arm.links[link].parts.iter().filter(|part| part.heights.meet(heights)) {
                     let (shape, elbow) = (part.shape.at(&poses[link]), arm.elbow_at(q1));

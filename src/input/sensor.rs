@@ -14,6 +14,9 @@ use toml::Spanned;
 /// Rays at the most: more than any sensor has.
 const MOST_RAYS: u64 = 100_000;
 
+/// The least distance between readings, in joint space: a way of many turns has millions of places then.
+const SHORTEST_STEP: f64 = 1e-4;
+
 /// What sees the world where it is explored (`cplan explore`); everything has a default. Rays are as wide as the cells of the map that
 /// they cross.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -89,6 +92,13 @@ impl SensorTable {
             };
             number.as_ref().map(read).transpose()
         };
+        let step = |number: &Number| match reader.finite(number, "sensor step")? {
+            value if value >= SHORTEST_STEP => Ok(value),
+            value => {
+                let message = format!("sensor step must be at least {SHORTEST_STEP}, is {value}");
+                Err(reader.source.diagnostic_at(number.span(), message).help("a distance in joint space, such as 0.1"))
+            }
+        };
         let field_of_view = |written: &Written| match reader.quantity(written, "sensor field_of_view")? {
             value if 0.0 < value && value <= TAU * (1.0 + f64::EPSILON) => Ok(value),
             value => {
@@ -101,7 +111,7 @@ impl SensorTable {
             rays: self.rays.as_ref().map(rays).transpose()?,
             field_of_view: self.field_of_view.as_ref().map(field_of_view).transpose()?,
             range: positive(&self.range, "sensor range")?,
-            step: positive(&self.step, "sensor step")?,
+            step: self.step.as_ref().map(step).transpose()?,
             noise: self.noise.as_ref().map(|n| reader.not_negative(n, "sensor noise")).transpose()?,
             seed: self.seed,
             cell: positive(&self.cell, "sensor cell")?,

@@ -141,7 +141,7 @@ impl VisibilityMap {
             roadmap.join(nodes[a as usize], nodes[b as usize]);
         }
         let mut asked = roadmap.asked(terminals.start);
-        let mut ends = Ends { mesh, measure, terminals, asked: &mut asked, seen: Vec::new() };
+        let mut ends = Ends { mesh, measure, terminals, asked: &mut asked, seen: Vec::new(), notes: true };
         for triangle in mesh.triangles_at(terminals.start) {
             ends.meet_goals(ends.asked.start, triangle, |part| Some(*part));
             for successor in mesh.successors_within(triangle, terminals.start) {
@@ -150,6 +150,7 @@ impl VisibilityMap {
             }
         }
         let of_start = std::mem::take(&mut ends.seen);
+        ends.notes = false;
         for (node, corner) in nodes.iter().zip(corners) {
             for successor in corner.tangents().flat_map(|gaze| mesh.successors(corner, gaze)) {
                 ends.meet_goals(*node, successor.cone.edge / 3, |part| Some(*part));
@@ -169,16 +170,20 @@ struct Ends<'a> {
     measure: Measure,
     terminals: &'a Terminals,
     asked: &'a mut Asked,
-    /// Half-edges at vertices seen.
+    /// Half-edges at vertices seen, ...
     seen: Vec<u32>,
+    /// ... where they are asked for.
+    notes: bool,
 }
 
 impl Ends<'_> {
-    /// Joins a node with the goals that it sees in a cone, and notes the vertices.
+    /// Joins a node with the goals that it sees in a cone, and notes the vertices if they are asked for.
     fn look(&mut self, root: NodeIndex, cone: Cone) {
         checkpoint();
         self.mesh.look(self.asked.at(root), cone, |crossing, cone| {
-            self.seen.extend(crossing.seen);
+            if self.notes {
+                self.seen.extend(crossing.seen);
+            }
             self.meet_goals(root, crossing.entry / 3, |part| cone.part(part));
         });
     }

@@ -28,7 +28,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
     ("motion", &["geometry", "space", "model", "check"]),
     ("engine", &["geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion"]),
     ("explore", &["geometry", "space", "model", "input", "cspace", "field", "check", "motion", "engine"]),
-    ("draw", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine", "explore"]),
+    ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
     (

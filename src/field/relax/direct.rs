@@ -88,16 +88,17 @@ fn reach(domain: &Domain, unknowns: &[u32], place: &[Option<usize>]) -> usize {
 /// Whether each value is what its neighbours ask for.
 fn fits(domain: &Domain, unknowns: &[u32], weights: &Weighted, values: &[f64]) -> bool {
     let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
-    unknowns.iter().enumerate().all(|(k, &cell)| {
-        let own = values[cell as usize];
-        let around = domain.neighbors(cell as usize).map(|neighbor| match neighbor {
-            Neighbor::Cell(next) => values[next],
-            Neighbor::Limit => domain.levels().obstacle,
-            Neighbor::Mirror => own,
-        });
-        // What is no number fits nowhere.
-        (weights.asked(k, own, around) - own).abs() <= RESIDUAL * greatest
-    })
+    greatest.is_finite()
+        && unknowns.iter().enumerate().all(|(k, &cell)| {
+            let own = values[cell as usize];
+            let around = domain.neighbors(cell as usize).map(|neighbor| match neighbor {
+                Neighbor::Cell(next) => values[next],
+                Neighbor::Limit => domain.levels().obstacle,
+                Neighbor::Mirror => own,
+            });
+            // What is no number fits nowhere.
+            (weights.asked(k, own, around) - own).abs() <= RESIDUAL * greatest
+        })
 }
 
 /// Equations of which each has unknowns within `reach` of its own.

@@ -209,7 +209,7 @@ fn sweeps(count: usize, ending: Ending) -> String {
 
 fn lost(scan: &StrengthScan) -> String {
     match scan.lost_from() {
-        None => format!("{}: converge up to the last epsilon tried", scan.difference),
+        None => format!("{}: converge at the last epsilon tried", scan.difference),
         Some(point) => {
             let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };
             format!("{}: {how} from epsilon {:.1} on", scan.difference, point.at)

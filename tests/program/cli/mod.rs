@@ -6,6 +6,7 @@ mod compare;
 mod converge;
 mod diagnostics;
 mod error_json;
+mod explore;
 mod fields;
 mod first;
 mod free_joint;

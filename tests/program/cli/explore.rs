@@ -1,0 +1,136 @@
+//! `cplan explore`, from outside: how it ends, what it writes, what it refuses.
+
+use super::{Done, FREE, Place, shelf, shipped};
+use serde_json::Value;
+
+/// A grid that is soon explored.
+const COARSE: &str = "--grid 48";
+
+fn rooms() -> [String; 2] {
+    [shipped("robots/gantry.urdf"), shipped("workspaces/explore/rooms.toml")]
+}
+
+fn explore(place: &Place, files: &[String; 2], options: &str) -> Done {
+    place.run(&["explore", &files[0], &files[1]], options)
+}
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn the_goal_is_reached_and_what_is_played_is_free() {
+    let place = Place::new();
+    let done = explore(&place, &shelf(), "--output a.json --output a.csv --output a.yaml");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stdout.contains("reached: the arm is at the goal"), "{}", done.stdout);
+    let result = json(&place.read("a.json"));
+    assert_eq!(result["status"], "reached");
+    let positions = result["trajectory"]["position"].as_array().unwrap();
+    assert_eq!(positions[positions.len() - 1], serde_json::json!([1.55, -0.35]));
+    let legs = result["legs"].as_array().unwrap();
+    assert!(legs.len() > 2 && legs.windows(2).all(|w| w[0]["path"].as_array().unwrap().last() == w[1]["path"].get(0)));
+    // The judge sees the world itself, and what is played by whoever reads the file.
+    for file in ["a.csv", "a.yaml"] {
+        let [urdf, world] = shelf();
+        let verified = place.run(&["verify", &urdf, &world, file], "");
+        assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+    }
+}
+
+#[test]
+fn rooms_are_explored_and_the_map_is_a_world() {
+    let place = Place::new();
+    let files = "--map rooms.yaml --picture rooms.html --picture rooms.svg --quiet";
+    for strategy in ["nearest", "harmonic"] {
+        let options = format!("{COARSE} --strategy {strategy} --json");
+        let done = explore(&place, &rooms(), &options);
+        let result = json(&done.stdout);
+        assert_eq!((done.code, &result["status"]), (0, &"explored".into()), "{}", done.stderr);
+        assert_eq!(explore(&place, &rooms(), &options).stdout, done.stdout, "not the same again");
+        let map = &result["map"];
+        let [free, occupied] = ["free", "occupied"].map(|label| map[label].as_u64().unwrap());
+        assert!(free > 4000 && occupied > 100, "{map}");
+    }
+    let done = explore(&place, &rooms(), &format!("{COARSE} {files}"));
+    assert_eq!((done.code, done.stdout.as_str()), (0, ""));
+    let page = place.read("rooms.html");
+    let data = page.split("<script id=\"exploration\" type=\"application/json\">").nth(1).unwrap();
+    let data = json(data.split("</script>").next().unwrap());
+    assert!(data["frames"].as_array().unwrap().len() > 10 && data["opened"].as_array().unwrap().len() > 10);
+    assert!(place.read("rooms.svg").contains("explored after"));
+    // In what was seen one can plan, from room to room.
+    place.write(
+        "seen.toml",
+        "[start]\njoints = [0.2, 0.2]\n[goal]\njoints = [1.5, 0.2]\n[[obstacle]]\nimage = \"rooms.yaml\"\nheight = [0.0, 0.3]\n",
+    );
+    let planned = place.run(&[&rooms()[0], "seen.toml"], "");
+    assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
+}
+
+#[test]
+fn what_cannot_be_reached_is_proven() {
+    let place = Place::new();
+    let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/singular_closed.toml")];
+    let done = explore(&place, &files, "");
+    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+    assert!(done.stdout.contains("unreachable: proven"), "{}", done.stdout);
+    let stopped = explore(&place, &rooms(), "--decisions 1");
+    assert_eq!(stopped.code, 4, "{}", stopped.stdout);
+    assert!(stopped.stdout.contains("unknown: not done after 1 decision"), "{}", stopped.stdout);
+}
+
+/// Steps between middles of so few cells lead through walls.
+#[test]
+fn on_a_coarse_grid_it_ends() {
+    let place = Place::new();
+    for strategy in ["nearest", "harmonic"] {
+        for grid in ["9", "13x8"] {
+            let done = explore(&place, &rooms(), &format!("--grid {grid} --strategy {strategy}"));
+            assert!([0, 4].contains(&done.code), "{}{}", done.stdout, done.stderr);
+        }
+    }
+}
+
+/// Obstacles that nothing but the clearance reaches are seen, too.
+#[test]
+fn the_clearance_is_kept_from_what_lies_beyond_reach() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    place.write(
+        "far.toml",
+        "clearance = 0.3\n[start]\njoints = [0.6, 0.5]\n[goal]\njoints = [-0.6, 0.5]\n\
+         [[obstacle]]\npolygon = [[1.93, -1.0], [2.0, -1.0], [2.0, 1.0], [1.93, 1.0]]\n",
+    );
+    let done = place.run(&["explore", &robot, "far.toml"], "--output far.csv --grid 64");
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let verified = place.run(&["verify", &robot, "far.toml", "far.csv"], "");
+    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+}
+
+#[test]
+fn what_makes_no_exploration_is_refused() {
+    let place = Place::new();
+    let explore = |options: &str| explore(&place, &rooms(), options);
+    explore("--strategy goal").refused(1, &["has no goal"]);
+    explore("--output a.mcap").refused(2, &["a.mcap", ".json, .csv or .yaml"]);
+    explore("--map a.pgm").refused(2, &["a.pgm", "must end in .yaml"]);
+    explore("--grid 0").refused(2, &["grid"]);
+    explore("--output a.json --picture a.json").refused(2, &["a.json"]);
+    let robot = shipped("robots/planar_2r.urdf");
+    for (sensor, why) in [
+        ("on = \"wrist\"", "not on \"wrist\""),
+        ("rays = 0", "1 to 100000 rays, not 0"),
+        ("rays = -3", "rays"),
+        ("step = 1e-12", "sensor step must be at least"),
+        ("range = 0.0", "sensor range must be positive"),
+        ("range = nan", "sensor range"),
+        ("noise = -1.0", "sensor noise"),
+        ("field_of_view = \"400deg\"", "at most a whole turn"),
+        ("cell = 1e-9", "would have more than"),
+        ("colour = 1", "unknown key"),
+    ] {
+        place.write("world.toml", &format!("{FREE}[sensor]\n{sensor}\n"));
+        place.run(&["explore", &robot, "world.toml"], COARSE).refused(1, &[why]);
+    }
+}
