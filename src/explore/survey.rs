@@ -29,9 +29,8 @@ pub struct Survey {
 /// A cell that a ray crosses.
 struct Crossing {
     cell: usize,
-    /// Distances at which the ray enters and leaves it, metres.
+    /// Distance at which the ray enters it, metres.
     enters: f64,
-    leaves: f64,
 }
 
 impl Survey {
@@ -46,7 +45,8 @@ impl Survey {
         let heights = heights.unwrap_or(Heights::ALL);
         let [low, high] = extent(scene, heights);
         let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
-        if !(size[0] * size[1] <= MOST_CELLS as f64) {
+        let count = size[0] * size[1];
+        if count.is_nan() || count > MOST_CELLS as f64 {
             return None;
         }
         // The middle of the map is that of what the arm can touch.
@@ -149,7 +149,7 @@ impl Survey {
             if !inside || leaves > range {
                 return None;
             }
-            let crossing = Crossing { cell: (size[1] - 1 - at[1] as usize) * size[0] + at[0] as usize, enters, leaves };
+            let crossing = Crossing { cell: (size[1] - 1 - at[1] as usize) * size[0] + at[0] as usize, enters };
             enters = leaves;
             at[k] += step[k];
             next[k] += across[k];
@@ -195,8 +195,8 @@ impl Survey {
 
     /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.
     ///
-    /// Of a distance that may be wrong only what holds whatever the error is noted: cells that end before it less the greatest
-    /// error are free, and one that all possible ends lie in is occupied.
+    /// Of a distance that may be wrong only what holds whatever the error is noted: cells before all that the ray may have ended at are
+    /// free, and where that is a single one it is occupied.
     pub fn look(&mut self, sensor: &Sensor, arm: &Arm, q: Configuration, errors: &mut Draws) -> Vec<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
         let mut new = Vec::new();
@@ -204,18 +204,19 @@ impl Survey {
             let crossings: Vec<Crossing> = self.crossings(from, angle, sensor.range).collect();
             let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
             let hit = crossings.iter().position(|crossing| self.truth[crossing.cell]);
-            let told = hit.map_or(f64::INFINITY, |hit| crossings[hit].enters + error);
-            for (k, Crossing { cell, enters, leaves }) in crossings.into_iter().enumerate() {
-                let is_first = hit == Some(k);
-                let label = if hit.is_none_or(|hit| k < hit) && leaves <= told - sensor.noise {
-                    Occupancy::Free
-                } else if is_first
-                    && (sensor.noise == 0.0 || enters <= told - sensor.noise && told + sensor.noise < leaves)
-                {
-                    Occupancy::Occupied
-                } else {
-                    continue;
-                };
+            let told = hit.map(|hit| crossings[hit].enters + error);
+            // The first cell that the ray may have ended at, and whether no other is.
+            let (first, is_sole) = match (hit, told) {
+                (Some(hit), Some(told)) if sensor.noise > 0.0 => {
+                    let may_be = |crossing: &Crossing| (crossing.enters - told).abs() <= sensor.noise * (1.0 + 1e-9);
+                    let first = crossings.iter().position(may_be).unwrap_or(hit);
+                    (first, crossings[first + 1..].iter().all(|crossing| !may_be(crossing)))
+                }
+                (Some(hit), _) => (hit, true),
+                _ => (crossings.len(), false),
+            };
+            for (k, Crossing { cell, .. }) in crossings.into_iter().enumerate().take(first + usize::from(is_sole)) {
+                let label = if k < first { Occupancy::Free } else { Occupancy::Occupied };
                 if self.is_unknown(cell) {
                     self.known.cells[cell] = label;
                     new.push(cell);
@@ -279,9 +280,9 @@ fn swept(arm: &Arm, heights: Heights) -> Vec<(Point, f64)> {
             } else {
                 (arm.tip_at([q1, q2].into()), 0.0)
             });
-            for link in 0..2 {
+            for (link, pose) in poses.iter().enumerate() {
                 for part in arm.links[link].parts.iter().filter(|part| part.heights.meet(heights)) {
-                    let (shape, elbow) = (part.shape.at(&poses[link]), arm.elbow_at(q1));
+                    let (shape, elbow) = (part.shape.at(pose), arm.elbow_at(q1));
                     if turns && link == 1 {
                         discs.push((elbow, shape.reach_from(elbow)));
                     } else {

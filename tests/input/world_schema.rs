@@ -162,6 +162,15 @@ repeat = 10
 order = "fixed"
 speed = 0.8
 dwell = 0
+[sensor]
+on = "base"
+rays = 180
+field_of_view = "180deg"
+range = 2
+step = 0.05
+noise = 0.01
+seed = 7
+cell = 0.05
 "#,
 ];
 

@@ -99,7 +99,7 @@ fn the_clearance_is_kept_from_what_lies_beyond_reach() {
     let robot = shipped("robots/planar_2r.urdf");
     place.write(
         "far.toml",
-        "clearance = 0.3\n[start]\njoints = [0.6, 0.5]\n[goal]\njoints = [-0.6, 0.5]\n\
+        "clearance = 0.3\n[start]\njoints = [-1.5, 1.0]\n[goal]\njoints = [1.5, 0.0]\n\
          [[obstacle]]\npolygon = [[1.93, -1.0], [2.0, -1.0], [2.0, 1.0], [1.93, 1.0]]\n",
     );
     let done = place.run(&["explore", &robot, "far.toml"], "--output far.csv --grid 64");
@@ -130,7 +130,7 @@ fn what_makes_no_exploration_is_refused() {
         ("cell = 1e-9", "would have more than"),
         ("colour = 1", "unknown key"),
     ] {
-        place.write("world.toml", &format!("{FREE}[sensor]\n{sensor}\n"));
+        place.write("world.toml", format!("{FREE}[sensor]\n{sensor}\n"));
         place.run(&["explore", &robot, "world.toml"], COARSE).refused(1, &[why]);
     }
 }
