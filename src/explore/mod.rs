@@ -22,7 +22,7 @@
 //! - *Unknown*: none of these within the decisions allowed, or the grid is too coarse for the way.
 //!
 //! ```
-//! use cplan::explore::{Ending, Settings, explore};
+//! use cplan::explore::{Ending, Settings, Strategy, explore};
 //! use cplan::model::{Scene, Sensor};
 //! use cplan::{Arm, Configuration, Obstacle, Workspace};
 //!
@@ -30,7 +30,7 @@
 //! let post = Obstacle::circle("post", [0.5, 0.6], 0.1)?;
 //! let scene = Scene::new(arm, Workspace::new([post]))?;
 //! let sensor = Sensor { cell: 0.05, ..Sensor::usual(scene.arm()) };
-//! let settings = Settings { cells: [48, 48], ..Settings::default() };
+//! let settings = Settings { strategy: Strategy::Nearest, cells: [48, 48], ..Settings::default() };
 //! let exploration = explore(&scene, &sensor, Configuration::new(-2.0, 0.5), None, &settings, &mut |_| ())?;
 //! assert!(matches!(exploration.ending, Ending::Explored { .. }));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
