@@ -312,9 +312,10 @@ impl Explorer<'_> {
         let hoped = match solve(&problem, &self.settings.options, &mut |_| ()).verdict {
             Verdict::Found(path) => path,
             Verdict::Infeasible(proof) => {
-                let boxes = counted(proof.stuck().len(), "box");
-                let why =
-                    format!("proven: {boxes} of configurations that meet what was seen separate it from the goal");
+                let boxes = proof.stuck().len();
+                let why = format!(
+                    "proven: {boxes} boxes of configurations that meet what was seen separate it from the goal"
+                );
                 return Decision::Done(Ending::Unreachable(why));
             }
             // Its planner may give up, as in a trap: others see farther.
@@ -328,11 +329,11 @@ impl Explorer<'_> {
             }
             free.push(place);
         }
-        // Where nothing new was seen on the way, more of it shows nothing, either.
-        let is_new = free.len() > 1;
+        // Where nothing new was seen on the way, more of it shows nothing, either; but all of it leads to the goal.
+        let is_worth = free.len() > places.len() || free.len() > 1 && !self.is_stalled;
         let ahead = &places[(free.len() - 1).min(places.len())..];
         match certify(&known.scene, Path::new(free), clearance) {
-            Ok(path) if is_new && !self.is_stalled => Decision::Go(path, None),
+            Ok(path) if is_worth => Decision::Go(path, None),
             _ => {
                 let ahead = ahead.iter().take(PLACES_AHEAD).flat_map(|&q| self.survey.unknown_at(arm, q));
                 let wanted: BTreeSet<usize> = ahead.collect();
