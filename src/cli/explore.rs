@@ -80,6 +80,7 @@ pub struct ExploreArgs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum StrategyName {
     Goal,
+    View,
     Nearest,
     Harmonic,
 }
@@ -88,6 +89,7 @@ impl From<StrategyName> for Strategy {
     fn from(name: StrategyName) -> Self {
         match name {
             StrategyName::Goal => Self::Goal,
+            StrategyName::View => Self::View,
             StrategyName::Nearest => Self::Nearest,
             StrategyName::Harmonic => Self::Harmonic,
         }
@@ -136,7 +138,9 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::Picture(format, path) => {
                 let view = || view(&world, &done);
-                let page = || draw::exploration_page(&title_of(&world.scene), &world.scene, &world.sensor, &done);
+                let page = || {
+                    draw::exploration_page(&title_of(&world.scene), &world.scene, &world.sensor, &done, args.timings)
+                };
                 files.push((path.clone(), format.bytes_of(|| draw::svg(&view()), page)?));
             }
         }

@@ -1,38 +1,23 @@
 //! The page that plays an exploration: what is known and seen in the workspace, and the configuration space growing.
 
+use super::view::sealed;
 use crate::explore::{Ending, Exploration};
 use crate::geometry::Convex;
 use crate::input::Occupancy;
 use crate::model::{Scene, Sensor};
 use crate::space::Configuration;
-use crate::text::markup;
 use serde_json::{Value, json};
 
-const STYLE: &str = include_str!("view/assets/view.css");
-const OWN_STYLE: &str = include_str!("assets/exploration.css");
+const STYLE: &str = include_str!("assets/exploration.css");
 const CODE: &str = include_str!("assets/exploration.js");
 
-/// Points of a half circle about a corner.
-const ARC: usize = 8;
-
-/// An exploration as one self-contained file of HTML: it loads nothing, and may not.
+/// An exploration as one self-contained file of HTML; `timed`, with how long its decisions took.
 #[must_use]
-pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration) -> String {
-    let policy = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:";
-    // Within a script only the less-than sign could end it.
-    let data = data(title, scene, sensor, done).to_string().replace('<', "\\u003c");
-    let title = markup(title);
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>{title}</title>\n\
-         <style>\n{STYLE}{OWN_STYLE}</style>\n</head>\n<body>\n<main><noscript>This page draws with JavaScript, which is \
-         switched off here.</noscript></main>\n<script id=\"exploration\" type=\"application/json\">{data}</script>\n\
-         <script>\n{CODE}</script>\n</body>\n</html>\n"
-    )
+pub fn exploration_page(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
+    sealed(title, STYLE, "exploration", &data(title, scene, sensor, done, timed).to_string(), CODE)
 }
 
-fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration) -> Value {
+fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> Value {
     let (arm, map) = (scene.arm(), done.survey.map());
     let origin = map.pose.translation.vector;
     let obstacles = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces).map(outline);
@@ -76,24 +61,15 @@ fn data(title: &str, scene: &Scene, sensor: &Sensor, done: &Exploration) -> Valu
         "opened": done.opened,
         "grid": done.cells,
         "axes": axes,
+        "known_length": done.known_length,
+        "decisions_ms": timed.then(|| done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect::<Vec<_>>()),
         "sensor": { "range": sensor.range, "view": sensor.field_of_view },
     })
 }
 
-/// A shape's corners, rounded ones as many.
-fn outline(shape: &Convex) -> Vec<[f64; 2]> {
-    let (core, radius) = (shape.core(), shape.radius());
-    if radius == 0.0 {
-        return core.iter().map(|p| [short(p.x), short(p.y)]).collect();
-    }
-    let around = core.iter().flat_map(|p| {
-        (0..2 * ARC).map(move |k| {
-            let (sine, cosine) = (std::f64::consts::PI * k as f64 / ARC as f64).sin_cos();
-            *p + crate::geometry::Vector::new(cosine, sine) * radius
-        })
-    });
-    let points: Vec<_> = around.collect();
-    crate::geometry::hull(&points).into_iter().map(|p| [short(p.x), short(p.y)]).collect()
+/// Corners and radius of a shape.
+fn outline(shape: &Convex) -> Value {
+    json!([shape.core().iter().map(|p| [short(p.x), short(p.y)]).collect::<Vec<_>>(), short(shape.radius())])
 }
 
 /// Tenths of a millimetre.

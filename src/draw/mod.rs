@@ -36,7 +36,7 @@ mod view;
 mod workspace;
 
 pub use exploration::exploration_page;
-pub use view::{AxesFrame, Picture, TaskPicture, View, page, shell};
+pub use view::{AxesFrame, Picture, TaskPicture, View, drawing, page, shell};
 
 /// Why there is no picture.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -35,6 +35,7 @@ impl Exploration {
                 "unknown": unknown,
             },
             "length": self.length,
+            "known_length": self.known_length,
             "duration": self.trajectory.as_ref().map_or(0.0, crate::motion::Trajectory::duration),
             "decisions": self.decisions.len(),
             "readings": rows.collect::<Vec<_>>(),

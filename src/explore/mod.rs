@@ -6,7 +6,7 @@
 //! plays it.
 //!
 //! ```text
-//! look -> known map -> scene, grid of configurations -> where to? -> certified leg -> on the way: look ...
+//! look -> map -> known free configurations, frontier among them -> decision -> certified leg -> on the way: look ...
 //! ```
 //!
 //! # How it ends
@@ -36,15 +36,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod decision;
 mod explorer;
+mod frontier;
 mod json;
+mod known;
 mod map_files;
-mod outlook;
+mod reach;
 mod result;
-mod roads;
+mod settings;
 mod survey;
 
-pub use explorer::{ExploreError, Settings, Strategy, explore};
+pub use explorer::explore;
 pub use map_files::{map_description, map_picture};
 pub use result::{Ending, Exploration, Leg, Reading};
+pub use settings::{ExploreError, Settings, Strategy};
 pub use survey::{MOST_CELLS, Survey};

@@ -1,6 +1,6 @@
 //! What became of an exploration.
 
-use super::explorer::Strategy;
+use super::settings::Strategy;
 use super::survey::Survey;
 use crate::check::CertifiedCurve;
 use crate::motion::Trajectory;
@@ -72,7 +72,8 @@ pub struct Exploration {
     pub surroundings: Vec<usize>,
     /// All readings, in order.
     pub readings: Vec<Reading>,
-    /// Cells of the grid that were free for the first time at each decision, with the number of readings that had been taken.
+    /// Cells of the grid that were free for the first time at the beginning and at each decision, with the number of readings that had
+    /// been taken.
     pub opened: Vec<(usize, Vec<usize>)>,
     /// All motions, in order.
     pub legs: Vec<Leg>,
@@ -80,6 +81,9 @@ pub struct Exploration {
     pub trajectory: Option<Trajectory>,
     /// Length of the way, in joint space.
     pub length: f64,
+    /// Length of the shortest motion to the goal that was found in the world itself, in joint space: what an arm that knew it would go. None
+    /// unless the goal was reached.
+    pub known_length: Option<f64>,
     /// Time of each decision.
     pub decisions: Vec<Duration>,
     /// Cells of the grid along both axes.

@@ -60,7 +60,7 @@ impl Survey {
         };
         let mut survey = Self { truth: vec![false; known.cells.len()], heights, known };
         let pieces = obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
-        let occupied: Vec<usize> = pieces.flat_map(|piece| survey.touched(piece, 0.0)).collect();
+        let occupied: Vec<usize> = pieces.flat_map(|piece| survey.touched(piece, 0.0, |_| true)).collect();
         occupied.into_iter().for_each(|cell| survey.truth[cell] = true);
         Some(survey)
     }
@@ -78,6 +78,13 @@ impl Survey {
         [count(Occupancy::Free), count(Occupancy::Occupied), count(Occupancy::Unknown)]
     }
 
+    /// The share of the map's cells of which something is known.
+    #[must_use]
+    pub fn share_seen(&self) -> f64 {
+        let unknown = self.known.cells.iter().filter(|&&cell| cell == Occupancy::Unknown).count();
+        1.0 - unknown as f64 / self.known.cells.len() as f64
+    }
+
     /// The corner of the map from which cells are counted.
     fn origin(&self) -> Vector {
         self.known.pose.translation.vector
@@ -88,42 +95,52 @@ impl Survey {
         (self.known.size[1] - 1 - y) * self.known.size[0] + x
     }
 
-    /// The cells that a shape meets, grown by a margin.
-    fn touched(&self, shape: &Convex, margin: f64) -> Vec<usize> {
+    /// The cells that a shape meets, grown by a margin, of those that are `asked` about.
+    fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
         let around = shape.radius() + margin;
-        let local: Vec<Vector> = shape.core().iter().map(|p| p.coords - self.origin()).collect();
         let range = |k: usize| {
-            let least = local.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min) - around;
-            let most = local.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max) + around;
+            let local = shape.core().iter().map(|p| p[k] - self.origin()[k]);
+            let (least, most) = local.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
             // A cell more to either side: rounding must not lose one.
             let at = |value: f64| (value / cell).floor();
-            (at(least) - 1.0).max(0.0) as usize..((at(most) + 2.0).max(0.0) as usize).min(self.known.size[k])
+            let from = (at(least - around) - 1.0).max(0.0) as usize;
+            from..((at(most + around) + 2.0).max(0.0) as usize).min(self.known.size[k])
         };
         let grown = Convex::trusted(shape.core().to_vec(), around);
-        let mut touched = Vec::new();
-        for y in range(1) {
-            for x in range(0) {
-                let at = |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * cell);
-                let square = vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)];
-                if shapes_meet(&Convex::trusted(square, 0.0), &grown) {
-                    touched.push(self.index(x, y));
-                }
-            }
-        }
-        touched
+        let [columns, rows] = [range(0), range(1)];
+        let cells = rows.flat_map(move |y| columns.clone().map(move |x| (x, y)));
+        cells.filter(move |&(x, y)| asked(self.index(x, y)) && shapes_meet(&self.square(x, y), &grown)).map(|(x, y)| self.index(x, y))
+    }
+
+    /// A cell as a shape, by column from the left and row from below.
+    fn square(&self, x: usize, y: usize) -> Convex {
+        let at = |x: usize, y: usize| {
+            Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution)
+        };
+        Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
+    }
+
+    /// The shapes of the arm at `q` that are as high as the obstacles.
+    fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = Convex> {
+        let poses = arm.poses(q);
+        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
+        parts.filter(|(_, part)| part.heights.meet(self.heights)).map(move |(link, part)| part.shape.at(&poses[link]))
     }
 
     /// The cells that the arm meets at `q`, grown by a margin; in ascending order.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
-        let poses = arm.poses(q);
-        let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
-        let shapes =
-            parts.filter(|(_, part)| part.heights.meet(self.heights)).map(|(link, part)| part.shape.at(&poses[link]));
-        let mut cells: Vec<usize> = shapes.flat_map(|shape| self.touched(&shape, margin)).collect();
+        let mut cells: Vec<usize> = self.parts(arm, q).flat_map(|part| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
+    }
+
+    /// A cell that is not known to be free and that the arm meets at `q`, grown by a margin; none if all are known to be.
+    #[must_use]
+    pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
+        let is_solid = |cell: usize| self.known.cells[cell] != Occupancy::Free;
+        self.parts(arm, q).find_map(|part| self.touched(&part, margin, is_solid).next())
     }
 
     /// The cells that a ray crosses as far as the sensor sees, those whole that it leaves before that, in order.
@@ -165,12 +182,22 @@ impl Survey {
 
     /// Of each ray of a reading at `q` the first cell that is not known to be free, if it is unknown.
     fn first_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
-        let (from, ahead) = sensor.pose(arm, q.into());
-        sensor.rays(ahead).filter_map(move |angle| {
-            let seen = self.crossings(from, angle, sensor.range).map(|crossing| crossing.cell);
-            let mut seen = seen.skip_while(|&cell| self.known.cells[cell] == Occupancy::Free);
-            seen.next().filter(|&cell| self.known.cells[cell] == Occupancy::Unknown)
+        self.views(sensor, arm, q).filter_map(|mut view| {
+            let first = view.find(|&cell| self.known.cells[cell] != Occupancy::Free);
+            first.filter(|&cell| self.is_unknown(cell))
         })
+    }
+
+    /// The unknown cells that the rays of a reading at `q` cross before what is known to be there; some more than once.
+    pub fn visible_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
+        let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
+        self.views(sensor, arm, q).flat_map(move |view| view.take_while(open)).filter(|&cell| self.is_unknown(cell))
+    }
+
+    /// The cells that each ray of a reading at `q` crosses.
+    fn views(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
+        let ((from, ahead), range) = (sensor.pose(arm, q.into()), sensor.range);
+        sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
     }
 
     /// Whether a reading at `q` would show any of some unknown cells, in ascending order: one that a ray comes to first.
@@ -187,10 +214,51 @@ impl Survey {
         cells
     }
 
+    /// Whether a cell is known to be free.
+    #[must_use]
+    pub fn is_free(&self, cell: usize) -> bool {
+        self.known.cells[cell] == Occupancy::Free
+    }
+
     /// Whether nothing is known of a cell.
     #[must_use]
     pub fn is_unknown(&self, cell: usize) -> bool {
         self.known.cells[cell] == Occupancy::Unknown
+    }
+
+    /// Columns of the unknown cells that share a side with a free one, in ascending order, row by row from the top.
+    #[must_use]
+    pub fn edges(&self) -> Vec<Vec<usize>> {
+        let [width, height] = self.known.size;
+        let is = |x: usize, y: usize, label| self.known.cells[y * width + x] == label;
+        let is_edge = |x: usize, y: usize| {
+            let is_free = |x: usize, y: usize| x < width && y < height && is(x, y, Occupancy::Free);
+            is(x, y, Occupancy::Unknown)
+                && (is_free(x.wrapping_sub(1), y) || is_free(x + 1, y) || is_free(x, y.wrapping_sub(1)) || is_free(x, y + 1))
+        };
+        (0..height).map(|y| (0..width).filter(|&x| is_edge(x, y)).collect()).collect()
+    }
+
+    /// Whether a reading at `q` may show anything new: there are [`Survey::edges`] within the sensor's range, or it stands in the unknown.
+    #[must_use]
+    pub fn may_see(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: &[Vec<usize>]) -> bool {
+        let (from, _) = sensor.pose(arm, q.into());
+        let local = (from.coords - self.origin()) / self.known.resolution;
+        let (x, y) = (local.x, self.known.size[1] as f64 - local.y);
+        let inside = |v: f64, size: usize| 0.0 <= v && v < size as f64;
+        let [width, height] = self.known.size;
+        if inside(x, width) && inside(y, height) && self.is_unknown(y as usize * width + x as usize) {
+            return true;
+        }
+        // A cell more to each side: for its far side, and rounding.
+        let range = sensor.range / self.known.resolution + 2.0;
+        let rows = (y - range).max(0.0) as usize..((y + range).max(0.0) as usize).min(height);
+        rows.into_iter().any(|row| {
+            let half = (range.powi(2) - (row as f64 + 0.5 - y).powi(2)).max(0.0).sqrt() + 1.0;
+            let columns = &edges[row];
+            let first = columns.partition_point(|&column| (column as f64) < x - half);
+            columns.get(first).is_some_and(|&column| column as f64 <= x + half)
+        })
     }
 
     /// Notes what a reading at `q` shows; the cells that are new, in the order in which they were seen.

@@ -2,7 +2,7 @@
 
 use super::Host;
 use super::socket;
-use crate::draw::shell;
+use crate::draw::{drawing, shell};
 use axum::Router;
 use axum::extract::{Request, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
@@ -58,7 +58,7 @@ const CODE: [&str; 7] = [
 
 /// The page with its scripts and styles in one document.
 fn page() -> String {
-    shell("cplan", "", include_str!("assets/live.css"), "", &CODE.concat())
+    shell("cplan", "", include_str!("assets/live.css"), "", &(drawing() + &CODE.concat()))
 }
 
 /// Serves until the process ends.

@@ -30,6 +30,8 @@ const panel = (name, label) => {
 };
 const left = panel("Workspace", "The map as far as it is known, the arm and what it sees");
 const right = panel("Configuration space", "Configurations that are known to be free, and the way so far");
+const chart = panel("Seen of the map, against the length of the way", "Share of the map that has been seen, against the length of the way");
+chart.canvas.setAttribute("class", "chart");
 const slider = node("input", { type: "range", min: 0, max: Math.max(count - 1, 0), value: 0, "aria-label": "Reading" });
 const play = node("button", { class: "play", type: "button", "aria-label": "Play" }, "▶");
 const clock = node("span", { class: "clock" });
@@ -39,7 +41,7 @@ const key = add(node("p", { class: "key" }),
   swatch("var(--paper)", "free"), swatch("var(--pale)", "unknown, solid"), swatch("var(--ink)", "occupied"),
   swatch("var(--channel)", "new"), swatch("var(--free)", "free configurations"));
 add(main, heading, add(node("div", { class: "panels" }), left.figure, right.figure),
-  add(node("div", { class: "transport" }), play, slider, clock), readout, key);
+  add(node("div", { class: "transport" }), play, slider, clock), readout, chart.figure, key);
 
 const color = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const fitted = (canvas) => {
@@ -55,6 +57,23 @@ const polygon = (context, points) => {
   context.beginPath();
   points.forEach(([x, y], k) => (k ? context.lineTo(x, y) : context.moveTo(x, y)));
   context.closePath();
+};
+
+// A rounded convex polygon: filled, and its border drawn as broad as it is round.
+const rounded = (context, [points, radius], place, scale) => {
+  const at = points.map(place);
+  if (at.length === 1) {
+    context.beginPath();
+    context.arc(at[0][0], at[0][1], radius * scale, 0, 7);
+    context.fill();
+    return;
+  }
+  polygon(context, at);
+  context.fill();
+  context.lineJoin = "round";
+  context.lineCap = "round";
+  context.lineWidth = 2 * radius * scale;
+  if (radius > 0) context.stroke();
 };
 
 const drawWorkspace = (at) => {
@@ -78,9 +97,11 @@ const drawWorkspace = (at) => {
     // A hair more, lest seams show.
     context.fillRect(x0 + (index % size[0]) * side, y0 + Math.floor(index / size[0]) * side, side + 0.5, side + 0.5);
   }
-  context.lineWidth = 1;
+  context.globalAlpha = 0.35;
+  context.fillStyle = color("barred");
   context.strokeStyle = color("barred");
-  data.obstacles.forEach((points) => { polygon(context, points.map(place)); context.stroke(); });
+  data.obstacles.forEach((shape) => rounded(context, shape, place, scale));
+  context.globalAlpha = 1;
   const frame = data.frames[at];
   const [sx, sy, ahead] = frame.sensor;
   const [cx, cy] = place([sx, sy]);
@@ -93,10 +114,10 @@ const drawWorkspace = (at) => {
   context.closePath();
   context.fill();
   context.globalAlpha = 0.85;
-  frame.arm.forEach(([link, points]) => {
+  frame.arm.forEach(([link, shape]) => {
     context.fillStyle = color(link ? "accent" : "edge");
-    polygon(context, points.map(place));
-    context.fill();
+    context.strokeStyle = context.fillStyle;
+    rounded(context, shape, place, scale);
   });
   context.globalAlpha = 1;
   context.strokeStyle = color("accent");
@@ -170,10 +191,59 @@ const known = new Array(count).fill(0);
 since.forEach((reading) => { if (reading <= count) known[Math.max(reading, 0)] += 1; });
 for (let k = 1; k < count; k += 1) known[k] += known[k - 1];
 
+// Where each decision was made on the way, and how long it took; empty unless that was asked for.
+const decisions = (data.decisions_ms || []).map((time, k) => {
+  const reading = Math.max(data.opened[k + 1][0] - 1, 0);
+  return [data.frames[reading].length, time];
+});
+const drawChart = (at) => {
+  const context = fitted(chart.canvas);
+  const [x0, y0] = [48, 10];
+  const [width, height] = [chart.canvas.clientWidth - x0 - 60, chart.canvas.clientHeight - y0 - 34];
+  const whole = data.frames[count - 1].length || 1;
+  const slowest = Math.max(...decisions.map(([, time]) => time), 1);
+  const x = (length) => x0 + (length / whole) * width;
+  const y = (share) => y0 + height * (1 - share);
+  context.font = "12px system-ui, sans-serif";
+  context.fillStyle = color("grey");
+  context.strokeStyle = color("pale");
+  context.lineWidth = 1;
+  [0, 0.5, 1].forEach((share) => {
+    context.textAlign = "right";
+    context.fillText(`${100 * share} %`, x0 - 6, y(share) + 4);
+    context.beginPath();
+    context.moveTo(x0, y(share));
+    context.lineTo(x0 + width, y(share));
+    context.stroke();
+    context.textAlign = "left";
+    if (decisions.length) context.fillText(`${(slowest * share).toFixed(share ? 1 : 0)} ms`, x0 + width + 6, y(share) + 4);
+  });
+  context.textAlign = "center";
+  context.fillText(decisions.length ? "length; dots: how long decisions took" : "length", x0 + width / 2, y0 + height + 28);
+  context.fillText("0", x0, y0 + height + 16);
+  context.fillText(whole.toFixed(2), x0 + width, y0 + height + 16);
+  context.globalAlpha = 0.5;
+  decisions.forEach(([length, time]) => context.fillRect(x(length) - 1.5, y(time / slowest) - 1.5, 3, 3));
+  context.globalAlpha = 1;
+  context.strokeStyle = color("accent");
+  context.lineWidth = 1.8;
+  context.beginPath();
+  data.frames.forEach((frame, k) => {
+    const point = [x(frame.length), y(known[k] / cells)];
+    if (k) context.lineTo(...point); else context.moveTo(...point);
+  });
+  context.stroke();
+  context.fillStyle = color("probe");
+  context.beginPath();
+  context.arc(x(data.frames[at].length), y(known[at] / cells), 4, 0, 7);
+  context.fill();
+};
+
 const draw = () => {
   const at = Number(slider.value);
   drawWorkspace(at);
   drawSpace(at);
+  drawChart(at);
   const frame = data.frames[at];
   clock.textContent = `reading ${at + 1} of ${count}`;
   const seen = (100 * known[at] / cells).toFixed(1);

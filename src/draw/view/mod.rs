@@ -26,7 +26,7 @@ mod trace;
 mod waves;
 mod world;
 
-pub use html::{page, shell};
+pub use html::{drawing, page, sealed, shell};
 pub use picture::{AxesFrame, Picture};
 pub use task::TaskPicture;
 

@@ -1,0 +1,272 @@
+//! Where to go next.
+
+use super::explorer::Explorer;
+use super::reach::{Reach, is_free, join, places, tightened};
+use super::result::Ending;
+use super::settings::Strategy;
+use crate::check::{CertifiedPath, certify};
+use crate::cspace::Grid;
+use crate::engine::{Options, Verdict, solve};
+use crate::field::{Component, Lattice, harmonic};
+use crate::geometry::OpenList;
+use crate::interrupt::checkpoint;
+use crate::model::{MotionProblem, Scene};
+use crate::space::{Configuration, GoalSet, Metric, Path, Segment};
+use std::collections::BTreeSet;
+
+/// Places ahead on an optimistic path whose unknown cells are looked for.
+const PLACES_AHEAD: usize = 8;
+
+/// What comes next.
+pub enum Decision {
+    Done(Ending),
+    /// Along a path that is certified; the cell of the grid that is gone to for what can be seen from there, if it is.
+    Go(CertifiedPath, Option<usize>),
+}
+
+impl Explorer<'_> {
+    /// What comes next, by the strategy.
+    pub fn decide(&mut self) -> Decision {
+        if let (Strategy::Goal, Some(goals)) = (self.settings.strategy, self.goals) {
+            return self.towards_goal(goals);
+        }
+        let joined = join(&self.solid, &self.known.grid, self.at);
+        if joined.is_empty() { self.back() } else { self.exploring(&joined) }
+    }
+
+    /// Back to where the last leg began, from where no middle of a cell can be reached; not twice.
+    fn back(&mut self) -> Decision {
+        let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
+        let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
+        let certified = reversed.and_then(|path| certify(&self.solid, path, self.solid.workspace().clearance).ok());
+        self.is_back = true;
+        certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
+    }
+
+    fn too_coarse(&self) -> Ending {
+        let [a, b] = self.settings.cells;
+        Ending::Unknown(format!("no middle of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
+    }
+
+    /// To a frontier configuration; explored if none can be reached.
+    fn exploring(&mut self, joined: &[usize]) -> Decision {
+        loop {
+            checkpoint();
+            let (reach, target) = match self.settings.strategy {
+                Strategy::View => self.best_view(joined),
+                Strategy::Harmonic => self.whole_frontier(joined),
+                Strategy::Nearest | Strategy::Goal => self.nearest(joined),
+            };
+            let Some(target) = target else {
+                let configurations = reach.cells.len();
+                return Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up });
+            };
+            let way = match target {
+                Target::Cell(cell) => reach.way(cell),
+                Target::Any(frontier) => {
+                    let grid = &self.known.grid;
+                    let ascent = joined.iter().find_map(|&from| uphill(grid, &frontier, from));
+                    let Some(ascent) = ascent else { return Decision::Done(self.too_coarse()) };
+                    // The potential knows of no steps that are closed.
+                    let is_closed = ascent.windows(2).any(|step| self.known.closed.contains(&[step[0], step[1]]));
+                    if is_closed { reach.way(ascent[ascent.len() - 1]) } else { ascent }
+                }
+            };
+            if let Some(decision) = self.along(&reach, &way) {
+                return decision;
+            }
+        }
+    }
+
+    /// Towards the last of the cells on a way; none if a step is not free, which is noted.
+    fn along(&mut self, reach: &Reach, way: &[usize]) -> Option<Decision> {
+        let configurations = reach.unwrapped(&self.known.grid, way);
+        let clearance = self.solid.workspace().clearance;
+        match tightened(&self.solid, &configurations) {
+            Ok(path) => {
+                let certified = certify(&self.solid, path, clearance);
+                let target = way[way.len() - 1];
+                Some(certified.map_or_else(|_| Decision::Done(self.too_coarse()), |path| Decision::Go(path, Some(target))))
+            }
+            Err(step) => {
+                let [from, to] = [configurations[step], configurations[step + 1]].map(|q| self.known.grid.locate(q));
+                let before = self.known.closed.len();
+                self.known.closed.extend([[from, to], [to, from]]);
+                (self.known.closed.len() == before).then(|| Decision::Done(self.too_coarse()))
+            }
+        }
+    }
+
+    fn reach(&self, joined: &[usize]) -> Reach {
+        Reach::new(&self.known.grid, &self.known.closed, self.at, joined, |_| false)
+    }
+
+    fn nearest(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+        let Self { survey, sensor, scene, known, frontier, .. } = self;
+        let mut found = None;
+        let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell| {
+            let is_frontier = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell);
+            found = is_frontier.then_some(Target::Cell(cell));
+            is_frontier
+        });
+        (reach, found)
+    }
+
+    fn whole_frontier(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+        let reach = self.reach(joined);
+        let frontier: Vec<usize> = reach.cells.iter().copied().filter(|&cell| self.is_frontier(cell)).collect();
+        (reach, (!frontier.is_empty()).then_some(Target::Any(frontier)))
+    }
+
+    /// By cells that can be seen for the length of the way. What was counted before is a bound: only those that may be best are counted anew.
+    fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+        let reach = self.reach(joined);
+        let rate = |seen: u32, cell: usize| -f64::from(seen) / (reach.cost(cell) + self.sensor.step);
+        let mut open = OpenList::default();
+        for &cell in &reach.cells {
+            let most = self.frontier.most(cell);
+            if most > 0 {
+                open.push(rate(most, cell), (cell, false));
+            }
+        }
+        let mut best = None;
+        while let Some((_, (cell, is_counted))) = open.pop() {
+            checkpoint();
+            if is_counted {
+                best = Some(Target::Cell(cell));
+                break;
+            }
+            let arm = self.scene.arm();
+            let seen = self.frontier.gain(&self.survey, self.sensor, arm, &self.known.grid, cell);
+            if seen > 0 {
+                open.push(rate(seen, cell), (cell, true));
+            }
+        }
+        (reach, best)
+    }
+
+    /// Along the planner's way through what may be free, as far as it is known to be.
+    fn towards_goal(&mut self, goals: &GoalSet) -> Decision {
+        let arm = self.scene.arm();
+        let clearance = self.scene.workspace().clearance;
+        let problem = match problem(self.survey.scene(arm, clearance, true), self.at, goals) {
+            Ok(problem) => problem,
+            Err(ending) => return Decision::Done(ending),
+        };
+        let optimistic = match solve(&problem, &self.settings.options, &mut |_| ()).verdict {
+            Verdict::Found(path) => path,
+            Verdict::Infeasible(proof) => {
+                let boxes = proof.stuck().len();
+                let why = format!(
+                    "proven: {boxes} boxes of configurations that meet what was seen separate it from the goal"
+                );
+                return Decision::Done(Ending::Unreachable(why));
+            }
+            // Its planner may give up, as in a trap: others see farther.
+            Verdict::Unknown(_) => return self.detour(goals, &[]),
+        };
+        let places = places(optimistic.path(), self.sensor.step);
+        let mut free = vec![self.at];
+        for &place in &places {
+            if !is_free(&self.solid, free[free.len() - 1], place) {
+                break;
+            }
+            free.push(place);
+        }
+        // Where nothing new was seen on the way, more of it shows nothing, either; but all of it leads to the goal.
+        let is_worth = free.len() > places.len() || free.len() > 1 && !self.is_stalled;
+        let ahead = &places[(free.len() - 1).min(places.len())..];
+        match certify(&self.solid, Path::new(free), clearance) {
+            Ok(path) if is_worth => Decision::Go(path, None),
+            _ => {
+                let ahead = ahead.iter().take(PLACES_AHEAD).flat_map(|&q| self.survey.unknown_at(arm, q));
+                let in_the_way: BTreeSet<usize> = ahead.collect();
+                self.detour(goals, &Vec::from_iter(in_the_way))
+            }
+        }
+    }
+
+    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to where anything new can be seen,
+    /// for the way there and on to the goal; if that is nowhere, to the goal within what is known.
+    fn detour(&mut self, goals: &GoalSet, in_the_way: &[usize]) -> Decision {
+        let joined = join(&self.solid, &self.known.grid, self.at);
+        if joined.is_empty() {
+            return self.back();
+        }
+        loop {
+            checkpoint();
+            let Self { survey, sensor, scene, known, frontier, .. } = self;
+            let (arm, grid) = (scene.arm(), &known.grid);
+            let mut showing = None;
+            let reach = Reach::new(grid, &known.closed, self.at, &joined, |cell| {
+                let shows = !in_the_way.is_empty()
+                    && frontier.contains(survey, sensor, arm, grid, cell)
+                    && survey.shows_any(sensor, arm, grid.center(cell), in_the_way);
+                showing = shows.then_some(cell);
+                shows
+            });
+            let on = |cell: usize| goals.distance(&grid.topology, Metric::Euclidean, grid.center(cell));
+            let mut best: Option<(f64, usize)> = None;
+            for &cell in reach.cells.iter().filter(|_| showing.is_none()) {
+                let total = reach.cost(cell) + on(cell);
+                if best.is_none_or(|(least, _)| total < least) && frontier.contains(survey, sensor, arm, grid, cell) {
+                    best = Some((total, cell));
+                }
+            }
+            let Some(target) = showing.or(best.map(|best| best.1)) else { return self.within_known(goals) };
+            if let Some(decision) = self.along(&reach, &reach.way(target)) {
+                return decision;
+            }
+        }
+    }
+
+    /// To the goal where nothing new can be seen.
+    fn within_known(&self, goals: &GoalSet) -> Decision {
+        let problem = match problem(self.solid.clone(), self.at, goals) {
+            Ok(problem) => problem,
+            Err(ending) => return Decision::Done(ending),
+        };
+        let options = Options { bounded: false, ..Options::default() };
+        Decision::Done(match solve(&problem, &options, &mut |_| ()).verdict {
+            Verdict::Found(path) => return Decision::Go(path, None),
+            Verdict::Infeasible(_) => {
+                Ending::Unreachable("nothing new can be seen, and in what is known there is no way: proven".into())
+            }
+            Verdict::Unknown(why) => Ending::Unknown(format!("nothing new can be seen, and in what is known {why}")),
+        })
+    }
+}
+
+/// The problem of going to those of the goals that are free; the end of it all if none is known to be. The goals are free in the world:
+/// such cells are too coarse, or were not seen.
+fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
+    let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
+    let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
+    if let (true, Some(first)) = (open.is_empty(), blocked.first()) {
+        let why = scene.obstructions(first.ends()[0]).iter().map(|o| scene.explain(o)).collect::<Vec<_>>();
+        return Err(Ending::Unknown(format!("the goal meets cells that are not known to be free: {}", why.join("; "))));
+    }
+    let open: GoalSet = open.into_iter().copied().collect();
+    MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))
+}
+
+/// Where a way is to lead.
+enum Target {
+    Cell(usize),
+    /// Up the potential of all of these.
+    Any(Vec<usize>),
+}
+
+/// From cell to cell up the harmonic potential of some goals; none if they cannot be reached.
+fn uphill(grid: &Grid, goals: &[usize], from: usize) -> Option<Vec<usize>> {
+    let lattice = Lattice::from(grid);
+    let component = Component::new(&lattice, lattice.wave(goals));
+    let start = component.position_of(from)?;
+    let way = harmonic(&component).potential.ascend(&component, start)?;
+    Some(way.into_iter().map(|position| component.cell(position)).collect())
+}
+
+/// Two numbers, for people.
+fn shown(q: Configuration) -> String {
+    format!("{:.4}, {:.4}", q[0], q[1])
+}

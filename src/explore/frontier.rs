@@ -1,0 +1,88 @@
+//! The configurations from which something new would be seen.
+
+use super::survey::Survey;
+use crate::cspace::Grid;
+use crate::model::{Arm, Sensor};
+
+/// The frontier configurations of a grid: those at whose middles a reading would show something new.
+///
+/// What is known stays so: a configuration leaves the frontier for good, and ever fewer cells can be seen from it. So what was counted
+/// before is a bound, and all questions together cost little more than some looks from everywhere.
+#[derive(Debug)]
+pub struct Frontier {
+    configurations: Vec<Prospect>,
+    /// Columns of the unknown cells of the map beside free ones, row by row: what rays come to first is one of them.
+    edges: Vec<Vec<usize>>,
+    /// When each cell of the map was counted last.
+    counted: Vec<u32>,
+    count: u32,
+    /// How many configurations were given up, though something seemed to be seen from them.
+    pub given_up: usize,
+}
+
+/// What is known of a reading.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Prospect {
+    /// A cell of the map that it comes to as long as nothing is known of that.
+    witness: Option<usize>,
+    /// It shows no more cells than these; 0 if nothing new, for ever.
+    most: u32,
+}
+
+impl Frontier {
+    /// Over so many configurations, and cells of the map.
+    #[must_use]
+    pub fn new(configurations: usize, cells: usize) -> Self {
+        let prospect = Prospect { witness: None, most: u32::MAX };
+        let configurations = vec![prospect; configurations];
+        Self { configurations, edges: Vec::new(), counted: vec![0; cells], count: 0, given_up: 0 }
+    }
+
+    /// Takes note of what the map knows now.
+    pub fn update(&mut self, survey: &Survey) {
+        self.edges = survey.edges();
+    }
+
+    /// Whether a reading at the middle of a cell of the grid would show something new.
+    pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> bool {
+        let prospect = &mut self.configurations[cell];
+        if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
+            let q = grid.center(cell);
+            // Rays that come to nothing new now never will.
+            let is_near = survey.may_see(sensor, arm, q, &self.edges);
+            prospect.witness = if is_near { survey.promise(sensor, arm, q) } else { None };
+            if prospect.witness.is_none() {
+                prospect.most = 0;
+            }
+        }
+        prospect.most > 0
+    }
+
+    /// No more cells than these can be seen for the first time from a cell of the grid.
+    #[must_use]
+    pub fn most(&self, cell: usize) -> u32 {
+        self.configurations[cell].most
+    }
+
+    /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
+    pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> u32 {
+        if self.configurations[cell].most > 0 {
+            self.count += 1;
+            let mut gain = 0;
+            for seen in survey.visible_unknown(sensor, arm, grid.center(cell)) {
+                gain += u32::from(std::mem::replace(&mut self.counted[seen], self.count) != self.count);
+            }
+            self.configurations[cell].most = gain;
+        }
+        self.configurations[cell].most
+    }
+
+    /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than
+    /// is, and the configuration is not asked again.
+    pub fn give_up(&mut self, cell: usize) {
+        if self.configurations[cell].most > 0 {
+            self.configurations[cell].most = 0;
+            self.given_up += 1;
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The configurations of a grid that are known to be free.
+
+use super::reach::Closed;
+use super::survey::Survey;
+use crate::cspace::{Grid, Proves};
+use crate::interrupt::checkpoint;
+use crate::model::Arm;
+
+/// A grid of configurations, blocked where the arm meets a cell of the map that is not known to be free.
+///
+/// Each blocked configuration has such a cell as its witness and is looked at again only when that is found to be free, so that
+/// all the updates of an exploration together cost a few looks a configuration.
+#[derive(Debug)]
+pub struct Known {
+    /// The middles of its cells are the configurations.
+    pub grid: Grid,
+    /// Steps between free middles that are not free themselves.
+    pub closed: Closed,
+    /// The configurations of which a cell of the map is the witness.
+    waiting: Vec<Vec<u32>>,
+    clearance: f64,
+}
+
+impl Known {
+    /// What the map knows now, in `cells` configurations along the two axes.
+    #[must_use]
+    pub fn new(survey: &Survey, arm: &Arm, cells: [usize; 2], clearance: f64) -> Self {
+        let count = cells[0] * cells[1];
+        let grid = Grid { topology: arm.topology(), proves: Proves::Sampled, cells, blocked: vec![true; count] };
+        let waiting = vec![Vec::new(); survey.map().cells.len()];
+        let mut known = Self { grid, closed: Closed::new(), waiting, clearance };
+        known.look_at(survey, arm, (0..count as u32).collect());
+        known
+    }
+
+    /// Takes note of cells of the map that are known anew. The configurations that are free for the first time, in ascending order.
+    pub fn update(&mut self, survey: &Survey, arm: &Arm, new: &[usize]) -> Vec<usize> {
+        let freed = new.iter().filter(|&&cell| survey.is_free(cell));
+        let waiting: Vec<u32> = freed.flat_map(|&cell| std::mem::take(&mut self.waiting[cell])).collect();
+        // A step may be free where less is solid.
+        if !waiting.is_empty() {
+            self.closed.clear();
+        }
+        self.look_at(survey, arm, waiting)
+    }
+
+    fn look_at(&mut self, survey: &Survey, arm: &Arm, configurations: Vec<u32>) -> Vec<usize> {
+        let mut opened = Vec::new();
+        for q in configurations {
+            checkpoint();
+            match survey.obstruction(arm, self.grid.center(q as usize), self.clearance) {
+                Some(witness) => self.waiting[witness].push(q),
+                None => {
+                    self.grid.blocked[q as usize] = false;
+                    opened.push(q as usize);
+                }
+            }
+        }
+        opened.sort_unstable();
+        opened
+    }
+}
