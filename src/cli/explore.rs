@@ -35,11 +35,12 @@ Exit codes: 0 reached or explored, 1 bad input or I/O, 2 wrong command line, 3 p
 pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
-    /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to the nearest place from which
-    /// something new can be seen (the default elsewhere); or up the harmonic potential of all such places.
+    /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
+    /// be seen: one that is near and shows much (view, the default elsewhere), or the nearest; or up the harmonic potential of all such
+    /// places.
     #[arg(long, value_enum, value_name = "NAME")]
     pub strategy: Option<StrategyName>,
-    /// What plans the ways that are hoped for, where strategy "goal" takes unknown space as free.
+    /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.
     #[arg(long, value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
@@ -166,7 +167,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
 impl ExploreArgs {
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
-        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::Nearest }, Strategy::from);
+        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
         if let Some(error) = self.grid.error() {
             return Err(Failure::Usage(format!("--grid: {error}")));
@@ -243,7 +244,7 @@ fn facts(done: &Exploration) -> Vec<Line> {
     let [width, height] = map.size;
     let duration = done.trajectory.as_ref().map_or(0.0, |trajectory| trajectory.duration());
     let [rows, columns] = done.cells;
-    vec![
+    let mut facts = vec![
         (
             "map",
             format!(
@@ -255,7 +256,11 @@ fn facts(done: &Exploration) -> Vec<Line> {
         ("grid", format!("{rows} x {columns} configurations")),
         ("way", format!("{:.4} (rad, m), {duration:.3} s, {}", done.length, counted(done.legs.len(), "leg"))),
         ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
-    ]
+    ];
+    if let Some(known) = done.known_length.filter(|&known| known > 0.0) {
+        facts.push(("known", format!("{:.2} times the {known:.4} of a plan in the known world", done.length / known)));
+    }
+    facts
 }
 
 fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
@@ -278,8 +283,8 @@ fn summary(world: &Explorable, done: &Exploration, timed: bool) -> String {
     if timed {
         let mut times: Vec<f64> = done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
         times.sort_unstable_by(f64::total_cmp);
-        let [median, longest] = [times[times.len() / 2], times[times.len() - 1]];
-        lines.push(("decision", format!("{median:.1} ms (median), {longest:.1} ms (longest)")));
+        let [median, most, longest] = [times.len() / 2, times.len() * 99 / 100, times.len() - 1].map(|k| times[k]);
+        lines.push(("decision", format!("{median:.1} ms (median), {most:.1} ms (99 %), {longest:.1} ms (longest)")));
     }
     format!("{}\n{ending}\n{}", title_of(&world.scene), laid_out(&lines))
 }

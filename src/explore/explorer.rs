@@ -41,7 +41,7 @@ pub fn explore(
     let mut survey = Survey::new(scene, sensor.cell).ok_or(ExploreError::Map(sensor.cell))?;
     let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
     let surroundings = survey.survey_about(arm, start, margin);
-    let frontier = Frontier::new(settings.cells[0] * settings.cells[1], survey.map().cells.len());
+    let frontier = Frontier::new(settings.cells[0] * settings.cells[1], &survey, sensor);
     let known = Known::new(&survey, arm, settings.cells, clearance);
     let free = (0..known.grid.blocked.len()).filter(|&cell| !known.grid.blocked[cell]).collect();
     let mut explorer = Explorer {
@@ -91,7 +91,8 @@ pub fn explore(
             progress(&format!("{}: {seen:.0} % of the map seen", counted(decisions.len(), "decision")));
         }
     };
-    let known_length = goals.filter(|_| ending == Ending::Reached).and_then(|goals| length_if_known(scene, start, goals));
+    let known_length =
+        goals.filter(|_| ending == Ending::Reached).and_then(|goals| length_if_known(scene, start, goals));
     let Explorer { survey, readings, opened, legs, trajectory, length, .. } = explorer;
     let (cells, strategy) = (settings.cells, settings.strategy);
     Ok(Exploration {
@@ -220,4 +221,3 @@ impl Explorer<'_> {
         Ok(())
     }
 }
-

@@ -30,11 +30,14 @@ struct Prospect {
 }
 
 impl Frontier {
-    /// Over so many configurations, and cells of the map.
+    /// Over so many configurations, nothing known of them but how far the sensor sees.
     #[must_use]
-    pub fn new(configurations: usize, cells: usize) -> Self {
-        let prospect = Prospect { witness: None, most: u32::MAX };
-        let configurations = vec![prospect; configurations];
+    pub fn new(configurations: usize, survey: &Survey, sensor: &Sensor) -> Self {
+        let cells = survey.map().cells.len();
+        // Cells that meet a disc lie within one that is broader by their diagonal.
+        let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
+        let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
+        let configurations = vec![Prospect { witness: None, most }; configurations];
         Self { configurations, edges: Vec::new(), counted: vec![0; cells], count: 0, given_up: 0 }
     }
 
@@ -66,7 +69,7 @@ impl Frontier {
 
     /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
     pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> u32 {
-        if self.configurations[cell].most > 0 {
+        if self.contains(survey, sensor, arm, grid, cell) {
             self.count += 1;
             let mut gain = 0;
             for seen in survey.visible_unknown(sensor, arm, grid.center(cell)) {

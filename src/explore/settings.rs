@@ -14,7 +14,8 @@ pub enum Strategy {
     /// known to be free; where that shows nothing new, to where something new can be seen, soonest on the way to the goal.
     #[default]
     Goal,
-    /// To the frontier configuration from which most can be seen for the length of the way there (González-Baños, Latombe 2002).
+    /// To a frontier configuration that is near, and shows more than others that are about as near: a next best view (González-Baños,
+    /// Latombe 2002).
     View,
     /// To the nearest frontier configuration (Yamauchi 1997).
     Nearest,

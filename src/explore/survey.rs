@@ -110,14 +110,15 @@ impl Survey {
         let grown = Convex::trusted(shape.core().to_vec(), around);
         let [columns, rows] = [range(0), range(1)];
         let cells = rows.flat_map(move |y| columns.clone().map(move |x| (x, y)));
-        cells.filter(move |&(x, y)| asked(self.index(x, y)) && shapes_meet(&self.square(x, y), &grown)).map(|(x, y)| self.index(x, y))
+        cells
+            .filter(move |&(x, y)| asked(self.index(x, y)) && shapes_meet(&self.square(x, y), &grown))
+            .map(|(x, y)| self.index(x, y))
     }
 
     /// A cell as a shape, by column from the left and row from below.
     fn square(&self, x: usize, y: usize) -> Convex {
-        let at = |x: usize, y: usize| {
-            Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution)
-        };
+        let at =
+            |x: usize, y: usize| Point::from(self.origin() + Vector::new(x as f64, y as f64) * self.known.resolution);
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
@@ -130,7 +131,8 @@ impl Survey {
 
     /// The cells that the arm meets at `q`, grown by a margin; in ascending order.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
-        let mut cells: Vec<usize> = self.parts(arm, q).flat_map(|part| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
+        let mut cells: Vec<usize> =
+            self.parts(arm, q).flat_map(|part| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
@@ -195,7 +197,12 @@ impl Survey {
     }
 
     /// The cells that each ray of a reading at `q` crosses.
-    fn views(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
+    fn views(
+        &self,
+        sensor: &Sensor,
+        arm: &Arm,
+        q: Configuration,
+    ) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
         let ((from, ahead), range) = (sensor.pose(arm, q.into()), sensor.range);
         sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
     }
@@ -234,7 +241,10 @@ impl Survey {
         let is_edge = |x: usize, y: usize| {
             let is_free = |x: usize, y: usize| x < width && y < height && is(x, y, Occupancy::Free);
             is(x, y, Occupancy::Unknown)
-                && (is_free(x.wrapping_sub(1), y) || is_free(x + 1, y) || is_free(x, y.wrapping_sub(1)) || is_free(x, y + 1))
+                && (is_free(x.wrapping_sub(1), y)
+                    || is_free(x + 1, y)
+                    || is_free(x, y.wrapping_sub(1))
+                    || is_free(x, y + 1))
         };
         (0..height).map(|y| (0..width).filter(|&x| is_edge(x, y)).collect()).collect()
     }
