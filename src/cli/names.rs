@@ -21,6 +21,9 @@ impl ValueEnum for Method {
             Method::Visibility => "Visibility graph: the shortest path, with a proven bound on the optimum",
             Method::Trapezoid => "Trapezoidal decomposition: a channel of cells, and the funnel path through it",
             Method::Triangles => "Triangles of free space: a channel of them, and the funnel path through it",
+            Method::Voronoi => {
+                "Voronoi diagram: the way whose least distance from obstacles, in joint space, is the greatest"
+            }
             Method::Prm => "Probabilistic roadmap: random configurations, each joined to the nearest that it sees",
             Method::Wavefront => "Manhattan wavefront on a grid",
             Method::Harmonic => "Harmonic potential on a grid",

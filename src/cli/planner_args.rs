@@ -76,12 +76,12 @@ pub struct Weights(pub [f64; 2]);
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
     /// Which path: the planner's own (the curve along a field's gradient, the wavefront's staircase, the middles of a
-    /// decomposition's doors and cells), or that one pulled taut within the planner's cells [default: own for harmonic,
-    /// taut for the others].
+    /// decomposition's doors and cells, the arcs of the Voronoi diagram), or that one pulled taut within the planner's cells
+    /// [default: own for harmonic and voronoi, taut for the others].
     #[arg(long, value_enum, value_name = "KIND")]
     pub path: Option<PathKind>,
     /// How the grid is searched, from the goal (planner wavefront), or the roadmap, from the start unless it is --backward
-    /// (planners visibility, trapezoid, triangles, prm). [default: wave of wavefront, astar of the others]
+    /// (planners visibility, trapezoid, triangles, voronoi, prm), of which voronoi keeps the widest ways only. [default: wave of wavefront, astar of the others]
     #[arg(long, value_enum, value_name = "NAME")]
     pub search: Option<GridSearch>,
     /// Cells that a move can lead to: 4 share a side, 8 a corner too, though no move cuts the corner of a blocked cell
@@ -195,7 +195,7 @@ impl PathArgs {
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.search.is_some() && planner != Method::Wavefront && !planner.has_roadmap() {
             return Err(format!(
-                "--search needs --planner wavefront, visibility, trapezoid, triangles or prm: {planner} searches neither a \
+                "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm: {planner} searches neither a \
                  grid from cell to cell nor a roadmap"
             ));
         }

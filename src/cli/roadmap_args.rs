@@ -7,7 +7,7 @@ use clap::Args;
 
 /// How roadmaps are made and searched; `--search` stands with the paths.
 #[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Roadmaps (planners visibility, trapezoid, triangles, prm)")]
+#[command(next_help_heading = "Roadmaps (planners visibility, trapezoid, triangles, voronoi, prm)")]
 pub struct RoadmapArgs {
     /// Search from the goals to the start.
     #[arg(long)]
@@ -40,7 +40,7 @@ impl RoadmapArgs {
         if !planner.has_roadmap() {
             let from_goal =
                 if planner == Method::Wavefront { "searches from the goal anyway" } else { "has no roadmap" };
-            let needs = "--backward needs --planner visibility, trapezoid, triangles or prm";
+            let needs = "--backward needs --planner visibility, trapezoid, triangles, voronoi or prm";
             return if self.backward {
                 Err(format!("{needs}: {planner} {from_goal}"))
             } else {

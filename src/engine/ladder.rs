@@ -7,7 +7,9 @@ use super::settle::decide;
 use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::check::{CertifiedPath, Rejection, certify};
 use crate::model::{MotionProblem, Scene};
-use crate::planner::{FieldPlanner, Harmonic, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Wavefront};
+use crate::planner::{
+    FieldPlanner, Harmonic, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
+};
 use crate::space::{Metric, Path, Segment};
 use std::time::Instant;
 
@@ -38,6 +40,10 @@ pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMu
         }
         Planner::Triangles { path, margin, search } => {
             let planner = Triangles { path, search };
+            climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
+        }
+        Planner::Voronoi { path, margin, search } => {
+            let planner = Voronoi { path, search };
             climb(problem, options, progress, |_| planner, |level| polygons(problem, margin, level))
         }
         Planner::Prm { samples, nearest, seed, path, margin, search } => {

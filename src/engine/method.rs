@@ -1,6 +1,6 @@
 //! The closed list of planners, for the edges of the program.
 
-use crate::planner::{Harmonic, PathKind, Planner, Prm, Trapezoid, Triangles, Visibility, Wavefront};
+use crate::planner::{Harmonic, PathKind, Planner, Prm, Trapezoid, Triangles, Visibility, Voronoi, Wavefront};
 use std::fmt;
 use std::str::FromStr;
 
@@ -17,6 +17,8 @@ pub enum Method {
     Trapezoid,
     /// Triangular decomposition: a channel of triangles, and a funnel path through it.
     Triangles,
+    /// Voronoi diagram of the obstacles: the way of greatest clearance.
+    Voronoi,
     /// Probabilistic roadmap: random configurations, joined to their neighbours.
     Prm,
     /// Manhattan wavefront on a grid.
@@ -29,11 +31,12 @@ pub enum Method {
 
 impl Method {
     /// All: the default, roadmap planners, field planners, those that judge the scene itself.
-    pub const ALL: [Method; 9] = [
+    pub const ALL: [Method; 10] = [
         Method::Shortest,
         Method::Visibility,
         Method::Trapezoid,
         Method::Triangles,
+        Method::Voronoi,
         Method::Prm,
         Method::Wavefront,
         Method::Harmonic,
@@ -51,6 +54,7 @@ impl Method {
             Method::Visibility => Visibility::NAME,
             Method::Trapezoid => Trapezoid::NAME,
             Method::Triangles => Triangles::NAME,
+            Method::Voronoi => Voronoi::NAME,
             Method::Prm => Prm::NAME,
             Method::Wavefront => Wavefront::NAME,
             Method::Harmonic => Harmonic::NAME,
@@ -58,10 +62,11 @@ impl Method {
         }
     }
 
-    /// The path that it gives where none is asked for: a field is for being followed, cells are for finding a channel.
+    /// The path that it gives where none is asked for: a field, or what is far from obstacles, is for being followed; cells are
+    /// for finding a channel.
     #[must_use]
     pub fn path_kind(self) -> PathKind {
-        if self == Method::Harmonic { PathKind::Own } else { PathKind::Taut }
+        if matches!(self, Method::Harmonic | Method::Voronoi) { PathKind::Own } else { PathKind::Taut }
     }
 
     /// Whether it has a path of its own beside the taut one. What is after the shortest path is taut as it is.
@@ -73,7 +78,7 @@ impl Method {
     /// Whether it has a roadmap, which can be searched in several orders.
     #[must_use]
     pub fn has_roadmap(self) -> bool {
-        matches!(self, Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Prm)
+        matches!(self, Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Voronoi | Method::Prm)
     }
 
     /// Whether it is after the optimum of a metric, and tells how near its path is to it.

@@ -80,6 +80,15 @@ pub enum Planner {
         /// How the roadmap is searched.
         search: RoadmapSearch,
     },
+    /// Voronoi diagram of the obstacles: the way whose least distance from them is the greatest.
+    Voronoi {
+        /// Which path: along the diagram, or that one pulled taut.
+        path: PathKind,
+        /// As of [`Planner::Visibility`].
+        margin: f64,
+        /// How the ways of greatest width are searched.
+        search: RoadmapSearch,
+    },
     /// Probabilistic roadmap: random configurations, each joined to the nearest that it sees.
     Prm {
         /// How many, twice as many where needed.
@@ -156,6 +165,7 @@ impl Planner {
             Method::Visibility => Planner::Visibility { criterion, gap, margin, search },
             Method::Trapezoid => Planner::Trapezoid { path, margin, search },
             Method::Triangles => Planner::Triangles { path, margin, search },
+            Method::Voronoi => Planner::Voronoi { path, margin, search },
             Method::Prm => {
                 let Prm { samples, nearest, seed, .. } = Prm::default();
                 Planner::Prm { samples, nearest, seed, path, margin, search }
@@ -178,6 +188,7 @@ impl Planner {
             Planner::Visibility { .. } => Method::Visibility,
             Planner::Trapezoid { .. } => Method::Trapezoid,
             Planner::Triangles { .. } => Method::Triangles,
+            Planner::Voronoi { .. } => Method::Voronoi,
             Planner::Prm { .. } => Method::Prm,
             Planner::Wavefront { .. } => Method::Wavefront,
             Planner::Harmonic { .. } => Method::Harmonic,
@@ -191,6 +202,7 @@ impl Planner {
         match *self {
             Planner::Trapezoid { path, .. }
             | Planner::Triangles { path, .. }
+            | Planner::Voronoi { path, .. }
             | Planner::Prm { path, .. }
             | Planner::Wavefront { path, .. }
             | Planner::Harmonic { path, .. }
@@ -204,6 +216,7 @@ impl Planner {
     pub fn with_path(mut self, kind: PathKind) -> Self {
         if let Planner::Trapezoid { path, .. }
         | Planner::Triangles { path, .. }
+        | Planner::Voronoi { path, .. }
         | Planner::Prm { path, .. }
         | Planner::Wavefront { path, .. }
         | Planner::Harmonic { path, .. }
@@ -239,6 +252,7 @@ impl Planner {
         | Planner::Visibility { margin, .. }
         | Planner::Trapezoid { margin, .. }
         | Planner::Triangles { margin, .. }
+        | Planner::Voronoi { margin, .. }
         | Planner::Prm { margin, .. } = &mut self
         {
             *margin = share;
@@ -269,6 +283,7 @@ impl Planner {
         if let Planner::Visibility { search, .. }
         | Planner::Trapezoid { search, .. }
         | Planner::Triangles { search, .. }
+        | Planner::Voronoi { search, .. }
         | Planner::Prm { search, .. } = &mut self
         {
             *search = how;
@@ -292,6 +307,7 @@ impl Planner {
             | Planner::Visibility { margin, .. }
             | Planner::Trapezoid { margin, .. }
             | Planner::Triangles { margin, .. }
+            | Planner::Voronoi { margin, .. }
             | Planner::Prm { margin, .. } => margin,
             _ => MARGIN,
         }
@@ -322,6 +338,7 @@ impl Planner {
             Planner::Visibility { search, .. }
             | Planner::Trapezoid { search, .. }
             | Planner::Triangles { search, .. }
+            | Planner::Voronoi { search, .. }
             | Planner::Prm { search, .. } => Some(search),
             _ => None,
         }
@@ -361,7 +378,9 @@ impl Planner {
                 let blind = (gap.is_some() && !self.optimises()).then(blind);
                 wrong.or_else(|| positive("gap", gap?)).or(blind).or_else(|| wrong_margin(margin))
             }
-            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } => wrong_margin(margin),
+            Planner::Trapezoid { margin, .. } | Planner::Triangles { margin, .. } | Planner::Voronoi { margin, .. } => {
+                wrong_margin(margin)
+            }
             Planner::Prm { samples, nearest, margin, .. } => wrong_number("samples", samples, &SAMPLES)
                 .or_else(|| wrong_number("nearest", nearest, &NEAREST))
                 .or_else(|| wrong_margin(margin)),

@@ -44,6 +44,7 @@ mod terminals;
 mod trapezoid;
 mod triangles;
 mod visibility;
+mod voronoi;
 mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
@@ -56,6 +57,7 @@ pub use roadmap::{RoadmapSearch, SearchOrder};
 pub use trapezoid::{Trapezoid, TrapezoidMap};
 pub use triangles::{Triangles, TrianglesMap};
 pub use visibility::{Visibility, VisibilityMap};
+pub use voronoi::{Voronoi, VoronoiMap};
 pub use wavefront::{GridSearch, Wavefront};
 
 use crate::field::{Component, Potential, rough_harmonic};

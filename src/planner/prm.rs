@@ -166,7 +166,7 @@ impl Prm {
 }
 
 /// A path pulled tight through the triangles that it crosses; none if it passes through a vertex, or along a side.
-fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
+pub(super) fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
         let (mut at, mut portals) = (first, Vec::new());
         for leg in path.windows(2) {

@@ -7,7 +7,7 @@ use crate::planner::{Note, PathKind, Size};
 /// Planners that work alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Family {
-    /// A graph over the free space's polygons: visibility, trapezoid, triangles, prm.
+    /// A graph over the free space's polygons: visibility, trapezoid, triangles, voronoi, prm.
     Roadmap,
     /// Values on a grid's cells: wavefront, harmonic and its relatives.
     Field,
@@ -33,7 +33,9 @@ impl Family {
 impl From<Method> for Family {
     fn from(method: Method) -> Self {
         match method {
-            Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Prm => Family::Roadmap,
+            Method::Visibility | Method::Trapezoid | Method::Triangles | Method::Voronoi | Method::Prm => {
+                Family::Roadmap
+            }
             Method::Wavefront | Method::Harmonic => Family::Field,
             Method::Shortest | Method::First | Method::Subdivision => Family::Exact,
         }

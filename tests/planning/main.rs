@@ -25,4 +25,5 @@ mod task_optimum;
 mod tasks;
 mod twins;
 mod validity;
+mod voronoi;
 mod workspaces;

@@ -4,7 +4,7 @@ use assert_cmd::Command;
 use serde_json::Value;
 use std::process::Output;
 
-const ROADMAPS: [&str; 4] = ["visibility", "trapezoid", "triangles", "prm"];
+const ROADMAPS: [&str; 5] = ["visibility", "trapezoid", "triangles", "voronoi", "prm"];
 
 fn cplan(options: &str) -> Output {
     let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
@@ -69,11 +69,14 @@ fn what_a_planner_does_not_have_is_refused() {
     for (options, told) in [
         (
             "--planner harmonic --search dfs",
-            "--search needs --planner wavefront, visibility, trapezoid, triangles or prm",
+            "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm",
         ),
         ("--planner prm --search wave", "--search wave labels the cells of a grid"),
         ("--planner wavefront --backward", "wavefront searches from the goal anyway"),
-        ("--backward", "--backward needs --planner visibility, trapezoid, triangles or prm: shortest has no roadmap"),
+        (
+            "--backward",
+            "--backward needs --planner visibility, trapezoid, triangles, voronoi or prm: shortest has no roadmap",
+        ),
         ("--planner triangles --samples 5", "--samples needs --planner prm"),
         ("--planner prm --samples 0", "0 is not in 1..=100000"),
         ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),

@@ -83,6 +83,11 @@ impl Mesh {
         [self.origin(half_edge), self.origin(next(half_edge))]
     }
 
+    /// The sides of the boundary, free space to the left of each.
+    pub fn walls(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        (0..self.edges.twin.len() as u32).filter(|&half_edge| self.is_wall(half_edge)).map(|wall| self.ends(wall))
+    }
+
     /// Whether a half-edge is part of the boundary.
     pub fn is_wall(&self, half_edge: u32) -> bool {
         self.twin(half_edge).is_none()

@@ -8,7 +8,7 @@ fn wrong_command_lines_end_with_2() {
     let place = Place::new();
     let cases = [
         ("", "not provided"),
-        ("--planner magic", "visibility, trapezoid, triangles, prm, wavefront, harmonic, subdivision"),
+        ("--planner magic", "visibility, trapezoid, triangles, voronoi, prm, wavefront, harmonic, subdivision"),
         ("--start 1", "two values"),
         ("--start nan,0", "finite"),
         ("--start 1e300,0", "too large"),

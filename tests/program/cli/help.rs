@@ -106,7 +106,7 @@ fn completions_know_commands_options_and_values() {
     let planner = bash.split("--planner)\n").nth(1).expect("values of --planner").lines().next().unwrap();
     assert!(
         planner.contains(
-            "compgen -W \"shortest visibility trapezoid triangles prm wavefront harmonic subdivision first\""
+            "compgen -W \"shortest visibility trapezoid triangles voronoi prm wavefront harmonic subdivision first\""
         ),
         "{planner}"
     );

@@ -1,0 +1,102 @@
+//! Paths of greatest clearance, by the Voronoi diagram of free space.
+//!
+//! `site` has the sides and corners that the diagram is of, `bisector` where one is as near as another, `cell` the border of
+//! what is nearest to one, and `diagram` all of them. The borders of cells are lower envelopes of closed forms, so that nothing
+//! but their ends is rounded, and sites that touch or coincide need no case of their own.
+
+mod bisector;
+mod cell;
+mod diagram;
+mod site;
+mod ways;
+
+use super::mesh::Mesh;
+use super::prm::tightened;
+use super::roadmap::RoadmapSearch;
+use super::terminals::Terminals;
+use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use crate::cspace::Regions;
+use crate::geometry::Point;
+use crate::geometry::planar::Boundary;
+use crate::space::Path;
+use diagram::Diagram;
+use ways::Ways;
+
+/// The *generalised Voronoi diagram* of C-obstacles and joint limits, or medial axis of free space: a path that keeps the greatest
+/// distance from them, in joint space.
+///
+/// Sites are the open sides of free space's boundary and its corners; the diagram is where two of them are equally near
+/// (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals are joined to it by the straight
+/// way away from what they are nearest to. Of all ways along the diagram those are looked for whose least distance from the
+/// boundary is the greatest, and of these the shortest, or what another search finds. The limits of joints are walls; on circles
+/// sites are repeated across the seam.
+///
+/// Straight arcs are straight, and parabolas are cut into chords that are within 1e-3 rad or m of them, and within a hundredth of their
+/// distance from the boundary. Borders of cells are closed forms in floating point; that a motion is free is decided
+/// exactly, in triangulated free space. `O(n m)` for `n` sites with `m` others around them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Voronoi {
+    /// [`PathKind::Own`] is along the diagram; [`PathKind::Taut`] is pulled tight through the triangles that it crosses, so that it may
+    /// touch obstacles.
+    pub path: PathKind,
+    /// How the widest ways are searched.
+    pub search: RoadmapSearch,
+}
+
+impl Default for Voronoi {
+    fn default() -> Self {
+        Self { path: PathKind::Own, search: RoadmapSearch::default() }
+    }
+}
+
+/// The diagram in a window, and triangulated free space.
+#[derive(Debug, Clone)]
+pub struct VoronoiMap {
+    mesh: Mesh,
+    diagram: Diagram,
+    ways: Ways,
+}
+
+impl Planner for Voronoi {
+    const NAME: &'static str = "voronoi";
+    type Space = Regions;
+    type Map = VoronoiMap;
+
+    fn build(&self, space: &Regions) -> VoronoiMap {
+        let mesh = Mesh::new(Boundary::new(&space.contours()));
+        let diagram = Diagram::new(space, &mesh);
+        let ways = Ways::new(&mesh, diagram.repeated(space.window));
+        VoronoiMap { mesh, diagram, ways }
+    }
+
+    fn query(&self, space: &Regions, map: &VoronoiMap, query: &Query) -> Run {
+        let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
+            Ok(terminals) => terminals,
+            Err(reason) => return run(Proposal::GaveUp(reason), [0, 0], Vec::new(), Vec::new()),
+        };
+        let asked = map.ways.asked(&map.mesh, &map.diagram, &terminals);
+        let (size, edges) = (asked.size(), asked.edges());
+        let Some(widest) = asked.widest(ways::NARROW) else {
+            return run(Proposal::NoPath, size, edges, Vec::new());
+        };
+        let (way, expanded) = widest.search(self.search, &terminals);
+        let path = |way: Vec<_>| {
+            let own: Vec<Point> = way.into_iter().map(|node| widest.at(node)).collect();
+            let waypoints = match self.path {
+                PathKind::Own => own,
+                PathKind::Taut => tightened(&map.mesh, &own).unwrap_or(own),
+            };
+            Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
+        };
+        run(way.map_or(Proposal::NoPath, path), size, edges, expanded)
+    }
+}
+
+fn run(
+    outcome: Proposal,
+    [nodes, edges]: [usize; 2],
+    roads: Vec<[crate::space::Configuration; 2]>,
+    expanded: Vec<crate::space::Configuration>,
+) -> Run {
+    Run { outcome, trace: Trace::Roads { edges: roads, expanded }, size: Size::Graph { nodes, edges }, note: None }
+}

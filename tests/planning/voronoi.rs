@@ -1,0 +1,269 @@
+//! Voronoi diagrams and the ways of greatest clearance along them, against distances from all sides, floods over grids and closed
+//! forms.
+
+use crate::common::dice::Dice;
+use crate::common::roadmap::*;
+use cplan::cspace::{Polygon, Proves, Regions};
+use cplan::geometry::Point;
+use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Trace, Voronoi};
+use cplan::space::{Configuration, JointRange, Path, Topology};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+fn run(regions: &Regions, start: Point, goal: Point) -> Run {
+    let planner = Voronoi::default();
+    let query = Query { start: start.coords, goals: goal.coords.into() };
+    planner.query(regions, &planner.build(regions), &query)
+}
+
+fn path(run: &Run) -> Option<&Path> {
+    match &run.outcome {
+        Proposal::Found(path) => Some(path),
+        Proposal::NoPath => None,
+        Proposal::GaveUp(reason) => panic!("gave up: {reason}"),
+    }
+}
+
+/// What one can hit: the sides of free space that are not the window's on circles, with copies around.
+fn obstacles(regions: &Regions) -> Vec<(Point, Point)> {
+    let circle = |k: usize| regions.topology.ranges[k].is_circle();
+    let on_seam = |a: Point, b: Point| {
+        (0..2).any(|k| circle(k) && a[k] == b[k] && [regions.window[k].0, regions.window[k].1].contains(&a[k]))
+    };
+    let turns = |k: usize| if circle(k) { vec![-2.0 * TAU, 0.0, 2.0 * TAU] } else { vec![0.0] };
+    let mut all = Vec::new();
+    for (a, b) in sides(regions).into_iter().filter(|(a, b)| !on_seam(*a, *b)) {
+        for x in turns(0) {
+            let shifted = |p: Point, y: f64| Point::new(p.x + x, p.y + y);
+            all.extend(turns(1).into_iter().map(|y| (shifted(a, y), shifted(b, y))));
+        }
+    }
+    all
+}
+
+fn nearest(p: Point, (a, b): (Point, Point)) -> Point {
+    a + (b - a) * ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0)
+}
+
+fn clearance(sides: &[(Point, Point)], p: Point) -> f64 {
+    sides.iter().map(|side| (p - nearest(p, *side)).norm()).fold(f64::INFINITY, f64::min)
+}
+
+/// The least clearance of a path, at many places.
+fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
+    let along = |(a, b): (Configuration, Configuration)| {
+        (0..=40).map(move |k| Point::from(a + (b - a) * (f64::from(k) / 40.0)))
+    };
+    path.segments().flat_map(along).map(|p| clearance(sides, p)).fold(f64::INFINITY, f64::min)
+}
+
+/// Each end of an arc or chord has two nearest points on different sides, and what is between them nearly so.
+fn assert_is_diagram(regions: &Regions, run: &Run, ends: [Point; 2]) {
+    let sides = obstacles(regions);
+    let Trace::Roads { edges, .. } = &run.trace else { panic!("{:?}", run.trace) };
+    assert!(!edges.is_empty());
+    let on_border = |p: Point| {
+        (0..2).any(|k| [regions.window[k].0, regions.window[k].1].iter().any(|bound| (p[k] - bound).abs() < 1e-9))
+    };
+    for [a, b] in edges.iter().map(|edge| edge.map(Point::from)).filter(|edge| !ends.iter().any(|p| edge.contains(p))) {
+        for (share, is_end) in [(0.0, true), (1.0, true), (0.25, false), (0.5, false), (0.75, false)] {
+            let p = a + (b - a) * share;
+            let foot = sides.iter().map(|side| nearest(p, *side));
+            let least = clearance(&sides, p);
+            // A chord that the window has cut ends at the chord.
+            let slack = if is_end && !on_border(p) { 4e-7 } else { 1e-6 + f64::min(2.5e-3, 0.025 * least) };
+            let close: Vec<Point> = foot.filter(|foot| (p - foot).norm() <= least + slack).collect();
+            let is_two = least < 1e-6 || close.iter().any(|foot| (foot - close[0]).norm() > 1e-6);
+            assert!(is_two, "{p} between {a} and {b} is {least} from {close:?} alone");
+        }
+    }
+}
+
+/// The greatest least clearance of a way from cell to cell of a grid that begins and ends next to the ends.
+fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: Point, goals: &[Point]) -> (f64, f64) {
+    let (sides, obstacles) = (sides(regions), obstacles(regions));
+    let step = within.map(|(lower, upper)| (upper - lower) / n as f64);
+    let center = |k: usize| {
+        Point::new(within[0].0 + (0.5 + (k / n) as f64) * step[0], within[1].0 + (0.5 + (k % n) as f64) * step[1])
+    };
+    let place = |p: Point| {
+        let [i, j] = [0, 1].map(|k| (((p[k] - within[k].0) / step[k]) as usize).min(n - 1));
+        i * n + j
+    };
+    let width: Vec<f64> =
+        (0..n * n).map(center).map(|p| if is_nearly_free(&sides, p) { clearance(&obstacles, p) } else { -1.0 }).collect();
+    let mut order: Vec<usize> = (0..n * n).filter(|&k| width[k] > 0.0).collect();
+    order.sort_by(|&a, &b| width[b].total_cmp(&width[a]));
+    let mut root: Vec<usize> = (0..n * n).collect();
+    fn find(root: &mut [usize], mut k: usize) -> usize {
+        while root[k] != k {
+            root[k] = root[root[k]];
+            k = root[k];
+        }
+        k
+    }
+    let mut seen = vec![false; n * n];
+    for cell in order {
+        seen[cell] = true;
+        let (i, j) = ((cell / n) as i32, (cell % n) as i32);
+        for (x, y) in (-1..=1).flat_map(|x| (-1..=1).map(move |y| (i + x, j + y))) {
+            if (0..n as i32).contains(&x) && (0..n as i32).contains(&y) && seen[(x as usize) * n + y as usize] {
+                let (a, b) = (find(&mut root, cell), find(&mut root, (x as usize) * n + y as usize));
+                root[a] = b;
+            }
+        }
+        let from = find(&mut root, place(start));
+        if seen[place(start)] && goals.iter().any(|g| seen[place(*g)] && find(&mut root, place(*g)) == from) {
+            return (width[cell], step[0].hypot(step[1]));
+        }
+    }
+    (0.0, step[0].hypot(step[1]))
+}
+
+/// A free place, of some clearance.
+fn free_place(random: &mut Dice, regions: &Regions, within: [(f64, f64); 2]) -> Option<Point> {
+    let (sides, obstacles) = (sides(regions), obstacles(regions));
+    (0..200).map(|_| Point::new(random.within(within[0].0, within[0].1), random.within(within[1].0, within[1].1))).find(
+        |p| is_nearly_free(&sides, *p) && clearance(&obstacles, *p) > 0.02,
+    )
+}
+
+/// A crowd on a torus, or a cylinder between walls, over two turns of each circle.
+fn repeated_crowd(crowd: &[Vec<Point>], side: usize, circles: [bool; 2]) -> Regions {
+    let scale = TAU / side as f64;
+    let range = |k: usize| if circles[k] { (-TAU, TAU) } else { (0.0, TAU) };
+    let turns = |k: usize| if circles[k] { vec![-TAU, 0.0] } else { vec![0.0] };
+    let copy = |polygon: &Vec<Point>, x: f64, y: f64| -> Vec<Point> {
+        polygon.iter().map(|p| Point::new(p.x * scale + x, p.y * scale + y)).collect()
+    };
+    let mut holes = Vec::new();
+    for x in turns(0) {
+        for y in turns(1) {
+            holes.extend(crowd.iter().map(|polygon| copy(polygon, x, y).into_iter().rev().collect::<Vec<_>>()));
+        }
+    }
+    let window = [range(0), range(1)];
+    let axis = |k: usize| {
+        if circles[k] { JointRange::Circle } else { JointRange::Interval { lower: window[k].0, upper: window[k].1 } }
+    };
+    let free = vec![Polygon { outer: rectangle(window[0], window[1]), holes }];
+    let topology = Topology { ranges: [axis(0), axis(1)] };
+    Regions { topology, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+}
+
+proptest! {
+    #![proptest_config(crate::common::random::cases(48))]
+
+    #[test]
+    fn ways_are_as_wide_as_floods_find(seed: u64, count in 1usize..10) {
+        let mut random = Dice::new(seed);
+        let regions = star_crowd(&mut random, count);
+        let [start, goal] = [0, 1].map(|_| free_place(&mut random, &regions, regions.window).expect("most of it is free"));
+        let run = run(&regions, start, goal);
+        assert_is_diagram(&regions, &run, [start, goal]);
+        let path = path(&run).expect("stars do not touch");
+        assert_free(&regions, path);
+        let width = least_clearance(&obstacles(&regions), path);
+        let (expected, cell) = widest_on_grid(&regions, regions.window, 90, start, &[goal]);
+        prop_assert!(width >= 0.98 * expected - cell, "{width} {expected} {cell}");
+        prop_assert!(width <= expected + cell, "{width} {expected} {cell}");
+    }
+
+    #[test]
+    fn ways_lead_across_seams(seed: u64, side in 1usize..4, corners in 3usize..7, first: bool, second: bool) {
+        let mut random = Dice::new(seed);
+        let regions = repeated_crowd(&convex_crowd(&mut random, side, corners), side, [first, second]);
+        // Where the window is not felt.
+        let inner = [0, 1].map(|k| if [first, second][k] { (-PI, PI) } else { regions.window[k] });
+        let place = |random: &mut Dice| free_place(random, &regions, inner).expect("most of it is free");
+        let (start, goal) = (place(&mut random), place(&mut random));
+        let run = run(&regions, start, goal);
+        let turns = |k: usize| if [first, second][k] { vec![-TAU, 0.0, TAU] } else { vec![0.0] };
+        let copies = turns(0).into_iter().flat_map(|x| turns(1).into_iter().map(move |y| Point::new(goal.x + x, goal.y + y)));
+        let copies: Vec<Point> = copies.collect();
+        assert_is_diagram(&regions, &run, [start, path(&run).expect("there are ways").goal().into()]);
+        let path = path(&run).expect("there are ways");
+        assert_free(&regions, path);
+        prop_assert!(copies.iter().any(|copy| (copy.coords - path.goal()).norm() < 1e-9));
+        let width = least_clearance(&obstacles(&regions), path);
+        let shrunk = [0, 1].map(|k| if [first, second][k] { (-1.5 * PI, 1.5 * PI) } else { regions.window[k] });
+        let near: Vec<Point> = copies.into_iter().filter(|p| (0..2).all(|k| shrunk[k].0 < p[k] && p[k] < shrunk[k].1)).collect();
+        let (expected, cell) = widest_on_grid(&regions, shrunk, 80, start, &near);
+        prop_assert!(width >= 0.98 * expected - cell, "{width} {expected} {cell}");
+    }
+
+    /// Collinear sides, equal distances everywhere, and corners that touch: there is a way where a flood finds one.
+    #[test]
+    fn boards_have_ways_where_floods_find_them(seed: u64, size in 2usize..7, density in 0.1..0.6) {
+        let mut random = Dice::new(seed);
+        let board = Board::random(&mut random, size, density);
+        let component = board.components();
+        let free: Vec<usize> = (0..board.free.len()).filter(|&k| board.free[k]).collect();
+        prop_assume!(!free.is_empty());
+        let map = [[[1, 0], [0, 1]], [[0, -1], [1, 0]], [[2, 1], [1, 1]]][random.below(3_usize)];
+        let regions = board.regions(map, || random.bits().is_multiple_of(2));
+        for _ in 0..4 {
+            let [a, b] = [0, 1].map(|_| free[random.below(free.len())]);
+            // The middle of a square is on the diagram, other places are not.
+            let inside = random.within(0.1, 0.9);
+            let [p, q] = [(a, 0.5), (b, inside)].map(|(k, y)| mapped(map, (k / size) as f64 + 0.5, (k % size) as f64 + y));
+            let run = run(&regions, p, q);
+            prop_assert_eq!(path(&run).is_some(), component[a] == component[b]);
+            if let Some(path) = path(&run) {
+                assert_free(&regions, path);
+            }
+        }
+    }
+}
+
+#[test]
+fn between_two_walls_the_way_is_in_the_middle() {
+    let regions = window_with_holes((0.0, 4.0), (0.0, 1.0), Vec::new());
+    let run = run(&regions, Point::new(0.75, 0.2), Point::new(3.25, 0.9));
+    let expected = [(0.75, 0.2), (0.75, 0.5), (3.25, 0.5), (3.25, 0.9)];
+    let found = path(&run).expect("a way").waypoints();
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (q, (x, y)) in found.iter().zip(expected) {
+        assert!((q - configuration(x, y)).norm() < 1e-9, "{found:?}");
+    }
+}
+
+#[test]
+fn a_square_room_has_its_diagonals() {
+    let regions = window_with_holes((0.0, 2.0), (0.0, 2.0), Vec::new());
+    let planner = Voronoi { path: PathKind::Taut, ..Voronoi::default() };
+    let query = Query { start: configuration(1.0, 0.3), goals: configuration(1.8, 1.0).into() };
+    let own = run(&regions, query.start.into(), Point::new(1.8, 1.0));
+    assert_eq!(path(&own).expect("a way").waypoints(), [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| configuration(x, y)));
+    let Trace::Roads { edges, .. } = &own.trace else { panic!() };
+    let diagonals = edges.iter().filter(|edge| edge.iter().any(|q| q.amin() < 1e-9 || q.amax() > 2.0 - 1e-9));
+    let total: f64 = diagonals.map(|[a, b]| (b - a).norm()).sum();
+    assert!((total - 32.0_f64.sqrt()).abs() < 1e-9, "{edges:?}");
+    // Pulled taut it is straight, whatever is near.
+    let taut = planner.query(&regions, &planner.build(&regions), &query);
+    assert_eq!(path(&taut).expect("a way").waypoints().len(), 2);
+}
+
+/// Of two doors the wider one, though it is farther away.
+#[test]
+fn the_wider_door_is_taken() {
+    let walls = [((0.0, 0.9), 0.0), ((1.1, 3.0), 0.0), ((3.5, 5.0), 0.0)];
+    let wall = |&((from, to), _): &((f64, f64), f64)| rectangle((from, to), (1.0, 1.1));
+    let holes: Vec<Vec<Point>> = walls.iter().map(wall).collect();
+    // A little off the limits, where obstacles may not touch in these tests.
+    let regions = window_with_holes((-0.05, 5.05), (-1.0, 3.0), holes);
+    let (start, goal) = (Point::new(1.0, 0.5), Point::new(1.0, 1.6));
+    let run = run(&regions, start, goal);
+    let through = path(&run).expect("a way").segments().find(|(a, b)| (a[1] - 1.05) * (b[1] - 1.05) <= 0.0);
+    let (a, b) = through.expect("it goes through a door");
+    assert!(a[0] > 3.0 && b[0] > 3.0, "{a} {b}");
+    assert!((least_clearance(&obstacles(&regions), path(&run).unwrap()) - 0.25).abs() < 1e-9);
+}
+
+/// Nothing to keep away from: straight there.
+#[test]
+fn with_no_obstacle_on_a_torus_the_way_is_straight() {
+    let regions = repeated_crowd(&[], 1, [true, true]);
+    let run = run(&regions, Point::new(0.5, 0.5), Point::new(3.0, -0.5));
+    assert_eq!(path(&run).expect("a way").waypoints().len(), 2);
+}
