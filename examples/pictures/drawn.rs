@@ -14,10 +14,11 @@ pub enum Subject {
 }
 
 /// All, with the names of their files.
-pub const PICTURES: [(&str, Subject); 10] = [
+pub const PICTURES: [(&str, Subject); 11] = [
     ("shortest", Subject::Answer("planar_2r", "workbench", Method::Shortest)),
     ("visibility", Subject::Answer("planar_2r", "workbench", Method::Visibility)),
     ("trapezoid", Subject::Answer("planar_2r", "workbench", Method::Trapezoid)),
+    ("voronoi", Subject::Answer("planar_2r", "workbench", Method::Voronoi)),
     ("wavefront", Subject::Answer("planar_2r", "workbench", Method::Wavefront)),
     ("harmonic", Subject::Answer("planar_2r", "workbench", Method::Harmonic)),
     ("subdivision", Subject::Answer("planar_2r", "workbench", Method::Subdivision)),

@@ -140,6 +140,7 @@ LAYERS = [
     (("planar_2r", "workbench"), ("--planner", "trapezoid"), {"cells", "channel"}),
     (("planar_2r", "workbench"), ("--planner", "triangles"), {"cells", "channel", "expanded"}),
     (("planar_2r_continuous", "torus_open"), ("--planner", "prm"), {"roads", "expanded"}),
+    (("planar_2r", "shelf"), ("--planner", "voronoi"), {"roads", "expanded"}),
     (("planar_2r", "workbench"), ("--planner", "wavefront"), {"wavefront"}),
     (("planar_2r_continuous", "torus_open"), ("--planner", "harmonic"), {"equipotentials", "flow"}),
     (("planar_2r", "workbench"), ("--planner", "subdivision"), {"boxes"}),
@@ -247,6 +248,6 @@ def test_other_commands_make_pages_too(program, show_file):
     program.run(*files, "--quiet", "--output", "plan.json")
     program.run("verify", *files, "plan.json", "--picture", "verify.html")
     assert show_file(folder / "check.html").do("cplan.q") == pytest.approx([0.1, 0.2])
-    assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 7
+    assert show_file(folder / "compare.html").do("cplan.model.paths.length") == 10
     assert show_file(folder / "inspect.html").do("cplan.model.frames.length") == 3
     assert show_file(folder / "verify.html").do("cplan.model.paths.length") == 1

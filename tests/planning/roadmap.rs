@@ -6,7 +6,7 @@ use cplan::cspace::{Polygon, Regions};
 use cplan::geometry::Point;
 use cplan::planner::{
     PathKind, Planner, Prm, Proposal, Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles,
-    Visibility,
+    Visibility, Voronoi,
 };
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Path, Topology};
 use proptest::prelude::*;
@@ -74,6 +74,7 @@ fn assert_searched(regions: &Regions, query: &Query, shortest: Option<f64>) {
         // Where a search wanders about within its channel the string may turn where it need not.
         assert!(!search.order.is_optimal() || taut <= own.map(|own| own + 1e-9), "{search}: {taut:?} {own:?}");
         same(checked_path(&Trapezoid { path: PathKind::Taut, search }, regions, query));
+        PathKind::ALL.map(|path| same(checked_path(&Voronoi { path, search }, regions, query)));
     }
     for path in PathKind::ALL {
         // Few samples find what they find; they never say that there is nothing.

@@ -57,15 +57,27 @@ fn least_clearance(sides: &[(Point, Point)], path: &Path) -> f64 {
     path.segments().flat_map(along).map(|p| clearance(sides, p)).fold(f64::INFINITY, f64::min)
 }
 
-/// Each end of an arc or chord has two nearest points on different sides, and what is between them nearly so.
-fn assert_is_diagram(regions: &Regions, run: &Run, ends: [Point; 2]) {
+/// Each end of an arc or chord has two nearest points on different sides, and what is between them nearly so; and the diagram
+/// hangs together.
+fn assert_is_diagram(regions: &Regions, run: &Run, ends: &[Point]) {
     let sides = obstacles(regions);
     let Trace::Roads { edges, .. } = &run.trace else { panic!("{:?}", run.trace) };
     assert!(!edges.is_empty());
     let on_border = |p: Point| {
         (0..2).any(|k| [regions.window[k].0, regions.window[k].1].iter().any(|bound| (p[k] - bound).abs() < 1e-9))
     };
-    for [a, b] in edges.iter().map(|edge| edge.map(Point::from)).filter(|edge| !ends.iter().any(|p| edge.contains(p))) {
+    let is_leg = |edge: &[Point; 2]| ends.iter().any(|end| edge.iter().any(|p| (p - end).norm() < 1e-9));
+    // An arc ends where others begin, or in a corner of free space.
+    let mut meeting = std::collections::BTreeMap::new();
+    for p in edges.iter().flatten() {
+        *meeting.entry((p[0].to_bits(), p[1].to_bits())).or_insert(0) += 1;
+    }
+    for (&(x, y), _) in meeting.iter().filter(|(_, count)| **count == 1) {
+        let p = Point::new(f64::from_bits(x), f64::from_bits(y));
+        let is_end = ends.iter().any(|end| (p - end).norm() < 1e-9) || clearance(&sides, p) < 1e-6 || on_border(p);
+        assert!(is_end, "an arc ends at {p}, {} from obstacles", clearance(&sides, p));
+    }
+    for [a, b] in edges.iter().map(|edge| edge.map(Point::from)).filter(|edge| !is_leg(edge)) {
         for (share, is_end) in [(0.0, true), (1.0, true), (0.25, false), (0.5, false), (0.75, false)] {
             let p = a + (b - a) * share;
             let foot = sides.iter().map(|side| nearest(p, *side));
@@ -90,8 +102,10 @@ fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: P
         let [i, j] = [0, 1].map(|k| (((p[k] - within[k].0) / step[k]) as usize).min(n - 1));
         i * n + j
     };
-    let width: Vec<f64> =
-        (0..n * n).map(center).map(|p| if is_nearly_free(&sides, p) { clearance(&obstacles, p) } else { -1.0 }).collect();
+    let width: Vec<f64> = (0..n * n)
+        .map(center)
+        .map(|p| if is_nearly_free(&sides, p) { clearance(&obstacles, p) } else { -1.0 })
+        .collect();
     let mut order: Vec<usize> = (0..n * n).filter(|&k| width[k] > 0.0).collect();
     order.sort_by(|&a, &b| width[b].total_cmp(&width[a]));
     let mut root: Vec<usize> = (0..n * n).collect();
@@ -123,9 +137,9 @@ fn widest_on_grid(regions: &Regions, within: [(f64, f64); 2], n: usize, start: P
 /// A free place, of some clearance.
 fn free_place(random: &mut Dice, regions: &Regions, within: [(f64, f64); 2]) -> Option<Point> {
     let (sides, obstacles) = (sides(regions), obstacles(regions));
-    (0..200).map(|_| Point::new(random.within(within[0].0, within[0].1), random.within(within[1].0, within[1].1))).find(
-        |p| is_nearly_free(&sides, *p) && clearance(&obstacles, *p) > 0.02,
-    )
+    (0..200)
+        .map(|_| Point::new(random.within(within[0].0, within[0].1), random.within(within[1].0, within[1].1)))
+        .find(|p| is_nearly_free(&sides, *p) && clearance(&obstacles, *p) > 0.02)
 }
 
 /// A crowd on a torus, or a cylinder between walls, over two turns of each circle.
@@ -160,7 +174,7 @@ proptest! {
         let regions = star_crowd(&mut random, count);
         let [start, goal] = [0, 1].map(|_| free_place(&mut random, &regions, regions.window).expect("most of it is free"));
         let run = run(&regions, start, goal);
-        assert_is_diagram(&regions, &run, [start, goal]);
+        assert_is_diagram(&regions, &run, &[start, goal]);
         let path = path(&run).expect("stars do not touch");
         assert_free(&regions, path);
         let width = least_clearance(&obstacles(&regions), path);
@@ -181,7 +195,7 @@ proptest! {
         let turns = |k: usize| if [first, second][k] { vec![-TAU, 0.0, TAU] } else { vec![0.0] };
         let copies = turns(0).into_iter().flat_map(|x| turns(1).into_iter().map(move |y| Point::new(goal.x + x, goal.y + y)));
         let copies: Vec<Point> = copies.collect();
-        assert_is_diagram(&regions, &run, [start, path(&run).expect("there are ways").goal().into()]);
+        assert_is_diagram(&regions, &run, &[&[start][..], &copies].concat());
         let path = path(&run).expect("there are ways");
         assert_free(&regions, path);
         prop_assert!(copies.iter().any(|copy| (copy.coords - path.goal()).norm() < 1e-9));
@@ -234,7 +248,10 @@ fn a_square_room_has_its_diagonals() {
     let planner = Voronoi { path: PathKind::Taut, ..Voronoi::default() };
     let query = Query { start: configuration(1.0, 0.3), goals: configuration(1.8, 1.0).into() };
     let own = run(&regions, query.start.into(), Point::new(1.8, 1.0));
-    assert_eq!(path(&own).expect("a way").waypoints(), [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| configuration(x, y)));
+    assert_eq!(
+        path(&own).expect("a way").waypoints(),
+        [(1.0, 0.3), (1.0, 1.0), (1.8, 1.0)].map(|(x, y)| configuration(x, y))
+    );
     let Trace::Roads { edges, .. } = &own.trace else { panic!() };
     let diagonals = edges.iter().filter(|edge| edge.iter().any(|q| q.amin() < 1e-9 || q.amax() > 2.0 - 1e-9));
     let total: f64 = diagonals.map(|[a, b]| (b - a).norm()).sum();

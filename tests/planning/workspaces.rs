@@ -109,6 +109,11 @@ fn triangles() {
 }
 
 #[test]
+fn voronoi() {
+    check(Method::Voronoi);
+}
+
+#[test]
 fn prm() {
     check(Method::Prm);
 }
@@ -140,10 +145,15 @@ fn the_visibility_path_is_the_shortest_up_to_the_margin() {
         };
         let shortest = length(Method::Visibility);
         let able = |method: &Method| unknown.iter().all(|name| name != method.name());
-        for method in [Method::Trapezoid, Method::Triangles, Method::Prm, Method::Wavefront, Method::Subdivision]
-            .into_iter()
-            .filter(able)
-        {
+        let others = [
+            Method::Trapezoid,
+            Method::Triangles,
+            Method::Voronoi,
+            Method::Prm,
+            Method::Wavefront,
+            Method::Subdivision,
+        ];
+        for method in others.into_iter().filter(able) {
             // Fields and channels keep their own distance from obstacles; what the margin costs is far below 2 %.
             let other = length(method);
             assert!(shortest <= 1.02 * other, "{name}: visibility {shortest}, {method} {other}");

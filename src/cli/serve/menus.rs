@@ -138,6 +138,8 @@ mod tests {
         let visibility = [optimum.clone(), pairs(&roadmap[1..])].concat();
         assert_eq!((of("shortest"), of("visibility"), of("first")), (optimum, visibility, Vec::new()));
         assert_eq!([of("trapezoid"), of("triangles")], [pairs(&roadmap), pairs(&roadmap)]);
+        let diagram = pairs(&[("--path", "own"), ("--search", "astar")]);
+        assert_eq!(of("voronoi"), diagram);
         assert_eq!(of("prm"), pairs(&[&roadmap[..], &[("--samples", "500")]].concat()));
         let search = [("--search", "wave"), ("--neighbors", "4"), ("--space", "rows")];
         assert_eq!(of("wavefront"), pairs(&[&[("--cells", "256"), ("--path", "taut")][..], &search[..]].concat()));

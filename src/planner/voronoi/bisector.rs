@@ -1,17 +1,19 @@
 //! Bisectors, as functions of the parameter of a site's rays.
 
 use super::site::{Site, TOUCH};
-use std::f64::consts::{PI, TAU};
+use crate::geometry::cross;
+use std::f64::consts::PI;
 
 /// Sides whose directions differ by less are one after the other: they have no bisector.
 const PARALLEL: f64 = 1e-9;
 
-/// How far up its rays a site is as near as another one. What is kept of that height `h` is a function that grows with it:
-/// on a side the height itself, a polynomial; on a corner `-1 / h`, a wave. Of both the three coefficients, so that where two
-/// bisectors meet is a closed form.
+/// How far up its rays a site is as near as another one.
+///
+/// Of that height `h` a quadratic polynomial of the parameter `t` is kept that grows with it: over a side the height itself, over a
+/// corner `-(1 + t^2) / h`. Where one of two is nearer is so the sign of a third.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
-    /// Of `1, t, t^2`, or of `1, cos t, sin t`.
+    /// Of `1, t, t^2`.
     coefficients: [f64; 3],
     on_side: bool,
     /// Where the nearest point of the other site is none of its ends.
@@ -31,9 +33,9 @@ impl Bisector {
             (false, true) => (point_and_side(site, with), false),
             (false, false) => ([point_and_point(site, with), None, None], false),
         };
-        let extent = site.extent;
+        let [first, last] = site.range;
         let made = move |(coefficients, from, to): Part| {
-            let (from, to) = (f64::max(from, 0.0), f64::min(to, extent));
+            let (from, to) = (f64::max(from, first), f64::min(to, last));
             (from <= to).then_some(Self { coefficients, on_side, from, to, other })
         };
         parts.into_iter().flatten().filter_map(made)
@@ -42,21 +44,13 @@ impl Bisector {
     /// Its value; the least one is the nearest.
     pub fn value(&self, t: f64) -> f64 {
         let [a, b, c] = self.coefficients;
-        if self.on_side {
-            return a + t * (b + t * c);
-        }
-        let (sin, cos) = t.sin_cos();
-        a + b * cos + c * sin
+        a + t * (b + t * c)
     }
 
     /// Its slope.
     pub fn slope(&self, t: f64) -> f64 {
         let [_, b, c] = self.coefficients;
-        if self.on_side {
-            return b + 2.0 * t * c;
-        }
-        let (sin, cos) = t.sin_cos();
-        c * cos - b * sin
+        b + 2.0 * t * c
     }
 
     /// The height that the value stands for.
@@ -64,7 +58,7 @@ impl Bisector {
         let value = self.value(t);
         match self.on_side {
             true => value.max(0.0),
-            false if value < 0.0 => -1.0 / value,
+            false if value < 0.0 => -(1.0 + t * t) / value,
             false => f64::INFINITY,
         }
     }
@@ -74,27 +68,23 @@ impl Bisector {
         if self.on_side { self.coefficients[2] * step * step / 4.0 } else { 0.0 }
     }
 
-    /// Where its value falls below another's: there is one such place at most, but for whole turns.
-    pub fn falls_below(&self, other: &Self, from: f64) -> Option<f64> {
+    /// Where its value falls below another's: there is one such place at most.
+    pub fn falls_below(&self, other: &Self) -> Option<f64> {
         let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
-        if self.on_side {
-            // Of both zeros the one with a falling slope, without cancellation.
-            let square = b * b - 4.0 * a * c;
-            if square <= 0.0 {
-                return None;
-            }
-            let root = square.sqrt();
-            let at = if b > 0.0 { (-b - root) / (2.0 * a) } else { 2.0 * c / (root - b) };
-            return at.is_finite().then_some(at);
-        }
-        let radius = a.hypot(b);
-        if c.abs() >= radius {
+        let square = b * b - 4.0 * a * c;
+        if square <= 0.0 {
             return None;
         }
-        let at = a.atan2(b) + (-c / radius).acos();
-        // The first one that is not before.
-        Some(from + (at - from).rem_euclid(TAU))
+        // Of both zeros the one with a falling slope, without cancellation.
+        let root = square.sqrt();
+        let at = if b > 0.0 { (-b - root) / (2.0 * a) } else { 2.0 * c / (root - b) };
+        at.is_finite().then_some(at)
     }
+}
+
+/// The polynomial for `a + b cos + c sin` of twice the angle of which the parameter is the tangent.
+fn of_wave([a, b, c]: [f64; 3]) -> [f64; 3] {
+    [a + b, 2.0 * c, a - b]
 }
 
 /// Coefficients, and from where to where.
@@ -118,7 +108,7 @@ fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
     let height = [there.dot(&side.normal()) / apart, site.along.dot(&side.normal()) / apart];
     let rise = site.normal().dot(&side.along);
     let foot = [there.dot(&side.along) + height[0] * rise, site.along.dot(&side.along) + height[1] * rise];
-    let range = [(height[0], height[1]), (foot[0], foot[1]), (side.extent - foot[0], -foot[1])];
+    let range = [(height[0], height[1]), (foot[0], foot[1]), (side.range[1] - foot[0], -foot[1])];
     let (from, to) = range.into_iter().fold((f64::NEG_INFINITY, f64::INFINITY), |(from, to), (value, slope)| {
         // Where `value + slope * t` is not negative.
         match -value / slope {
@@ -136,7 +126,8 @@ fn point_and_point(site: &Site, point: &Site) -> Option<Part> {
     let square = there.norm_squared();
     let wave = || {
         let rate = -2.0 / square;
-        ([0.0, rate * there.dot(&site.along), rate * there.dot(&site.normal())], 0.0, site.extent)
+        let wave = [0.0, rate * there.dot(&site.along), rate * there.dot(&site.normal())];
+        (of_wave(wave), f64::NEG_INFINITY, f64::INFINITY)
     };
     (square > TOUCH * TOUCH).then(wave)
 }
@@ -148,12 +139,15 @@ fn point_and_side(site: &Site, side: &Site) -> [Option<Part>; 3] {
         return [None; 3];
     }
     let wave = [-1.0 / away, side.normal().dot(&site.along) / away, side.normal().dot(&site.normal()) / away];
-    // Seen from the ray that goes straight to the side, by the angle to it: the foot is as far along as its half's tangent says.
+    // Half the angles from the middle ray to those with a foot at either end: its tangent from the ray that goes straight to the
+    // side is the foot's place there by the distance.
     let straight = -side.normal();
-    let begin = crate::geometry::cross(site.along, straight).atan2(site.along.dot(&straight));
+    let begin = 0.5 * cross(site.along, straight).atan2(site.along.dot(&straight));
     let foot = there.dot(&side.along);
-    let [from, to] = [-foot, side.extent - foot].map(|along| begin + 2.0 * (along / away).atan());
-    debug_assert!(to - from <= TAU && begin.abs() <= PI);
-    [-TAU, 0.0, TAU]
-        .map(|turn| Some((wave, from + turn, to + turn)).filter(|part| part.1 <= site.extent && part.2 >= 0.0))
+    let ends = [-foot, side.range[1] - foot].map(|along| begin + (along / away).atan());
+    let least = [0, 1].map(|k| site.range[k].atan());
+    [-PI, 0.0, PI].map(|turn| {
+        let [from, to] = [(ends[0] + turn).max(least[0]), (ends[1] + turn).min(least[1])];
+        (from <= to).then(|| (of_wave(wave), from.tan(), to.tan()))
+    })
 }

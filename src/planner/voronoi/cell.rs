@@ -33,21 +33,22 @@ impl Arc {
 /// bisectors.
 pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Vec<Arc> {
     checkpoint();
-    let slack = SAME * site.extent.min(1.0);
+    let [first, last] = site.range;
+    let slack = SAME * (last - first).min(1.0);
     let mut arcs = Vec::new();
     let touching = |a: &Bisector, b: &Bisector| {
         let (a, b) = (&others[a.other], &others[b.other]);
         a.is_side() != b.is_side()
             && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side() && (x.at == y.at || x.to == y.at))
     };
-    let mut at = 0.0;
+    let mut at = first;
     let mut current = lowest(bisectors, at, slack);
     // Each bisector falls below another one twice at the most.
     for _ in 0..8 * bisectors.len() + 8 {
         let Some(mut now) = current else {
             // A gap, to where the next bisector begins.
             let next = bisectors.iter().map(|b| b.from).filter(|from| *from > at + slack).fold(f64::INFINITY, f64::min);
-            if next >= site.extent {
+            if next >= last {
                 break;
             }
             at = next;
@@ -69,7 +70,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
             } else if b.from > at && b.from < end && b.value(b.from) < now.value(b.from) {
                 Some(b.from)
             } else {
-                let falls = b.falls_below(now, at - slack).filter(|t| *t >= b.from.max(at - slack) && *t <= b.to);
+                let falls = b.falls_below(now).filter(|t| *t >= b.from.max(at - slack) && *t <= b.to);
                 falls.filter(|t| *t > at + slack || b.slope(*t) < now.slope(*t) - EVEN).map(|t| t.max(at))
             };
             if let Some(t) = event.filter(|t| *t < end) {
@@ -95,7 +96,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
         if end > at {
             arcs.push(Arc { bisector: *now, from: at, to: end });
         }
-        if end >= site.extent - slack {
+        if end >= last - slack {
             break;
         }
         at = end;

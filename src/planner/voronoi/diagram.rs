@@ -93,7 +93,8 @@ impl Diagram {
     /// The border of a site's cell: among others near by, of which it is known at last that they are all that matter.
     fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds, most: f64) -> Vec<Arc> {
         let site = &self.sites[number];
-        let mut reach = site.extent.min(most);
+        let extent = site.range[1] - site.range[0];
+        let mut reach = extent.min(most);
         loop {
             let grow = Configuration::repeat(2.0 * reach);
             let mut near = Vec::new();
@@ -104,7 +105,7 @@ impl Diagram {
             let arcs = border(site, &self.sites, &bisectors);
             let greatest = arcs.iter().map(Arc::greatest).fold(0.0, f64::max);
             let covered: f64 = arcs.iter().map(|arc| arc.to - arc.from).sum();
-            let is_closed = greatest.is_finite() && covered > site.extent * (1.0 - 1e-6);
+            let is_closed = greatest.is_finite() && covered > extent * (1.0 - 1e-6);
             if (is_closed && greatest <= reach) || reach >= most {
                 return arcs;
             }
@@ -128,8 +129,11 @@ impl Diagram {
         let from = nearest.nearest(home);
         let way = home - from;
         // On the boundary itself any of the site's rays will do.
-        let ray =
-            if way.norm() > TOUCH { (from, way.normalize()) } else { (home, nearest.ray(nearest.extent / 2.0).1) };
+        let ray = if way.norm() > TOUCH {
+            (from, way.normalize())
+        } else {
+            (home, nearest.ray(0.5 * (nearest.range[0] + nearest.range[1])).1)
+        };
         let others = self.sites.iter().filter(|site| !std::ptr::eq(*site, nearest));
         let height = others.map(|site| site.limit(ray)).fold(f64::INFINITY, f64::min);
         height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
@@ -197,9 +201,13 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
             return chord(site, other, arc, [middle, to], chords);
         }
     }
-    let place = |t: f64, height: f64| {
-        let (at, direction) = site.ray(t);
-        at + direction * height
+    let place = |t: f64, height: f64| match site.end(t) {
+        // Corners of free space as they are: rounded ones may lie outside.
+        Some(corner) if height < TOUCH => corner,
+        _ => {
+            let (at, direction) = site.ray(t);
+            at + direction * height
+        }
     };
     let [a, b] = [place(from, heights[0]), place(to, heights[1])];
     let width = site.distance(a, b).min(other.distance(a, b));

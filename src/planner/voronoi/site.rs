@@ -10,17 +10,18 @@ pub(super) const TOUCH: f64 = 1e-12;
 /// A side of the boundary without its ends, or a convex corner of an obstacle.
 ///
 /// The points that are nearer to it than to all else lie on its *rays*: those that leave a side at right angles, or a corner
-/// between the normals of its two sides. A parameter tells them apart: the length along the side, or the angle.
+/// between the normals of its two sides. A parameter tells them apart: the length along the side, or the tangent of half the
+/// angle to the middle one, which makes polynomials of waves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site {
     /// The corner, or where the side begins.
     pub at: Point,
     /// The corner, or where the side ends; free space lies to the left.
     pub to: Point,
-    /// Direction of the side, or of the corner's first ray.
+    /// Direction of the side, or of the corner's middle ray.
     pub along: Vector,
-    /// Of the parameter, which begins with 0: length of the side, or angle of the corner.
-    pub extent: f64,
+    /// Least and greatest parameter.
+    pub range: [f64; 2],
 }
 
 /// Where a ray begins, and its direction.
@@ -29,8 +30,8 @@ pub(super) type Ray = (Point, Vector);
 impl Site {
     /// A side of some length, from `at` to `to`.
     pub fn side(at: Point, to: Point) -> Self {
-        let extent = (to - at).norm();
-        Self { at, to, along: (to - at) / extent, extent }
+        let length = (to - at).norm();
+        Self { at, to, along: (to - at) / length, range: [0.0, length] }
     }
 
     /// A corner of free space of more than half a turn.
@@ -38,7 +39,9 @@ impl Site {
         let first = perpendicular((corner.right - corner.at).normalize());
         let last = -perpendicular((corner.left - corner.at).normalize());
         let angle = cross(first, last).atan2(first.dot(&last)).abs();
-        Self { at: corner.at, to: corner.at, along: first, extent: angle }
+        let (sin, cos) = (angle / 2.0).sin_cos();
+        let most = (angle / 4.0).tan();
+        Self { at: corner.at, to: corner.at, along: first * cos + perpendicular(first) * sin, range: [-most, most] }
     }
 
     pub fn is_side(&self) -> bool {
@@ -62,15 +65,21 @@ impl Site {
         if self.is_side() {
             (self.at + self.along * parameter, self.normal())
         } else {
-            let (sin, cos) = parameter.sin_cos();
-            (self.at, self.along * cos + self.normal() * sin)
+            let square = parameter * parameter;
+            (self.at, (self.along * (1.0 - square) + self.normal() * (2.0 * parameter)) / (1.0 + square))
         }
+    }
+
+    /// The end of a side that a parameter is as good as at.
+    pub fn end(&self, parameter: f64) -> Option<Point> {
+        let ends = [(self.range[0], self.at), (self.range[1], self.to)];
+        ends.into_iter().find(|(end, _)| self.is_side() && (parameter - end).abs() < TOUCH).map(|(_, p)| p)
     }
 
     /// The point of it that is nearest to `p`.
     pub fn nearest(&self, p: Point) -> Point {
         if self.is_side() {
-            self.at + self.along * (p - self.at).dot(&self.along).clamp(0.0, self.extent)
+            self.at + self.along * (p - self.at).dot(&self.along).clamp(0.0, self.range[1])
         } else {
             self.at
         }
@@ -85,17 +94,21 @@ impl Site {
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far up a ray its points are nearer to where it begins than to this site; infinite if it does not end that.
+    /// How far up a ray its points are nearer to where it begins than to this site; infinite if it does not end that, or is
+    /// where the ray begins.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
+        if (from - self.nearest(from)).norm() < TOUCH {
+            return f64::INFINITY;
+        }
         let there = from - self.at;
         if !self.is_side() {
             let (towards, square) = (-there.dot(&direction), there.norm_squared());
-            return if towards > 0.0 && square > TOUCH * TOUCH { square / (2.0 * towards) } else { f64::INFINITY };
+            return if towards > 0.0 { square / (2.0 * towards) } else { f64::INFINITY };
         }
         let apart = (direction - self.normal()).norm_squared() / 2.0;
         let height = there.dot(&self.normal()) / apart;
         let foot = there.dot(&self.along) + height * direction.dot(&self.along);
-        let is_met = height > TOUCH && height.is_finite() && foot >= -TOUCH && foot <= self.extent + TOUCH;
+        let is_met = height > 0.0 && height.is_finite() && foot >= -TOUCH && foot <= self.range[1] + TOUCH;
         if is_met { height } else { f64::INFINITY }
     }
 }

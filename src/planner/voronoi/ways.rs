@@ -2,6 +2,7 @@
 
 use super::diagram::{Chord, Diagram};
 use crate::geometry::{Ordered, Point};
+use crate::interrupt::checkpoint;
 use crate::planner::mesh::Mesh;
 use crate::planner::roadmap::{Asked, Roadmap};
 use crate::planner::terminals::Terminals;
@@ -38,6 +39,7 @@ impl Ways {
         let mut places: BTreeMap<[i64; 2], Vec<NodeIndex>> = BTreeMap::new();
         let mut known = BTreeSet::new();
         for chord in chords {
+            checkpoint();
             let [a, b] = chord.ends.corners();
             if (a - b).norm() < SAME || !mesh.is_clear(a, b) {
                 continue;
@@ -86,6 +88,7 @@ impl Ways {
         // Where each chord is met: how far along it, and the node there.
         let mut met: BTreeMap<usize, Vec<(Ordered, NodeIndex)>> = BTreeMap::new();
         for &end in &ends {
+            checkpoint();
             // With nothing to keep away from, or no way to go, one is there.
             let is_there = self.chords.is_empty() || asked.at(end) == terminals.start;
             if end != start && is_there && mesh.is_clear(terminals.start, asked.at(end)) {
@@ -122,9 +125,15 @@ impl Ways {
             let distance = |k: usize| self.chords[k].1.ends.distance(measure, there.coords);
             let is_met = |&k: &usize| self.chords[k].1.ends.corners().iter().any(|&p| mesh.is_clear(there, p));
             if let Some(chord) = nearest(self.chords.len(), distance).into_iter().find(is_met) {
+                let (nodes, Chord { ends, .. }) = self.chords[chord];
+                let is_it =
+                    |node: &NodeIndex| (asked.at(*node) - there).norm() < SAME && mesh.is_clear(at, asked.at(*node));
+                if let Some(node) = nodes.into_iter().find(is_it) {
+                    return asked.join(end, node);
+                }
                 let node = asked.add(there);
                 asked.join(end, node);
-                let [from, to] = self.chords[chord].1.ends.ends();
+                let [from, to] = ends.ends();
                 let along = (there.coords - from).dot(&(to - from));
                 return met.entry(chord).or_default().push((Ordered(along), node));
             }
