@@ -3,7 +3,7 @@
 
 use super::row::{Claim, Count};
 use cplan::field::{
-    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, Scan,
+    Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Measure, Order, Relaxation, Relaxed, Scan,
     Stopping, relax,
 };
 
@@ -31,39 +31,57 @@ const GOALS: [Goal; 3] = [
     Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
 ];
 
-/// The room as far as it is known: its outer walls. Row and column of a place by the source's rule.
-fn room(goal: &Goal) -> Domain {
+/// The room with a goal: outer walls are solid, and whichever cells are said to be, counted row by row. Row and column of a place are by
+/// the source's rule.
+fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     let [rows, columns] = CELLS;
-    let mut kinds = vec![Cell::Obstacle; rows * columns];
-    for row in 1..rows - 1 {
-        kinds[row * columns + 1..(row + 1) * columns - 1].fill(Cell::Free);
-    }
-    let row = (rows as f64 / 2.0 - goal.at[1] / 0.5) as usize;
-    let column = (goal.at[0] / 0.5 + columns as f64 / 2.0) as usize;
-    kinds[row * columns + column] = Cell::Goal;
-    Domain::new(CELLS, kinds, [Boundary::High; 2], Levels::PUBLISHED)
+    let row = (rows as f64 / 2.0 - at[1] / 0.5) as usize;
+    let column = (at[0] / 0.5 + columns as f64 / 2.0) as usize;
+    let kind = |cell: usize| {
+        let [i, j] = [cell / columns, cell % columns];
+        match () {
+            () if [i, j] == [row, column] => Cell::Goal,
+            () if i == 0 || j == 0 || i == rows - 1 || j == columns - 1 || is_solid(cell) => Cell::Obstacle,
+            () => Cell::Free,
+        }
+    };
+    Domain::new(CELLS, (0..rows * columns).map(kind).collect(), [Boundary::High; 2], Levels::PUBLISHED)
 }
 
-/// Name, field and count of every published number.
+/// The harmonic field of a goal (algorithm 13), if it converges.
+pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<Relaxed> {
+    let sor = Relaxation::sor(Factor::Given(1.8), Order::Lines(Scan::ROWS));
+    relax(&room(at, is_solid), &Equation::Harmonic, &sor, &STOPPING).ok().filter(Relaxed::converged)
+}
+
+/// The field that is to be followed to a goal along a direction (rows downwards, columns), if it converges (algorithm 14).
+pub fn oriented(at: [f64; 2], direction: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<Relaxed> {
+    let direction = Direction::of(direction)?;
+    let equation = Equation::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
+    let relaxation = Relaxation::gauss_seidel(Order::Lines(Scan::ROWS));
+    relax(&room(at, is_solid), &equation, &relaxation, &STOPPING).ok().filter(Relaxed::converged)
+}
+
+/// Name, field and count of every published number, in a room with nothing in it.
 pub fn rows() -> Vec<(String, Count)> {
-    let order = Order::Lines(Scan::ROWS);
-    let count = |goal: &Goal, equation: &Equation, relaxation: Relaxation, published: usize| {
-        let field = relax(&room(goal), equation, &relaxation, &STOPPING).ok().filter(|field| field.converged());
+    rows_among(&|_| false)
+}
+
+/// The same in a room where these cells are solid.
+pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
+    let count = |published: usize, field: Option<Relaxed>| {
         // The source prints the index of the last sweep, which counts from 0.
         Count::of_sweeps(published, field.map(|field| field.sweeps() - 1), Claim::Unmatched)
     };
     let harmonic = GOALS.iter().map(|goal| {
-        let sor = Relaxation::sor(Factor::Given(1.8), order);
-        (format!("harmonic, {}", goal.name), count(goal, &Equation::Harmonic, sor, goal.harmonic))
+        (format!("harmonic, {}", goal.name), count(goal.harmonic, harmonic(goal.at, is_solid)))
     });
-    let oriented = GOALS.iter().filter_map(|goal| {
-        let direction = Direction::of(goal.direction)?;
-        let equation = Equation::Oriented { direction, epsilon: 0.5, difference: Difference::Central };
-        let count = count(goal, &equation, Relaxation::gauss_seidel(order), goal.oriented);
-        Some((format!("oriented, {}", goal.name), count))
+    let oriented = GOALS.iter().map(|goal| {
+        (format!("oriented, {}", goal.name), count(goal.oriented, oriented(goal.at, goal.direction, is_solid)))
     });
     harmonic.chain(oriented).collect()
 }
+
 /// What can and what cannot be rebuilt.
 pub const NOTES: &[&str] = &[
     "Known: cells, goals, factor 1.8, epsilon 0.5, v, order and stopping rule (the source prints its program). Unknown: the",

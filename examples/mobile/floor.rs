@@ -1,0 +1,88 @@
+//! The floor of a room: what a robot's rays and its body may run into.
+
+use cplan::cspace::c_obstacles;
+use cplan::draw::{Picture, View, svg};
+use cplan::input::{self, InputError};
+use cplan::model::{Scene, Status};
+use cplan::nalgebra::Vector2;
+use cplan::space::Path;
+use cplan::{Configuration, Point};
+use std::path::Path as File;
+
+/// A world of cplan's, and the sides of what stands in it.
+pub struct Floor {
+    /// A gantry (`robots/mobile_robot.urdf`) among the obstacles: its configurations are the places of the robot.
+    pub scene: Scene,
+    sides: Vec<[Point; 2]>,
+    discs: Vec<(Point, f64)>,
+}
+
+impl Floor {
+    /// A shipped world of the mobile robot.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn load(world: &str) -> Result<Self, InputError> {
+        let root = File::new(env!("CARGO_MANIFEST_DIR"));
+        let loaded = input::load_scene(&root.join("robots/mobile_robot.urdf"), &root.join("workspaces").join(world))?;
+        Ok(Self::new(loaded.scene))
+    }
+
+    /// The floor of a scene.
+    pub fn new(scene: Scene) -> Self {
+        let (mut sides, mut discs) = (Vec::new(), Vec::new());
+        for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
+            match piece.core() {
+                [center] => discs.push((*center, piece.radius())),
+                [a, b] => sides.push([*a, *b]),
+                corners => sides.extend((0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]])),
+            }
+        }
+        Self { scene, sides, discs }
+    }
+
+    /// How far a ray goes before it meets something, metres; `most` if it meets nothing until then.
+    pub fn range(&self, from: Point, angle: f64, most: f64) -> f64 {
+        let ray = Vector2::new(angle.cos(), angle.sin());
+        let side = |[a, b]: &[Point; 2]| {
+            let (along, to) = (b - a, a - from);
+            let turn = ray.perp(&along);
+            // Where ray and side meet, as shares of both; a ray along the side meets the sides at its ends.
+            let (t, s) = (to.perp(&along) / turn, to.perp(&ray) / turn);
+            (t >= 0.0 && (0.0..=1.0).contains(&s)).then_some(t)
+        };
+        let disc = |(center, radius): &(Point, f64)| {
+            let to = center - from;
+            let (near, off) = (to.dot(&ray), to.perp(&ray));
+            let half = (radius * radius - off * off).sqrt();
+            (near - half >= 0.0).then_some(near - half)
+        };
+        let hits = self.sides.iter().filter_map(side).chain(self.discs.iter().filter_map(disc));
+        hits.fold(most, f64::min)
+    }
+
+    /// Distance from the robot's body to the nearest obstacle, metres; negative where they overlap.
+    pub fn gap(&self, at: Point) -> f64 {
+        self.scene.clearance(Configuration::new(at.x, at.y))
+    }
+
+    /// The floor with what went over it, as SVG.
+    pub fn picture(&self, title: &str, goals: &[[f64; 2]], ways: &[(String, Vec<Point>)]) -> String {
+        let fineness = 1e-3 * self.scene.arm().reach();
+        let outlines = c_obstacles(&self.scene, fineness, fineness);
+        let paths: Vec<(String, Path)> = ways
+            .iter()
+            .map(|(name, way)| (name.clone(), Path::new(way.iter().map(|p| p.coords).collect())))
+            .collect();
+        let start = paths.first().map_or(Configuration::new(0.0, 0.0), |(_, path)| path.start());
+        let goals: Vec<_> = goals.iter().map(|&goal| cplan::space::Segment::point(goal.into())).collect();
+        svg(&View::of_picture(&Picture {
+            title: vec![title.to_owned()],
+            ending: Some(Status::Found),
+            goals: &goals,
+            paths: paths.iter().map(|(name, path)| (name.clone(), path)).collect(),
+            c_obstacles: &outlines,
+            ..Picture::new(&self.scene, start)
+        }))
+    }
+}

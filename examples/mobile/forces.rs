@@ -1,0 +1,108 @@
+//! The controller by forces of S. F. dos Reis Alves, *Trabalho 2 - Campos potenciais*, algorithms 7, 9 and 11.
+
+use super::occupancy::{Occupancy, cell, place};
+use super::robot::{Robot, wrapped};
+use cplan::Point;
+use cplan::field::{Attraction, Repulsion};
+use cplan::nalgebra::Vector2;
+
+/// Seconds between two commands; the source has as many as its drawing allows, ten a second at the most (Player).
+pub const CYCLE: f64 = 0.1;
+
+/// Metres a second at the most. The source names no limit, and forces have none near obstacles.
+pub const TOP_SPEED: f64 = 1.0;
+
+/// A leg ends in a trap if the robot came no nearer to its target for so many seconds.
+const PATIENCE: f64 = 60.0;
+
+/// What counts as nearer, metres.
+const NEARER: f64 = 0.01;
+
+/// How a leg ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ending {
+    /// At the target.
+    Reached,
+    /// No nearer to the target for a minute; the least distance to it, metres.
+    Trapped(f64),
+    /// In a cell that counts as an obstacle, where there is no force: the source's program ends with an error.
+    OnObstacle,
+}
+
+/// What the source prints, and what it says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Manner {
+    /// Whether the map is filled on the way (algorithm 11) or is what it is (algorithm 9).
+    pub maps: bool,
+    /// Whether the robot stands still while it faces more than 10 degrees away from the force, as the text says. The program asks
+    /// whether the error is less than `degrees(10)`, which is 573, radians: it never stands still.
+    pub turns_first: bool,
+}
+
+/// Watches whether a robot still comes nearer.
+pub struct Patience {
+    best: f64,
+    since: f64,
+}
+
+impl Patience {
+    /// Begins now.
+    pub fn new(robot: &Robot) -> Self {
+        Self { best: f64::INFINITY, since: robot.time }
+    }
+
+    /// The least distance to the target, if nothing has been gained for too long.
+    pub fn lost(&mut self, robot: &Robot, distance: f64) -> Option<f64> {
+        if distance < self.best - NEARER {
+            *self = Self { best: distance, since: robot.time };
+        }
+        (robot.time - self.since > PATIENCE).then_some(self.best)
+    }
+}
+
+/// The force at a place, in the plane: 1 towards the target, and `1 / d^2`, `d` in cells, away from each occupied cell; none in one.
+pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> {
+    if map.at(cell(at)) >= 0.9 {
+        return None;
+    }
+    let (attraction, repulsion) = (Attraction::Constant(1.0), Repulsion::Sum(1.0));
+    let [row, column] = place(at);
+    let to_target = place(target);
+    let to_target = Vector2::new(to_target[1] - column, to_target[0] - row);
+    let d = to_target.norm();
+    let mut force = if d > 0.0 { to_target * (attraction.force(d) / d) } else { Vector2::zeros() };
+    for [i, j] in map.occupied() {
+        // From the corner of the cell that its indices name, as printed.
+        let away = Vector2::new(column - j as f64, row - i as f64);
+        let d = away.norm();
+        force += away * (repulsion.force(d) / d);
+    }
+    // Rows count downwards.
+    Some(Vector2::new(force.x, -force.y))
+}
+
+/// Drives to a target, to within 1 cm.
+pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Manner) -> Ending {
+    let (speed_gain, turn_gain, stop, slow) = (0.5, 1.2, 0.01, 1.0);
+    let mut patience = Patience::new(robot);
+    loop {
+        let distance = (target - robot.pose.at).norm();
+        if distance <= stop {
+            return Ending::Reached;
+        }
+        if let Some(best) = patience.lost(robot, distance) {
+            return Ending::Trapped(best);
+        }
+        if manner.maps {
+            map.scan(robot.floor, robot.pose);
+        }
+        let Some(force) = force(map, target, robot.pose.at) else { return Ending::OnObstacle };
+        let error = wrapped(force.y.atan2(force.x) - robot.pose.heading);
+        let speed = match distance {
+            _ if manner.turns_first && error.abs() >= 10_f64.to_radians() => 0.0,
+            d if d > slow => speed_gain * force.norm(),
+            d => speed_gain * d / slow,
+        };
+        robot.drive(speed.min(TOP_SPEED), turn_gain * error, CYCLE);
+    }
+}

@@ -1,0 +1,154 @@
+//! The mission of Alves by each of his controllers, and by cplan's explorer.
+
+use super::floor::Floor;
+use super::follower;
+use super::forces::{self, Ending, Manner};
+use super::occupancy::{Occupancy, cell};
+use super::robot::Robot;
+use super::{START, TARGETS, fields, in_the_way};
+use cplan::engine::{Method, Planner};
+use cplan::explore::{self, Exploration, Settings, explore};
+use cplan::field::{Attraction, Difference, Direction, Khatib, Limits, Order, Relaxation, Repulsion, Scan};
+use cplan::model::{Mount, Scene, Sensor};
+use cplan::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
+use cplan::{Configuration, Obstacle, Options, Point};
+use std::error::Error;
+use std::f64::consts::TAU;
+
+/// A leg of the mission.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leg {
+    /// How it ended.
+    pub ending: Ending,
+    /// Length of the way, metres.
+    pub length: f64,
+    /// Seconds.
+    pub time: f64,
+    /// Steps that were refused because the body would have met an obstacle.
+    pub refused: usize,
+    /// Where the robot was.
+    pub way: Vec<Point>,
+}
+
+/// The mission leg by leg: after one that fails the robot is put at its target, so that each can be judged.
+fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Vec<Leg> {
+    let mut robot = Robot::new(floor, START, 0.0);
+    let leg = |leg: usize| {
+        let begun = (robot.length, robot.time, robot.refused, robot.track.len());
+        let ending = drive(&mut robot, leg);
+        let way = robot.track[begun.3 - 1..].iter().map(|pose| pose.at).collect();
+        let done = Leg { ending, length: robot.length - begun.0, time: robot.time - begun.1, refused: robot.refused - begun.2, way };
+        if ending != Ending::Reached {
+            robot.pose.at = TARGETS[leg].1.into();
+            robot.track.push(robot.pose);
+        }
+        done
+    };
+    (0..TARGETS.len()).map(leg).collect()
+}
+
+/// By forces, in an unknown room (`map` none) or by a map.
+pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, turns_first: bool) -> Vec<Leg> {
+    let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
+    let manner = Manner { maps: known.is_none(), turns_first };
+    legs(floor, |robot, leg| {
+        let target = TARGETS[leg].1.into();
+        map.set(cell(target), 0.0);
+        for (_, at) in in_the_way(leg) {
+            map.set(cell(at), 1.0);
+        }
+        forces::drive(robot, &mut map, target, manner)
+    })
+}
+
+/// Down fields that are relaxed on a map; a field that does not converge leads nowhere.
+pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Vec<Leg> {
+    legs(floor, |robot, leg| match field(leg) {
+        Some(values) => fields::drive(robot, &values, TARGETS[leg].1.into()),
+        None => Ending::Trapped((Point::from(TARGETS[leg].1) - robot.pose.at).norm()),
+    })
+}
+
+/// The map that the wall follower draws in five minutes, as the source's program does.
+pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
+    let (mut robot, mut map) = (Robot::new(floor, START, 0.0), Occupancy::unknown());
+    follower::follow(&mut robot, &mut map, seconds);
+    let way = robot.way();
+    (map, way)
+}
+
+/// The planners with which cplan explores towards a target, by name.
+pub fn planners() -> Vec<(&'static str, Planner)> {
+    let named = Planner::named(Method::Harmonic);
+    let with = |choice: FieldChoice| {
+        let mut planner = named;
+        if let Planner::Harmonic { field, .. } = &mut planner {
+            *field = Some(FieldPlanner { field: choice, limits: Limits::High, path: PathKind::Own });
+        }
+        planner
+    };
+    // As the source: constant attraction, and 1/d^2 from every occupied cell.
+    let khatib = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(1.0), saturated: false };
+    let direction = Direction::of([0.0, 1.0]).expect("a direction");
+    let oriented = FieldChoice::Relaxed {
+        equation: EquationChoice::Oriented { direction, epsilon: 0.5, difference: Difference::Upwind },
+        relaxation: Relaxation::gauss_seidel(Order::Lines(Scan::ROWS)),
+        tolerance: 1e-6,
+        max_sweeps: 10_000,
+    };
+    vec![
+        ("Khatib", with(FieldChoice::Khatib(khatib)).with_cell_counts(coarse())),
+        ("harmonic", named),
+        ("oriented", with(oriented).with_cell_counts(coarse())),
+        ("shortest", Planner::named(Method::Shortest)),
+    ]
+}
+
+/// Cells of 0.5 m.
+fn coarse() -> cplan::engine::CellCounts {
+    cplan::engine::CellCounts([80, 40])
+}
+
+/// The sensor that cplan's robot has. The robot as a gantry faces nowhere; the source's turns its scanner of 180 degrees, so this one looks
+/// all around. Cells as in the source.
+pub const SENSOR: Sensor = Sensor {
+    mount: Mount::Tip,
+    rays: 360,
+    field_of_view: TAU,
+    range: 8.0,
+    step: 0.5,
+    noise: 0.0,
+    seed: 0,
+    cell: 0.5,
+};
+
+/// The mission by cplan: to each target in turn, each through a room of which nothing is known.
+///
+/// # Errors
+/// If what is asked makes no sense.
+pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Exploration)>, Box<dyn Error>> {
+    let starts = [START, TARGETS[0].1, TARGETS[1].1, TARGETS[2].1];
+    let mut legs = Vec::new();
+    for (leg, start) in starts.into_iter().enumerate() {
+        let mut workspace = floor.scene.workspace().clone();
+        let elsewhere = |&(_, at): &(&str, Point)| at != Point::from(start);
+        for (name, at) in in_the_way(leg).into_iter().filter(elsewhere) {
+            workspace.obstacles.push(Obstacle::circle(name, at.into(), 0.25)?);
+        }
+        let scene = Scene::new(floor.scene.arm().clone(), workspace)?;
+        let usual = Settings::default();
+        let options = Options { planner, ..usual.options };
+        let settings = Settings { cells: [160, 80], decisions: 2_000, options, ..usual };
+        let start = Configuration::from(start);
+        let goals = TARGETS[leg].1.into();
+        let exploration = explore(&scene, &SENSOR, start, Some(&goals), &settings, &mut |_| ())?;
+        legs.push((scene, exploration));
+    }
+    Ok(legs)
+}
+
+/// The way of an exploration, from corner to corner.
+pub fn way(exploration: &Exploration) -> Vec<Point> {
+    let corners = |leg: &explore::Leg| leg.curve.curve().path().waypoints().to_vec();
+    exploration.legs.iter().flat_map(corners).map(Point::from).collect()
+}

@@ -1,0 +1,33 @@
+//! Mobile robots of the literature, simulated on a floor: what the examples `mission`, `wall_follower` and
+//! `differential_drive` share, and their tests.
+#![allow(dead_code, reason = "every example uses some of it")]
+
+pub mod fields;
+pub mod floor;
+pub mod follower;
+pub mod forces;
+pub mod mission;
+pub mod occupancy;
+pub mod robot;
+pub mod tanh;
+
+use cplan::Point;
+
+/// Where the mission of Alves begins.
+pub const START: [f64; 2] = [-19.0, -8.0];
+
+/// The targets of the mission, in its order: object 1, the bin, object 2, the bin.
+pub const TARGETS: [(&str, [f64; 2]); 4] =
+    [("object 1", [2.0, 4.0]), ("bin", [-19.0, 2.0]), ("object 2", [9.0, -7.0]), ("bin", [-19.0, 2.0])];
+
+/// The targets that are obstacles on the way to the target of this number: what is to be fetched later, and the bin.
+pub fn in_the_way(leg: usize) -> Vec<(&'static str, Point)> {
+    let (bin, second) = (TARGETS[1], TARGETS[2]);
+    let marked: &[_] = match leg {
+        0 => &[bin, second],
+        1 => &[second],
+        2 => &[bin],
+        _ => &[],
+    };
+    marked.iter().map(|&(name, at)| (name, Point::from(at))).collect()
+}

@@ -1,0 +1,92 @@
+//! A robot with two driven wheels: a disc that moves ahead and turns.
+
+use super::floor::Floor;
+use cplan::Point;
+use cplan::nalgebra::Vector2;
+use std::f64::consts::{PI, TAU};
+
+/// Where a robot is and which way it faces, counter-clockwise from x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pose {
+    /// The middle between its wheels, metres.
+    pub at: Point,
+    /// Radians.
+    pub heading: f64,
+}
+
+impl Pose {
+    /// The pose after so many seconds at constant speeds ahead (m/s) and about (rad/s): an arc of a circle, exactly.
+    pub fn after(self, speed: f64, turn: f64, seconds: f64) -> Self {
+        let half = 0.5 * turn * seconds;
+        // The chord of the arc: its length is that of the arc times sin(half) / half.
+        let sinc = if half.abs() < 1e-8 { 1.0 } else { half.sin() / half };
+        let middle = self.heading + half;
+        let chord = speed * seconds * sinc * Vector2::new(middle.cos(), middle.sin());
+        Self { at: self.at + chord, heading: self.heading + 2.0 * half }
+    }
+
+    /// The point at a distance straight ahead.
+    pub fn ahead(self, distance: f64) -> Point {
+        self.at + distance * Vector2::new(self.heading.cos(), self.heading.sin())
+    }
+}
+
+/// An angle between -pi and pi.
+pub fn wrapped(angle: f64) -> f64 {
+    let turned = (angle + PI).rem_euclid(TAU);
+    turned - PI
+}
+
+/// No piece of a motion between two checks takes longer, seconds.
+const STEP: f64 = 0.02;
+
+/// The body keeps this distance from obstacles, metres: far above the rounding of distances, far below what one sees.
+const TOUCHING: f64 = 1e-6;
+
+/// A robot that drives over a floor. Its body never gets into an obstacle: a motion that would lead there is refused, as bumpers do,
+/// and only turns it.
+pub struct Robot<'a> {
+    /// What it drives on.
+    pub floor: &'a Floor,
+    /// Where it is.
+    pub pose: Pose,
+    /// Where it has been, after each step of its motion.
+    pub track: Vec<Pose>,
+    /// Length of its way, metres.
+    pub length: f64,
+    /// Time that has passed, seconds.
+    pub time: f64,
+    /// Steps that were refused.
+    pub refused: usize,
+}
+
+impl<'a> Robot<'a> {
+    /// A robot that has not moved.
+    pub fn new(floor: &'a Floor, at: [f64; 2], heading: f64) -> Self {
+        let pose = Pose { at: at.into(), heading };
+        Self { floor, pose, track: vec![pose], length: 0.0, time: 0.0, refused: 0 }
+    }
+
+    /// Drives at constant speeds for so many seconds.
+    pub fn drive(&mut self, speed: f64, turn: f64, seconds: f64) {
+        let steps = (seconds / STEP).ceil();
+        let step = seconds / steps;
+        for _ in 0..steps as usize {
+            let next = self.pose.after(speed, turn, step);
+            self.time += step;
+            if speed == 0.0 || self.floor.gap(next.at) > TOUCHING {
+                self.length += (speed * step).abs();
+                self.pose = next;
+            } else {
+                self.refused += 1;
+                self.pose.heading = next.heading;
+            }
+            self.track.push(self.pose);
+        }
+    }
+
+    /// Where it has been, for pictures.
+    pub fn way(&self) -> Vec<Point> {
+        self.track.iter().map(|pose| pose.at).collect()
+    }
+}

@@ -1,0 +1,119 @@
+//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equations 1 to 4, and a plan for it to follow.
+
+use super::robot::{Pose, Robot};
+use cplan::Point;
+use cplan::field::Repulsion;
+use cplan::nalgebra::{Rotation2, Vector2};
+use std::f64::consts::TAU;
+
+/// The point that is controlled lies so far ahead of the wheels' middle, metres (the source's `d`).
+pub const AHEAD: f64 = 0.1;
+
+/// Seconds between two commands.
+pub const CYCLE: f64 = 0.01;
+
+/// How far the scanner sees, metres, and how many rays it has all around. The source says neither.
+const RANGE: f64 = 8.0;
+const RAYS: u32 = 360;
+
+/// Gains and the distance within which obstacles count. The source gives none of their values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tanh {
+    /// Of the attraction, 1/m (`zeta`).
+    pub pull: f64,
+    /// Of the repulsion (`eta`).
+    pub push: f64,
+    /// Obstacles farther away than this are ignored, metres (`Q`).
+    pub range: f64,
+}
+
+/// The nearest reading: its distance and its direction in the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// From the wheels' middle, metres.
+    pub distance: f64,
+    /// Counter-clockwise from x, radians.
+    pub angle: f64,
+}
+
+/// What the robot's scanner reads as nearest.
+pub fn nearest(robot: &Robot) -> Nearest {
+    let Pose { at, heading } = robot.pose;
+    let rays = (0..RAYS).map(|ray| heading + TAU * f64::from(ray) / f64::from(RAYS));
+    let readings = rays.map(|angle| Nearest { distance: robot.floor.range(at, angle, RANGE), angle });
+    readings.min_by(|a, b| a.distance.total_cmp(&b.distance)).expect("there are rays")
+}
+
+impl Tanh {
+    /// The velocity that the controlled point is to have, m/s: towards the target, and away from the nearest obstacle.
+    ///
+    /// With `D` pointing away from it the source's terms `tanh(zeta (x - goal))` and `tanh(eta (1/Q - 1/d) / d^2 D)` are gradients: the first
+    /// points away from the goal, and the second, whose factor is negative within `Q`, to the obstacle. The velocity goes against both. (As
+    /// printed, `U` is their sum: equation 3 lacks a sign.) Neither component exceeds 1 by either term.
+    pub fn velocity(&self, point: Point, target: Point, nearest: Nearest) -> Vector2<f64> {
+        let attraction = (self.pull * (point - target)).map(f64::tanh);
+        let away = -(Rotation2::new(nearest.angle) * Vector2::x());
+        let law = Repulsion::Ranged { gain: self.push, range: self.range };
+        let repulsion = (-law.force(nearest.distance) * away).map(f64::tanh);
+        -attraction - repulsion
+    }
+}
+
+/// Speeds ahead and about that move the controlled point at a velocity (equation 4).
+pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
+    let own = Rotation2::new(-heading) * velocity;
+    [own.x, own.y / AHEAD]
+}
+
+/// A line through waypoints no farther apart than this, metres.
+pub const SPACING: f64 = 0.2;
+
+/// A waypoint is passed when the controlled point is so near to it, metres.
+pub const PASSED: f64 = 0.01;
+
+/// How far the robot's middle can get from the line that it follows, metres, while nothing repels it. Each component of the controlled point goes
+/// to the waypoint's without overshooting, so it stays in the rectangle between where it was and the waypoint; no point of that is
+/// farther from the diagonal than half of it, and the diagonal's beginning is at most [`PASSED`] off the line. The middle is [`AHEAD`] behind. (And a
+/// hair for steps of finite length.)
+pub const DEVIATION: f64 = 0.5 * (SPACING + PASSED) + PASSED + AHEAD + 0.01;
+
+/// The corners of a line, and points between them.
+pub fn waypoints(corners: &[[f64; 2]]) -> Vec<Point> {
+    let mut points: Vec<Point> = corners.first().map(|&corner| corner.into()).into_iter().collect();
+    for pair in corners.windows(2) {
+        let [a, b] = [0, 1].map(|k| Point::from(pair[k]));
+        let pieces = ((b - a).norm() / SPACING).ceil() as usize;
+        points.extend((1..=pieces).map(|k| a + (b - a) * (k as f64 / pieces as f64)));
+    }
+    points
+}
+
+/// What became of a drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    /// How many waypoints were passed.
+    pub passed: usize,
+    /// Commands in which an obstacle repelled.
+    pub repelled: usize,
+    /// The greatest speeds ahead and about, m/s and rad/s.
+    pub fastest: [f64; 2],
+}
+
+/// Drives from waypoint to waypoint until the last is passed, or until so many seconds are over.
+pub fn follow(robot: &mut Robot, law: &Tanh, waypoints: &[Point], seconds: f64) -> Drive {
+    let end = robot.time + seconds;
+    let mut drive = Drive { passed: 0, repelled: 0, fastest: [0.0; 2] };
+    while robot.time < end {
+        let point = robot.pose.ahead(AHEAD);
+        while waypoints.get(drive.passed).is_some_and(|next| (next - point).norm() <= PASSED) {
+            drive.passed += 1;
+        }
+        let Some(&target) = waypoints.get(drive.passed) else { break };
+        let nearest = nearest(robot);
+        drive.repelled += usize::from(nearest.distance < law.range);
+        let [ahead, about] = speeds(law.velocity(point, target, nearest), robot.pose.heading);
+        drive.fastest = [drive.fastest[0].max(ahead.abs()), drive.fastest[1].max(about.abs())];
+        robot.drive(ahead, about, CYCLE);
+    }
+    drive
+}
