@@ -24,7 +24,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             let [free, occupied, unknown] = map.counts();
             let known = 100.0 * (free + occupied) as f64 / (free + occupied + unknown) as f64;
             let length: f64 = way.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-            println!("{name:<6} {minutes:>2} min  {length:6.1} m  {known:5.1} % of the cells known, {occupied} occupied");
+            println!(
+                "{name:<6} {minutes:>2} min  {length:6.1} m  {known:5.1} % of the cells known, {occupied} occupied"
+            );
             if let Some(folder) = folder.as_ref().filter(|_| minutes == 10) {
                 let picture = floor.picture("Wall follower, 10 minutes", &[], &[("way".to_owned(), way)]);
                 std::fs::write(folder.join(format!("wall_follower_{name}.svg")), picture)?;

@@ -70,10 +70,8 @@ impl Floor {
     pub fn picture(&self, title: &str, goals: &[[f64; 2]], ways: &[(String, Vec<Point>)]) -> String {
         let fineness = 1e-3 * self.scene.arm().reach();
         let outlines = c_obstacles(&self.scene, fineness, fineness);
-        let paths: Vec<(String, Path)> = ways
-            .iter()
-            .map(|(name, way)| (name.clone(), Path::new(way.iter().map(|p| p.coords).collect())))
-            .collect();
+        let paths: Vec<(String, Path)> =
+            ways.iter().map(|(name, way)| (name.clone(), Path::new(way.iter().map(|p| p.coords).collect()))).collect();
         let start = paths.first().map_or(Configuration::new(0.0, 0.0), |(_, path)| path.start());
         let goals: Vec<_> = goals.iter().map(|&goal| cplan::space::Segment::point(goal.into())).collect();
         svg(&View::of_picture(&Picture {

@@ -34,9 +34,10 @@ pub enum Ending {
 pub struct Manner {
     /// Whether the map is filled on the way (algorithm 11) or is what it is (algorithm 9).
     pub maps: bool,
-    /// Whether the robot stands still while it faces more than 10 degrees away from the force, as the text says. The program asks
-    /// whether the error is less than `degrees(10)`, which is 573, radians: it never stands still.
-    pub turns_first: bool,
+    /// Whether it is done as the text says, not as the program does. The robot stands still while it faces more than 10 degrees away from
+    /// the force; the program asks whether the error is less than `degrees(10)`, which is 573, radians: it never stands still. And what
+    /// the robot has just come to is no obstacle; the program marks the bin while the robot stands at it.
+    pub mended: bool,
 }
 
 /// Watches whether a robot still comes nearer.
@@ -99,7 +100,7 @@ pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Mann
         let Some(force) = force(map, target, robot.pose.at) else { return Ending::OnObstacle };
         let error = wrapped(force.y.atan2(force.x) - robot.pose.heading);
         let speed = match distance {
-            _ if manner.turns_first && error.abs() >= 10_f64.to_radians() => 0.0,
+            _ if manner.mended && error.abs() >= 10_f64.to_radians() => 0.0,
             d if d > slow => speed_gain * force.norm(),
             d => speed_gain * d / slow,
         };

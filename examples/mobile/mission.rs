@@ -3,7 +3,7 @@
 use super::floor::Floor;
 use super::follower;
 use super::forces::{self, Ending, Manner};
-use super::occupancy::{Occupancy, cell};
+use super::occupancy::{Occupancy, SIDE, cell};
 use super::robot::Robot;
 use super::{START, TARGETS, fields, in_the_way};
 use cplan::engine::{Method, Planner};
@@ -34,10 +34,16 @@ pub struct Leg {
 fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Vec<Leg> {
     let mut robot = Robot::new(floor, START, 0.0);
     let leg = |leg: usize| {
-        let begun = (robot.length, robot.time, robot.refused, robot.track.len());
+        let begun = (robot.length, robot.time, robot.refused.len(), robot.track.len());
         let ending = drive(&mut robot, leg);
         let way = robot.track[begun.3 - 1..].iter().map(|pose| pose.at).collect();
-        let done = Leg { ending, length: robot.length - begun.0, time: robot.time - begun.1, refused: robot.refused - begun.2, way };
+        let done = Leg {
+            ending,
+            length: robot.length - begun.0,
+            time: robot.time - begun.1,
+            refused: robot.refused.len() - begun.2,
+            way,
+        };
         if ending != Ending::Reached {
             robot.pose.at = TARGETS[leg].1.into();
             robot.track.push(robot.pose);
@@ -47,14 +53,15 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// By forces, in an unknown room (`map` none) or by a map.
-pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, turns_first: bool) -> Vec<Leg> {
+/// By forces, in an unknown room or by a map; as printed or mended ([`Manner`]).
+pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, mended: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
-    let manner = Manner { maps: known.is_none(), turns_first };
+    let manner = Manner { maps: known.is_none(), mended };
     legs(floor, |robot, leg| {
         let target = TARGETS[leg].1.into();
         map.set(cell(target), 0.0);
-        for (_, at) in in_the_way(leg) {
+        let is_here = |at: Point| mended && (at - robot.pose.at).norm() < SIDE;
+        for (_, at) in in_the_way(leg).into_iter().filter(|&(_, at)| !is_here(at)) {
             map.set(cell(at), 1.0);
         }
         forces::drive(robot, &mut map, target, manner)
@@ -98,7 +105,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     };
     vec![
         ("Khatib", with(FieldChoice::Khatib(khatib)).with_cell_counts(coarse())),
-        ("harmonic", named),
+        ("harmonic", named.with_cell_counts(coarse())),
         ("oriented", with(oriented).with_cell_counts(coarse())),
         ("shortest", Planner::named(Method::Shortest)),
     ]
@@ -111,16 +118,8 @@ fn coarse() -> cplan::engine::CellCounts {
 
 /// The sensor that cplan's robot has. The robot as a gantry faces nowhere; the source's turns its scanner of 180 degrees, so this one looks
 /// all around. Cells as in the source.
-pub const SENSOR: Sensor = Sensor {
-    mount: Mount::Tip,
-    rays: 360,
-    field_of_view: TAU,
-    range: 8.0,
-    step: 0.5,
-    noise: 0.0,
-    seed: 0,
-    cell: 0.5,
-};
+pub const SENSOR: Sensor =
+    Sensor { mount: Mount::Tip, rays: 360, field_of_view: TAU, range: 8.0, step: 0.5, noise: 0.0, seed: 0, cell: 0.5 };
 
 /// The mission by cplan: to each target in turn, each through a room of which nothing is known.
 ///
@@ -137,7 +136,9 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
         }
         let scene = Scene::new(floor.scene.arm().clone(), workspace)?;
         let usual = Settings::default();
-        let options = Options { planner, ..usual.options };
+        // Of fields one grid a decision: finer ones would see no more.
+        let levels = if planner.method() == Method::Harmonic { 1 } else { usual.options.levels };
+        let options = Options { planner, levels, ..usual.options };
         let settings = Settings { cells: [160, 80], decisions: 2_000, options, ..usual };
         let start = Configuration::from(start);
         let goals = TARGETS[leg].1.into();

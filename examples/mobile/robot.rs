@@ -56,15 +56,15 @@ pub struct Robot<'a> {
     pub length: f64,
     /// Time that has passed, seconds.
     pub time: f64,
-    /// Steps that were refused.
-    pub refused: usize,
+    /// Where it was when steps were refused.
+    pub refused: Vec<Point>,
 }
 
 impl<'a> Robot<'a> {
     /// A robot that has not moved.
     pub fn new(floor: &'a Floor, at: [f64; 2], heading: f64) -> Self {
         let pose = Pose { at: at.into(), heading };
-        Self { floor, pose, track: vec![pose], length: 0.0, time: 0.0, refused: 0 }
+        Self { floor, pose, track: vec![pose], length: 0.0, time: 0.0, refused: Vec::new() }
     }
 
     /// Drives at constant speeds for so many seconds.
@@ -78,7 +78,7 @@ impl<'a> Robot<'a> {
                 self.length += (speed * step).abs();
                 self.pose = next;
             } else {
-                self.refused += 1;
+                self.refused.push(self.pose.at);
                 self.pose.heading = next.heading;
             }
             self.track.push(self.pose);

@@ -73,9 +73,9 @@ pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
         // The source prints the index of the last sweep, which counts from 0.
         Count::of_sweeps(published, field.map(|field| field.sweeps() - 1), Claim::Unmatched)
     };
-    let harmonic = GOALS.iter().map(|goal| {
-        (format!("harmonic, {}", goal.name), count(goal.harmonic, harmonic(goal.at, is_solid)))
-    });
+    let harmonic = GOALS
+        .iter()
+        .map(|goal| (format!("harmonic, {}", goal.name), count(goal.harmonic, harmonic(goal.at, is_solid))));
     let oriented = GOALS.iter().map(|goal| {
         (format!("oriented, {}", goal.name), count(goal.oriented, oriented(goal.at, goal.direction, is_solid)))
     });

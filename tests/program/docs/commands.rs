@@ -2,7 +2,8 @@
 //!
 //! Comments above a block say what a reader need not: `<!-- not run: why -->`; `<!-- exit: 3 -->` for another exit code than 0;
 //! `<!-- file: world.toml -->` for a block that is to be written; `<!-- edit: world.toml: this -> that -->` for what the text
-//! says is changed; `<!-- part of: plan.yaml -->` for a block that shows what a file holds.
+//! says is changed; `<!-- part of: plan.yaml -->` for a block that shows what a file holds. `<!-- run: the commands of the table -->` above a
+//! table runs what its cells hold as code, `(exit 4)` behind a command says with which exit code, and looks for the examples that it names.
 
 use super::page::{Block, Page};
 use super::{pages, root, shown::difference};
@@ -42,6 +43,51 @@ fn run(place: &Place, shown: &Shown, code: i32) -> Option<String> {
     }
     let said = if done.stdout.is_empty() { &done.stderr } else { &done.stdout };
     difference(shown.says.as_ref()?, said)
+}
+
+/// The mark of tables of commands.
+const OF_TABLE: &str = "<!-- run: the commands of the table -->";
+
+/// Runs the commands of the tables of a page. Returns how many ran, and what is wrong.
+fn tabled(page: &Page) -> (usize, Vec<String>) {
+    let place = Place::new();
+    for folder in ["robots", "workspaces"] {
+        copy(&root().join(folder), &place.path(folder));
+    }
+    let (mut ran, mut wrong, mut is_in_table) = (0, Vec::new(), false);
+    for (line, text) in page.prose() {
+        is_in_table = text == OF_TABLE || is_in_table && text.starts_with('|');
+        // What is code stands between every other pair of backquotes.
+        let parts: Vec<&str> = if is_in_table { text.split('`').collect() } else { Vec::new() };
+        for (code, after) in parts.iter().zip(&parts[parts.len().min(1)..]).skip(1).step_by(2) {
+            let fault = if let Some(name) = code.strip_prefix("cargo run --example ") {
+                let examples = root().join("examples");
+                let is_there = |file: String| examples.join(file).exists();
+                let is_example = is_there(format!("{name}.rs")) || is_there(format!("{name}/main.rs"));
+                (!is_example).then(|| "there is no such example".to_owned())
+            } else {
+                let exit = after.strip_prefix(" (exit ").and_then(|rest| rest.split(')').next());
+                let exit = exit.map_or(0, |code| code.parse().expect("an exit code"));
+                run(&place, &Shown { line, command: code, says: None }, exit)
+            };
+            ran += 1;
+            wrong.extend(fault.map(|what| format!("{}:{line}: {code}: {what}", page.name)));
+        }
+    }
+    (ran, wrong)
+}
+
+#[cfg_attr(not(all(feature = "png", feature = "mcap", feature = "serve")), ignore = "pages use every feature")]
+#[test]
+fn every_command_of_a_table_does_something() {
+    let (mut ran, mut wrong) = (0, Vec::new());
+    for page in pages() {
+        let (commands, faults) = tabled(&page);
+        ran += commands;
+        wrong.extend(faults);
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    assert!(ran >= 60, "only {ran} commands");
 }
 
 /// Does what the blocks of a page say, from the first to the last. Returns how many commands ran, and what is wrong.

@@ -1,0 +1,71 @@
+//! A robot with two driven wheels follows a plan by the controller of the literature, and goes without one.
+//!
+//! ```text
+//! cargo run --example differential_drive [-- FOLDER]
+//! ```
+//!
+//! With a folder it writes a picture of both ways there.
+
+#[path = "mobile/mod.rs"]
+mod mobile;
+
+use cplan::{Options, Problem, plan};
+use mobile::floor::Floor;
+use mobile::robot::Robot;
+use mobile::tanh::{AHEAD, DEVIATION, Drive, Tanh, follow, waypoints};
+use mobile::{START, TARGETS};
+use std::error::Error;
+use std::path::PathBuf;
+
+/// The controller as it is used here. Its repulsion begins where the plan never leads: within the body's radius and a part of the clearance.
+const LAW: Tanh = Tanh { pull: 10.0, push: 1.0, range: 0.26 };
+
+/// The controller without a plan has to see obstacles sooner.
+const ALONE: Tanh = Tanh { pull: 1.0, push: 1.0, range: 1.0 };
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let folder = std::env::args().nth(1).map(PathBuf::from);
+    for name in ["hall", "house"] {
+        let floor = Floor::load(&format!("explore/{name}.toml"))?;
+        println!("{name}: R. F. Goncalves da Silva, Trabalho Pratico 1, from {START:?} to {:?}", TARGETS[0].1);
+        // What the robot leaves of the clearance is proven, too: the plan keeps more from obstacles than it can deviate.
+        let scene = floor.scene.clone().with_clearance(DEVIATION)?;
+        let (arm, workspace) = scene.into_parts();
+        let problem = Problem::new(arm, workspace, START, TARGETS[0].1)?;
+        let plan = plan(&problem, &Options::default())?;
+        let path = plan.report().path.clone().ok_or("there is no plan")?;
+        let first = [path[1][0] - path[0][0], path[1][1] - path[0][1]];
+        let heading = first[1].atan2(first[0]);
+
+        // The controlled point begins where the plan does.
+        let behind = [START[0] - AHEAD * heading.cos(), START[1] - AHEAD * heading.sin()];
+        let mut guided = Robot::new(&floor, behind, heading);
+        let marks = waypoints(&path);
+        let drive = follow(&mut guided, &LAW, &marks, 1_000.0);
+        tell("along the plan", &guided, &drive, marks.len());
+        let mut alone = Robot::new(&floor, behind, heading);
+        let goal = [TARGETS[0].1.into()];
+        let drive = follow(&mut alone, &ALONE, &goal, 300.0);
+        tell("without a plan", &alone, &drive, 1);
+        if let Some(folder) = &folder {
+            let ways = [
+                ("plan".to_owned(), path.iter().map(|&corner| corner.into()).collect()),
+                ("along the plan".to_owned(), guided.way()),
+                ("without a plan".to_owned(), alone.way()),
+            ];
+            let picture = floor.picture("Differential drive", &[TARGETS[0].1], &ways);
+            std::fs::write(folder.join(format!("differential_drive_{name}.svg")), picture)?;
+        }
+    }
+    Ok(())
+}
+
+fn tell(how: &str, robot: &Robot, drive: &Drive, waypoints: usize) {
+    let gap = robot.track.iter().map(|pose| robot.floor.gap(pose.at)).fold(f64::INFINITY, f64::min);
+    let Drive { passed, repelled, fastest: [ahead, about] } = drive;
+    println!(
+        "  {how}: {passed} of {waypoints} waypoints in {:.1} s, {:.2} m; {gap:.3} m free at the least, repelled in {repelled} \
+         commands, at most {ahead:.2} m/s and {about:.2} rad/s",
+        robot.time, robot.length
+    );
+}

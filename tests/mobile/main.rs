@@ -1,0 +1,17 @@
+//! Mobile robots of the literature (`examples/mobile`), against geometry and formulas of the tests' own.
+
+#[path = "../../examples/published_tables/alves.rs"]
+#[allow(dead_code, reason = "notes are for readers of the tables")]
+mod alves;
+#[path = "../common/mod.rs"]
+mod common;
+mod drive;
+mod follower;
+mod grid;
+mod mission;
+#[path = "../../examples/mobile/mod.rs"]
+mod mobile;
+mod plain;
+#[path = "../../examples/published_tables/row.rs"]
+#[allow(dead_code, reason = "nothing is claimed of these counts")]
+mod row;

@@ -1,0 +1,99 @@
+//! The mission: no robot is ever in anything, and each leg ends as it is said.
+
+use crate::mobile::floor::Floor;
+use crate::mobile::forces::Ending;
+use crate::mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
+use crate::mobile::{TARGETS, fields};
+use crate::plain::{gap, least_gap};
+use crate::{alves, row};
+use cplan::Point;
+use cplan::explore;
+
+fn floor(name: &str) -> Floor {
+    Floor::load(&format!("explore/{name}.toml")).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// What was reached is reached, what was not is said to be as near as it came.
+fn check(floor: &Floor, legs: &[Leg], stop: f64, what: &str) {
+    assert_eq!(legs.len(), TARGETS.len());
+    for (leg, (name, target)) in legs.iter().zip(TARGETS) {
+        let what = format!("{what}, to {name}");
+        assert!(least_gap(&floor.scene, &leg.way) > 0.0, "{what}: it is in something");
+        let distances: Vec<f64> = leg.way.iter().map(|p| (Point::from(target) - p).norm()).collect();
+        let (last, best) = (distances[distances.len() - 1], distances.iter().copied().fold(f64::INFINITY, f64::min));
+        match leg.ending {
+            Ending::Reached => assert!(last <= stop, "{what}: {last} m before it"),
+            // The least distance is noted once in a cycle and where 1 cm was gained.
+            Ending::Trapped(short) => {
+                assert!(best > stop * 0.9 && short - best < 0.1 && short >= best, "{what}: {short}, {best}")
+            }
+            Ending::OnObstacle => assert!(last > stop, "{what}: {last}"),
+        }
+        let length: f64 = leg.way.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
+        assert!((length - leg.length).abs() < 0.01 * leg.length + 0.01, "{what}: {length}, {}", leg.length);
+    }
+}
+
+fn reached(legs: &[Leg]) -> Vec<bool> {
+    legs.iter().map(|leg| leg.ending == Ending::Reached).collect()
+}
+
+#[test]
+fn forces_arrive_in_the_hall_and_are_trapped_in_the_house() {
+    let (hall, house) = (floor("hall"), floor("house"));
+    let [in_hall, in_house] = [&hall, &house].map(|floor| followed(floor, 300.0).0);
+    for (known, what) in [(None, "unknown hall"), (Some(&in_hall), "hall")] {
+        let mended = by_forces(&hall, known, true);
+        check(&hall, &mended, 0.01, what);
+        assert_eq!(reached(&mended), [true; 4], "{what}");
+        assert!(mended.iter().all(|leg| leg.refused == 0), "{what}: it pushes against something");
+    }
+    // As printed: the bin is marked while the robot stands at it.
+    let printed = by_forces(&hall, None, false);
+    check(&hall, &printed, 0.01, "unknown hall, as printed");
+    assert_eq!(reached(&printed), [true, true, false, true]);
+    assert_eq!(printed[2].ending, Ending::OnObstacle);
+    for (known, what) in [(None, "unknown house"), (Some(&in_house), "house")] {
+        let mended = by_forces(&house, known, true);
+        check(&house, &mended, 0.01, what);
+        assert!(matches!(mended[0].ending, Ending::Trapped(short) if short > 5.0), "{what}: {:?}", mended[0].ending);
+    }
+}
+
+/// The map that the follower draws is the source's: what nobody saw is solid to fields. With it sweeps come near to the published ones.
+#[test]
+fn fields_on_the_followers_map_take_about_the_published_sweeps_and_lead_to_the_targets() {
+    let hall = floor("hall");
+    let (map, _) = followed(&hall, 300.0);
+    let is_solid = |k: usize| fields::is_solid(&map, k);
+    let ratios: Vec<f64> = alves::rows_among(&is_solid)
+        .iter()
+        .map(|(_, count): &(_, row::Count)| count.measured.unwrap() / count.published)
+        .collect();
+    assert!(ratios.len() == 6 && ratios.iter().all(|ratio| (0.85..1.05).contains(ratio)), "{ratios:?}");
+    let legs = by_fields(&hall, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid)?.values));
+    check(&hall, &legs, 0.5, "harmonic");
+    assert_eq!(reached(&legs), [true; 4]);
+}
+
+/// cplan's way, by two of its planners. Each leg is looked at every centimetre.
+#[test]
+fn the_explorer_reaches_every_target_of_both_rooms() {
+    for name in ["hall", "house"] {
+        let floor = floor(name);
+        for (planner, choice) in planners().into_iter().filter(|(name, _)| ["shortest", "harmonic"].contains(name)) {
+            let legs = explored(&floor, choice).unwrap_or_else(|e| panic!("{e}"));
+            for ((scene, leg), (target, at)) in legs.iter().zip(TARGETS) {
+                let what = format!("{name}, {planner}, to {target}");
+                assert_eq!(leg.ending, explore::Ending::Reached, "{what}");
+                let way = way(leg);
+                assert!((way[way.len() - 1] - Point::from(at)).norm() < 1e-9, "{what}: it ends elsewhere");
+                for pair in way.windows(2) {
+                    let steps = ((pair[1] - pair[0]).norm() / 0.01).ceil().max(1.0);
+                    let place = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / steps);
+                    assert!((0..=steps as usize).all(|k| gap(scene, place(k)) > 0.0), "{what}: it is in something");
+                }
+            }
+        }
+    }
+}

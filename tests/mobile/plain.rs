@@ -1,0 +1,46 @@
+//! Distances by formulas of the test's own: to segments and discs, and whether a place is inside.
+
+use cplan::Point;
+use cplan::model::{Scene, Shape};
+
+/// The radius of the robot's body, `robots/mobile_robot.urdf`, metres.
+pub const RADIUS: f64 = 0.25;
+
+/// Distance of a point to a segment: to the foot of the perpendicular if it lies on it, else to the nearer end.
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let ([dx, dy], [px, py]) = ([b.x - a.x, b.y - a.y], [p.x - a.x, p.y - a.y]);
+    let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+    (px - share * dx).hypot(py - share * dy)
+}
+
+/// Whether a ray to the right crosses the sides an odd number of times.
+fn is_inside(p: Point, corners: &[Point]) -> bool {
+    let crosses = |k: &usize| {
+        let (a, b) = (corners[*k], corners[(*k + 1) % corners.len()]);
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    };
+    (0..corners.len()).filter(crosses).count() % 2 == 1
+}
+
+/// Distance between a robot's body in a place and a shape as the user gave it; not positive where they meet.
+fn to_shape(p: Point, shape: &Shape) -> f64 {
+    let open = |corners: &[Point]| corners.windows(2).map(|w| to_segment(p, w[0], w[1])).fold(f64::INFINITY, f64::min);
+    let distance = match shape {
+        Shape::Circle { center, radius } => (p.x - center.x).hypot(p.y - center.y) - radius,
+        Shape::Polyline(points) => open(points),
+        Shape::Polygon(corners) if is_inside(p, corners) => 0.0,
+        Shape::Polygon(corners) => open(corners).min(to_segment(p, corners[corners.len() - 1], corners[0])),
+        Shape::Pieces => panic!("no world here has such obstacles"),
+    };
+    distance - RADIUS
+}
+
+/// Distance between a robot's body in a place and the nearest obstacle.
+pub fn gap(scene: &Scene, p: Point) -> f64 {
+    scene.workspace().obstacles.iter().map(|obstacle| to_shape(p, &obstacle.shape)).fold(f64::INFINITY, f64::min)
+}
+
+/// The least such distance along a way, whose points are close together.
+pub fn least_gap(scene: &Scene, way: &[Point]) -> f64 {
+    way.iter().map(|&p| gap(scene, p)).fold(f64::INFINITY, f64::min)
+}
