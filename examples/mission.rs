@@ -15,9 +15,11 @@ mod alves;
 #[allow(dead_code, reason = "nothing is claimed of these counts")]
 mod row;
 
+use cplan::field::Stopping;
 use mobile::floor::Floor;
 use mobile::forces::Ending;
 use mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};
+use mobile::occupancy::Occupancy;
 use mobile::{START, TARGETS, fields};
 use std::error::Error;
 use std::path::PathBuf;
@@ -35,10 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             ("forces, unknown room, mended", by_forces(&floor, None, true)),
             ("forces, the follower's map", by_forces(&floor, Some(&map), false)),
             ("forces, the follower's map, mended", by_forces(&floor, Some(&map), true)),
-            (
-                "harmonic, the follower's map",
-                by_fields(&floor, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid)?.values)),
-            ),
+            ("harmonic, the follower's map", harmonic(&floor, &map, alves::STOPPING.below)),
+            ("harmonic, relaxed to 1e-26", harmonic(&floor, &map, 1e-26)),
             (
                 "oriented, the follower's map",
                 by_fields(&floor, &|leg| Some(alves::oriented(TARGETS[leg].1, directions[leg], &is_solid)?.values)),
@@ -72,6 +72,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// Down harmonic fields on a map, relaxed until the squares of a sweep's changes add up to less than this.
+fn harmonic(floor: &Floor, map: &Occupancy, below: f64) -> Vec<Leg> {
+    let is_solid = |k: usize| fields::is_solid(map, k);
+    let stopping = Stopping { below, ..alves::STOPPING };
+    by_fields(floor, &|leg| Some(alves::harmonic(TARGETS[leg].1, &is_solid, &stopping)?.values))
 }
 
 /// A leg in some words.

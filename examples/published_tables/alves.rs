@@ -11,7 +11,7 @@ use cplan::field::{
 const CELLS: [usize; 2] = [40, 80];
 
 /// The sum of squared changes in a sweep must fall below this, within so many sweeps.
-const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
+pub const STOPPING: Stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-8, max_sweeps: 1000 };
 
 /// A goal, the direction in which it is to be reached, and what is published of it.
 struct Goal {
@@ -49,9 +49,9 @@ fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
 }
 
 /// The harmonic field of a goal (algorithm 13), if it converges.
-pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Option<Relaxed> {
+pub fn harmonic(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool, stopping: &Stopping) -> Option<Relaxed> {
     let sor = Relaxation::sor(Factor::Given(1.8), Order::Lines(Scan::ROWS));
-    relax(&room(at, is_solid), &Equation::Harmonic, &sor, &STOPPING).ok().filter(Relaxed::converged)
+    relax(&room(at, is_solid), &Equation::Harmonic, &sor, stopping).ok().filter(Relaxed::converged)
 }
 
 /// The field that is to be followed to a goal along a direction (rows downwards, columns), if it converges (algorithm 14).
@@ -75,7 +75,7 @@ pub fn rows_among(is_solid: &dyn Fn(usize) -> bool) -> Vec<(String, Count)> {
     };
     let harmonic = GOALS
         .iter()
-        .map(|goal| (format!("harmonic, {}", goal.name), count(goal.harmonic, harmonic(goal.at, is_solid))));
+        .map(|goal| (format!("harmonic, {}", goal.name), count(goal.harmonic, harmonic(goal.at, is_solid, &STOPPING))));
     let oriented = GOALS.iter().map(|goal| {
         (format!("oriented, {}", goal.name), count(goal.oriented, oriented(goal.at, goal.direction, is_solid)))
     });
