@@ -63,7 +63,8 @@ impl Occupancy {
     }
 
     /// Notes a scan of 180 rays, a degree apart, from the right to the left (algorithm 3): the cell at the end of a ray is occupied,
-    /// or free if the ray met nothing; cells before it that were unknown are free.
+    /// or free if the ray met nothing; cells before it that were unknown are free. (By its
+    /// printed indentation the source does the last for one ray alone; its text and figures say for all.)
     pub fn scan(&mut self, floor: &Floor, pose: Pose) {
         for ray in 0..180 {
             let angle = pose.heading + f64::from(ray - 90).to_radians();
