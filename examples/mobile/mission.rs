@@ -6,7 +6,7 @@ use super::forces::{self, Ending, Manner};
 use super::occupancy::{Occupancy, SIDE, cell};
 use super::robot::Robot;
 use super::{START, TARGETS, fields, in_the_way};
-use cplan::engine::{Method, Planner};
+use cplan::engine::{CellCounts, Method, Planner};
 use cplan::explore::{self, Exploration, Settings, explore};
 use cplan::field::{Attraction, Difference, Direction, Khatib, Limits, Order, Relaxation, Repulsion, Scan};
 use cplan::model::{Mount, Scene, Sensor};
@@ -76,13 +76,16 @@ pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Ve
     })
 }
 
-/// The map that the wall follower draws in five minutes, as the source's program does.
+/// The map that the wall follower draws in so many seconds, and its way; the source's program gives it 300.
 pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     let (mut robot, mut map) = (Robot::new(floor, START, 0.0), Occupancy::unknown());
     follower::follow(&mut robot, &mut map, seconds);
     let way = robot.way();
     (map, way)
 }
+
+/// Cells of 0.5 m.
+const COARSE: CellCounts = CellCounts([80, 40]);
 
 /// The planners with which cplan explores towards a target, by name.
 pub fn planners() -> Vec<(&'static str, Planner)> {
@@ -104,16 +107,11 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
         max_sweeps: 10_000,
     };
     vec![
-        ("Khatib", with(FieldChoice::Khatib(khatib)).with_cell_counts(coarse())),
-        ("harmonic", named.with_cell_counts(coarse())),
-        ("oriented", with(oriented).with_cell_counts(coarse())),
+        ("Khatib", with(FieldChoice::Khatib(khatib)).with_cell_counts(COARSE)),
+        ("harmonic", named.with_cell_counts(COARSE)),
+        ("oriented", with(oriented).with_cell_counts(COARSE)),
         ("shortest", Planner::named(Method::Shortest)),
     ]
-}
-
-/// Cells of 0.5 m.
-fn coarse() -> cplan::engine::CellCounts {
-    cplan::engine::CellCounts([80, 40])
 }
 
 /// The sensor that cplan's robot has. The robot as a gantry faces nowhere; the source's turns its scanner of 180 degrees, so this one looks
