@@ -90,6 +90,28 @@ pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> R
     }
 }
 
+/// The unit vector along which a field is followed from a point, in cells: bilinear between the gradients at the centres of free
+/// cells around it, in a space in which cells have the sides `sides`. None where none of them has a gradient, or all cancel out.
+pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Option<[f64; 2]> {
+    Square::new(sides).direction(guide, at)
+}
+
+/// Where [`follow`] comes to from a point in a free cell in so many steps of [`STEP`], for who goes a little way along a field that
+/// is another one in the next moment. It stays in free cells, ends early in a goal's cell, and where there is no step that
+/// stays in free cells. Nobody asks whether the way comes on.
+pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: usize) -> LatticePoint {
+    let mut square = Square::new(sides);
+    let mut at = from;
+    for _ in 0..steps {
+        if guide.is_goal(nearest(at)) {
+            break;
+        }
+        let Some(next) = square.step(guide, at) else { break };
+        at = next;
+    }
+    at
+}
+
 /// The cell that a point lies in.
 fn nearest(at: LatticePoint) -> Place {
     at.map(|x| x.round() as i64)

@@ -78,7 +78,7 @@ mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
-pub use follow::{Guide, LatticePoint, Place, STEP, Streamline, follow};
+pub use follow::{Guide, LatticePoint, Place, STEP, Streamline, advance, direction, follow};
 pub use laplace::{Field, harmonic, residual, rough_harmonic};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use potential::Potential;

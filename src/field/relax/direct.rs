@@ -1,7 +1,7 @@
 //! Fields by elimination: what relaxations are measured against.
 
 use super::stencil::{Stencil as _, Weighted};
-use super::{Cell, Difference, Domain, Equation, Neighbor};
+use super::{Domain, Equation, Neighbor};
 use crate::interrupt::checkpoint;
 
 /// A solution whose values disagree with what their neighbours ask for by more than this part of the greatest one is none:
@@ -23,15 +23,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     if equation.refusal(domain).is_some() {
         return None;
     }
-    let (drift, difference): (Box<dyn Fn(usize) -> [f64; 2]>, _) = match equation {
-        Equation::Harmonic => (Box::new(|_| [0.0; 2]), Difference::Central),
-        Equation::Oriented { direction, epsilon, difference } => {
-            let drift = direction.drift(*epsilon);
-            (Box::new(move |_| drift), *difference)
-        }
-        Equation::LocallyOriented { drift, difference } => (Box::new(|cell| drift[cell]), *difference),
-        Equation::Preference { .. } | Equation::AlteredPreference { .. } => return None,
-    };
+    let (drift, difference) = equation.drift()?;
     let unknowns = folded(domain);
     let weights = Weighted::new(domain, &unknowns, drift, difference);
     let mut place = vec![None; domain.kinds().len()];
@@ -64,13 +56,12 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     fits(domain, &unknowns, &weights, &values).then_some(values)
 }
 
-/// The cells whose values are sought, row by row from both ends in turn. A cell that has no neighbour but itself keeps its value.
+/// The cells whose values are sought, row by row from both ends in turn.
 fn folded(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
-    let sought = |&cell: &usize| domain.kinds()[cell] == Cell::Free && domain.neighbors(cell) != [Neighbor::Mirror; 4];
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };
     let cells = (0..rows).map(row).flat_map(|i| i * columns..(i + 1) * columns);
-    cells.filter(sought).map(|cell| cell as u32).collect()
+    cells.filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
 
 /// The greatest distance between neighbours in the order of the unknowns.

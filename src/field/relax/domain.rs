@@ -1,6 +1,7 @@
 //! Where a field equation is to be solved: cells, what they are, and what lies beyond the limits.
 
 use crate::cspace::Grid;
+use crate::field::Place;
 use serde::{Deserialize, Serialize};
 
 /// What a cell is to a field.
@@ -164,6 +165,22 @@ impl Domain {
             column(Step::down(j, columns, second)),
             column(Step::up(j, columns, second)),
         ]
+    }
+
+    /// Whether a cell's value is to be found. A free cell that has no neighbour but itself keeps that which it has.
+    pub(super) fn is_sought(&self, cell: usize) -> bool {
+        self.kinds[cell] == Cell::Free && self.neighbors(cell) != [Neighbor::Mirror; 4]
+    }
+
+    /// The cell at a place of the unbounded lattice; none beyond the ends of an interval.
+    #[must_use]
+    pub fn cell_at(&self, place: Place) -> Option<usize> {
+        let index = |axis: usize| {
+            let (at, n) = (place[axis], self.cells[axis] as i64);
+            let at = if self.boundaries[axis] == Boundary::Periodic { at.rem_euclid(n.max(1)) } else { at };
+            (0..n).contains(&at).then_some(at as usize)
+        };
+        Some(index(0)? * self.cells[1] + index(1)?)
     }
 
     /// The values before the first sweep.

@@ -163,6 +163,19 @@ impl Equation {
         }
     }
 
+    /// The drift of each cell, and how it is discretised. None where the drift depends on a field.
+    pub(super) fn drift(&self) -> Option<(Box<dyn Fn(usize) -> [f64; 2] + '_>, Difference)> {
+        match self {
+            Self::Harmonic => Some((Box::new(|_| [0.0; 2]), Difference::Central)),
+            Self::Oriented { direction, epsilon, difference } => {
+                let drift = direction.drift(*epsilon);
+                Some((Box::new(move |_| drift), *difference))
+            }
+            Self::LocallyOriented { drift, difference } => Some((Box::new(|cell| drift[cell]), *difference)),
+            Self::Preference { .. } | Self::AlteredPreference { .. } => None,
+        }
+    }
+
     /// What keeps it from being an equation on this domain, if anything.
     pub(super) fn refusal(&self, domain: &Domain) -> Option<String> {
         let cells = domain.kinds().len();

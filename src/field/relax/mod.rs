@@ -6,6 +6,7 @@
 //! drift per cell; another one is a stencil. Attraction and repulsion ([`super::Khatib`]) are no equation: their
 //! potential is given, not sought.
 
+mod by_multigrid;
 mod descent;
 mod direct;
 mod domain;
@@ -16,6 +17,7 @@ mod stopping;
 mod sweeps;
 mod trace;
 
+pub use by_multigrid::by_multigrid;
 pub use descent::{Slope, Stuck, descend};
 pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};

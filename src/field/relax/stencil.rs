@@ -25,13 +25,7 @@ impl Weighted {
     /// For a drift at each of the unknowns (indices of cells).
     pub fn new(domain: &Domain, unknowns: &[u32], drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Self {
         let weights = unknowns.iter().map(|&cell| {
-            let cell = cell as usize;
-            let mut weights = weights(drift(cell), difference);
-            for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
-                if neighbor == Neighbor::Mirror {
-                    *weight = 0.0;
-                }
-            }
+            let weights = weights(domain, cell as usize, drift(cell as usize), difference);
             let sum: f64 = weights.iter().sum();
             weights.map(|weight| weight / sum)
         });
@@ -51,13 +45,20 @@ impl Stencil for Weighted {
     }
 }
 
-/// The weights of the neighbours for a drift, up to a factor.
-fn weights(drift: [f64; 2], difference: Difference) -> [f64; 4] {
+/// The weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values, less the sum of the weights
+/// times its own.
+pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let side = |b: f64| match difference {
         Difference::Central => 1.0 + 0.5 * b,
         Difference::Upwind => 1.0 + b.max(0.0),
     };
-    [side(-drift[0]), side(drift[0]), side(-drift[1]), side(drift[1])]
+    let mut weights = [side(-drift[0]), side(drift[0]), side(-drift[1]), side(drift[1])];
+    for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
+        if neighbor == Neighbor::Mirror {
+            *weight = 0.0;
+        }
+    }
+    weights
 }
 
 /// The altered preferences: `h + strength d`, `strength` being `epsilon / 4` with the sign that the levels ask for. Beyond

@@ -227,12 +227,8 @@ impl<'a> Engine<'a> {
         start: Vec<f64>,
         watch: &'a mut dyn FnMut(Watched),
     ) -> Self {
-        let kinds = domain.kinds();
-        let limit = kinds.len() as u32;
-        // A cell that has no neighbour but itself keeps its value.
-        let alone = |cell: usize| domain.neighbors(cell) == [Neighbor::Mirror; 4];
-        let unknown = |cell: usize| kinds[cell] == Cell::Free && !alone(cell);
-        let unknowns: Vec<u32> = (0..limit).filter(|&cell| unknown(cell as usize)).collect();
+        let limit = domain.kinds().len() as u32;
+        let unknowns: Vec<u32> = (0..limit).filter(|&cell| domain.is_sought(cell as usize)).collect();
         let around = unknowns.iter().map(|&cell| {
             domain.neighbors(cell as usize).map(|neighbor| match neighbor {
                 Neighbor::Cell(next) => next as u32,
@@ -242,7 +238,7 @@ impl<'a> Engine<'a> {
         });
         let around = around.collect();
         let mut values = start;
-        for (value, &kind) in values.iter_mut().zip(kinds) {
+        for (value, &kind) in values.iter_mut().zip(domain.kinds()) {
             *value = domain.fixed(kind).unwrap_or(*value);
         }
         values.push(domain.levels().obstacle);
