@@ -1,0 +1,255 @@
+//! What the fields of a match cost, beside what the source measured (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of 2009).
+
+use super::play::{BELOW, CELLS, FACTOR, Frame, MOST, RATE, walls};
+use cplan::field::{Boundary, Difference, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Solver};
+use std::fmt;
+use std::time::Instant;
+
+/// The source's rule: sum of squared changes of a sweep.
+pub const PUBLISHED_BELOW: f64 = 1e-6;
+/// Of the frames this share is solved from a standing start, too.
+const STANDING: usize = 30;
+
+/// Which field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Laplace's equation, of the blue seeker.
+    Harmonic,
+    /// The blue seeker's own.
+    Oriented,
+    /// That which the red ones share.
+    LocallyOriented,
+}
+
+impl Kind {
+    /// What it is of in a frame.
+    pub fn moment(self, frame: &Frame) -> Moment {
+        match self {
+            Self::Harmonic => Moment { robots: Vec::new(), ..frame.moments[frame.seekers[0]].clone() },
+            Self::Oriented => frame.moments[frame.seekers[0]].clone(),
+            Self::LocallyOriented => frame.moments[3].clone(),
+        }
+    }
+}
+
+/// A table's line.
+pub struct Case {
+    pub kind: Kind,
+    pub difference: Difference,
+    pub solver: Solver,
+    /// Mean sweeps and milliseconds of the source.
+    pub published: Option<[f64; 2]>,
+}
+
+/// All of them: first those of the source.
+pub fn cases() -> Vec<Case> {
+    use Difference::{Central, Upwind};
+    let published = [
+        (Kind::Harmonic, Central, 1.9, [[19.40, 5.38], [17.65, 5.20]]),
+        (Kind::Oriented, Central, 1.9, [[17.17, 8.04], [16.41, 8.20]]),
+        (Kind::Oriented, Upwind, 1.5, [[23.54, 11.01], [16.34, 7.91]]),
+        (Kind::LocallyOriented, Central, 1.8, [[20.43, 29.18], [20.52, 21.30]]),
+        (Kind::LocallyOriented, Upwind, 1.7, [[28.44, 28.41], [17.16, 16.92]]),
+    ];
+    let mut cases = Vec::new();
+    for (kind, difference, factor, counts) in published {
+        for (factor, counts) in [1.0, factor].into_iter().zip(counts) {
+            cases.push(Case { kind, difference, solver: sor(factor), published: Some(counts) });
+        }
+    }
+    for kind in [Kind::Harmonic, Kind::Oriented, Kind::LocallyOriented] {
+        cases.push(Case { kind, difference: Upwind, solver: Solver::Multigrid, published: None });
+    }
+    cases
+}
+
+/// Row by row; with factor 1 Gauss and Seidel's.
+pub fn sor(factor: f64) -> Solver {
+    Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)))
+}
+
+/// A field before the first frame.
+pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
+    MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
+}
+
+/// Fields one after the other.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Run {
+    pub fields: usize,
+    /// Of those that took one sweep, or none.
+    pub at_once: usize,
+    pub sweeps: usize,
+    /// The middle one of all times of a field.
+    pub milliseconds: f64,
+}
+
+impl Run {
+    pub fn share_at_once(&self) -> f64 {
+        self.at_once as f64 / self.fields.max(1) as f64
+    }
+
+    pub fn mean_sweeps(&self) -> f64 {
+        self.sweeps as f64 / self.fields.max(1) as f64
+    }
+}
+
+/// One field after the other, each from the one before, or all from a standing start.
+pub fn run<'a>(
+    moments: impl Iterator<Item = &'a Moment>,
+    case: &Case,
+    below: f64,
+    from_standing: bool,
+) -> Result<Run, RelaxError> {
+    let first = standing(case.difference)?;
+    let (mut field, mut run, mut times) = (first.clone(), Run::default(), Vec::new());
+    for moment in moments {
+        if from_standing {
+            field = first.clone();
+        }
+        let clock = Instant::now();
+        let done = field.next(moment, &case.solver, below, MOST)?;
+        times.push(1e3 * clock.elapsed().as_secs_f64());
+        run.fields += 1;
+        run.at_once += usize::from(done.converged && done.sweeps <= 1);
+        run.sweeps += done.sweeps;
+    }
+    times.sort_by(f64::total_cmp);
+    run.milliseconds = times.get(times.len() / 2).copied().unwrap_or(0.0);
+    Ok(run)
+}
+
+/// A line and what came of it.
+pub struct Row {
+    pub case: Case,
+    pub warm: Run,
+    pub standing: Run,
+}
+
+impl Row {
+    pub fn new(case: Case, frames: &[Frame]) -> Result<Self, RelaxError> {
+        let moments: Vec<Moment> = frames.iter().map(|frame| case.kind.moment(frame)).collect();
+        let warm = run(moments.iter(), &case, PUBLISHED_BELOW, false)?;
+        let standing = run(moments.iter().step_by(STANDING), &case, PUBLISHED_BELOW, true)?;
+        Ok(Self { case, warm, standing })
+    }
+}
+
+/// The head of the table.
+pub const HEAD: &str = "                                   published          from the last frame       from nothing
+field                             sweeps     ms   sweeps  at once     ms     sweeps     ms";
+
+impl fmt::Display for Row {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = match self.case.kind {
+            Kind::Harmonic => "CPH".to_owned(),
+            Kind::Oriented => format!("CPO {:?}", self.case.difference).to_lowercase().replace("cpo", "CPO"),
+            Kind::LocallyOriented => format!("CPLO {:?}", self.case.difference).to_lowercase().replace("cplo", "CPLO"),
+        };
+        let solver = match &self.case.solver {
+            Solver::Multigrid => "multigrid".into(),
+            Solver::Relaxation(relaxation) if relaxation.factor(CELLS) == 1.0 => "GS".into(),
+            Solver::Relaxation(relaxation) => format!("SOR {}", relaxation.factor(CELLS)),
+        };
+        let published = self.case.published.map_or_else(
+            || format!("{:>7}{:>7}", "-", "-"),
+            |[sweeps, milliseconds]| format!("{sweeps:>7.2}{milliseconds:>7.2}"),
+        );
+        let Self { warm, standing, .. } = self;
+        write!(
+            f,
+            "{kind:<13} {solver:<17} {published} {:>8.2} {:>7.1}% {:>6.2} {:>10.2} {:>6.2}",
+            warm.mean_sweeps(),
+            100.0 * warm.share_at_once(),
+            warm.milliseconds,
+            standing.mean_sweeps(),
+            standing.milliseconds
+        )
+    }
+}
+
+/// Share of the fields of the red ones that take one sweep, where the strategy asks so many times a frame and the camera sees something new
+/// but once.
+pub fn asked(frames: &[Frame], times: usize) -> Result<f64, RelaxError> {
+    let case = Case { kind: Kind::LocallyOriented, difference: Difference::Central, solver: sor(1.0), published: None };
+    let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
+    Ok(run(moments.into_iter(), &case, PUBLISHED_BELOW, false)?.share_at_once())
+}
+
+/// Milliseconds that all blue robots' own fields take a frame, and the one that the red ones share: central differences, Gauss and
+/// Seidel's relaxation, from the last frame.
+pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
+    let case = |kind| Case { kind, difference: Difference::Central, solver: sor(1.0), published: None };
+    let mut three = 0.0;
+    for robot in 0..3 {
+        let moments = frames.iter().map(|frame| &frame.moments[robot]);
+        three += run(moments, &case(Kind::Oriented), PUBLISHED_BELOW, false)?.milliseconds;
+    }
+    let shared = frames.iter().map(|frame| &frame.moments[3]);
+    Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
+}
+
+/// Angles, in degrees and rising, between the blue seeker's direction in its field as the source's rule leaves it, and as it is.
+pub fn astray(frames: &[Frame], solver: &Solver) -> Result<Vec<f64>, RelaxError> {
+    let (mut loose, mut exact) = (standing(Difference::Upwind)?, standing(Difference::Upwind)?);
+    let mut angles = Vec::new();
+    for frame in frames {
+        let (moment, at) = (Kind::Oriented.moment(frame), frame.robots[frame.seekers[0]]);
+        loose.next(&moment, solver, PUBLISHED_BELOW, MOST)?;
+        exact.next(&moment, &sor(FACTOR), BELOW, MOST)?;
+        match (loose.direction(at), exact.direction(at)) {
+            (Some(a), Some(b)) => angles.push((a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees()),
+            // No direction at all is as wrong as can be.
+            (None, Some(_)) => angles.push(180.0),
+            _ => {}
+        }
+    }
+    angles.sort_by(f64::total_cmp);
+    Ok(angles)
+}
+
+/// Prints all of it.
+pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
+    let seconds = frames.len() as f64 / RATE;
+    println!(
+        "{} frames, {seconds:.1} s of play; until the squared changes of a sweep add up to less than 1e-6;",
+        frames.len()
+    );
+    let built = if cfg!(debug_assertions) {
+        "a development build: another profile is several times faster"
+    } else {
+        "a release build"
+    };
+    println!("times are the middle ones of all frames, on one core, by {built}\n");
+    println!("{HEAD}");
+    let mut fastest = [f64::INFINITY; 2];
+    for case in cases() {
+        let by_multigrid = usize::from(case.solver == Solver::Multigrid);
+        let row = Row::new(case, frames)?;
+        fastest[by_multigrid] = fastest[by_multigrid].min(row.warm.milliseconds);
+        println!("{row}");
+    }
+    let [relaxed, multigrid] = fastest.map(|milliseconds| 1e3 / milliseconds);
+    println!("\nfields a second: {relaxed:.0} by relaxation, {multigrid:.0} by multigrid (wanted: 1000 and 5000)");
+    println!(
+        "\nCPLO fields that take one sweep (published: more than 80 %), asked so many times a frame of the camera"
+    );
+    for times in [1, 2, 5, 10, 17] {
+        println!("  {times:>2} ({:>4.0} a second): {:>5.1} %", times as f64 * RATE, 100.0 * asked(frames, times)?);
+    }
+    let [three, one] = three_and_one(frames)?;
+    println!("\nthree CPO {three:.2} ms, one CPLO {one:.2} ms (published: 24.12 and 29.18)");
+    println!("\nhow far the blue seeker's direction is astray where the field is left as that rule leaves it, degrees");
+    for (name, solver) in [("GS", sor(1.0)), ("SOR 1.5", sor(1.5)), ("multigrid", Solver::Multigrid)] {
+        let angles = astray(frames, &solver)?;
+        let at = |part: f64| angles.get((part * angles.len() as f64) as usize).copied().unwrap_or(0.0);
+        let wrong = angles.iter().filter(|&&angle| angle > 90.0).count();
+        println!(
+            "  {name:<10} middle {:>6.2}, 95 % within {:>6.2}; {wrong} of {} away from the goal",
+            at(0.5),
+            at(0.95),
+            angles.len()
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,81 @@
+//! The page that plays a match: one file, which loads nothing.
+
+use super::play::{BALL, BODY, CELLS, DEPTH, Frame, INFLUENCE, MOUTH, PER_CM, RATE};
+use cplan::field::{Cell, MovingField};
+use serde_json::{Value, json};
+
+/// Frames from one picture of the fields to the next, and cells from one arrow to the next.
+const EVERY: usize = 4;
+const APART: usize = 3;
+/// Points of a curve that are left out between two that are shown.
+const SPARSE: usize = 6;
+/// Directions of arrows are kept in so many steps of a turn, as letters; a dot is none.
+const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
+/// Likewise values of a field, from 0 to 1, by the logarithm of their distance from 1, in so many steps a power of ten.
+const A_POWER: f64 = 4.0;
+
+/// A match as it is seen.
+#[derive(Default)]
+pub struct Film {
+    frames: Vec<Value>,
+    fields: Vec<Value>,
+}
+
+impl Film {
+    /// Adds a frame; `fields` are those that lead the robots in it, `score` that after it.
+    pub fn see(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
+        let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
+        self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));
+        if (self.frames.len() - 1).is_multiple_of(EVERY) {
+            let ways = frame.robots.iter().enumerate().map(|(robot, &at)| way(&fields[robot.min(3)], at));
+            let shown: Vec<Value> = fields.iter().map(picture).collect();
+            let drifts = frame.moments.iter().flat_map(|moment| &moment.robots).map(|robot| robot.drift.map(rounded));
+            self.fields.push(json!([shown, ways.collect::<Vec<_>>(), drifts.collect::<Vec<_>>()]));
+        }
+    }
+
+    /// The page.
+    pub fn page(&self, seed: u64) -> String {
+        let data = json!({
+            "cells": CELLS, "depth": DEPTH, "mouth": MOUTH, "body": BODY, "ball": BALL, "influence": INFLUENCE, "perCm": PER_CM,
+            "rate": RATE, "every": EVERY, "apart": APART, "frames": self.frames, "fields": self.fields, "seed": seed,
+        });
+        let data = data.to_string().replace('<', "\\u003c");
+        include_str!("page.html").replace("/*data*/", &data)
+    }
+}
+
+/// Directions as letters and values as letters, row by row of every third cell.
+fn picture(field: &MovingField) -> Value {
+    let (mut arrows, mut values) = (String::new(), String::new());
+    let shown = |n: usize| (1..n).step_by(APART);
+    for i in shown(CELLS[0]) {
+        for j in shown(CELLS[1]) {
+            let cell = i * CELLS[1] + j;
+            let letter = match (field.domain().kinds()[cell], field.direction([i as f64, j as f64])) {
+                (Cell::Free, Some([x, y])) => {
+                    let turn = y.atan2(x) / std::f64::consts::TAU;
+                    TURN[(turn.rem_euclid(1.0) * TURN.len() as f64) as usize % TURN.len()]
+                }
+                _ => b'.',
+            };
+            arrows.push(char::from(letter));
+            let depth = -(1.0 - field.values()[cell]).max(1e-15).log10();
+            values.push(char::from(TURN[((A_POWER * depth.max(0.0)) as usize).min(TURN.len() - 1)]));
+        }
+    }
+    json!([arrows, values])
+}
+
+/// The curve that a robot would go if nothing moved.
+fn way(field: &MovingField, at: [f64; 2]) -> Vec<f64> {
+    let is_free = field.direction(at).is_some();
+    let way = is_free.then(|| field.follow(at).ok()).flatten();
+    let points = way.map(|way| way.points).unwrap_or_default();
+    let last = points.last().copied();
+    points.into_iter().step_by(SPARSE).chain(last).flatten().map(rounded).collect()
+}
+
+fn rounded(x: f64) -> f64 {
+    (100.0 * x).round() / 100.0
+}
