@@ -82,6 +82,8 @@ pub struct Run {
     pub sweeps: usize,
     /// The middle one of all times of a field.
     pub milliseconds: f64,
+    /// Of all fields together.
+    pub total: f64,
 }
 
 impl Run {
@@ -114,6 +116,7 @@ pub fn run<'a>(
         run.at_once += usize::from(done.converged && done.sweeps <= 1);
         run.sweeps += done.sweeps;
     }
+    run.total = times.iter().sum();
     times.sort_by(f64::total_cmp);
     run.milliseconds = times.get(times.len() / 2).copied().unwrap_or(0.0);
     Ok(run)
@@ -168,12 +171,10 @@ impl fmt::Display for Row {
     }
 }
 
-/// Share of the fields of the red ones that take one sweep, where the strategy asks so many times a frame and the camera sees something new
-/// but once.
-pub fn asked(frames: &[Frame], times: usize) -> Result<f64, RelaxError> {
-    let case = Case { kind: Kind::LocallyOriented, difference: Difference::Central, solver: sor(1.0), published: None };
+/// The fields of the red ones, where the strategy asks so many times a frame and the camera sees something new but once.
+pub fn asked(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
-    Ok(run(moments.into_iter(), &case, PUBLISHED_BELOW, false)?.share_at_once())
+    run(moments.into_iter(), case, PUBLISHED_BELOW, false)
 }
 
 /// Milliseconds that all blue robots' own fields take a frame, and the one that the red ones share: central differences, Gauss and
@@ -189,13 +190,13 @@ pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
 }
 
-/// Angles, in degrees and rising, between the blue seeker's direction in its field as the source's rule leaves it, and as it is.
-pub fn astray(frames: &[Frame], solver: &Solver) -> Result<Vec<f64>, RelaxError> {
+/// Angles, in degrees and rising, between the blue seeker's direction in its field as a rule leaves it, and as it is.
+pub fn astray(frames: &[Frame], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
     let (mut loose, mut exact) = (standing(Difference::Upwind)?, standing(Difference::Upwind)?);
     let mut angles = Vec::new();
     for frame in frames {
         let (moment, at) = (Kind::Oriented.moment(frame), frame.robots[frame.seekers[0]]);
-        loose.next(&moment, solver, PUBLISHED_BELOW, MOST)?;
+        loose.next(&moment, solver, below, MOST)?;
         exact.next(&moment, &sor(FACTOR), BELOW, MOST)?;
         match (loose.direction(at), exact.direction(at)) {
             (Some(a), Some(b)) => angles.push((a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees()),
@@ -232,20 +233,35 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     let [relaxed, multigrid] = fastest.map(|milliseconds| 1e3 / milliseconds);
     println!("\nfields a second: {relaxed:.0} by relaxation, {multigrid:.0} by multigrid (wanted: 1000 and 5000)");
     println!(
-        "\nCPLO fields that take one sweep (published: more than 80 %), asked so many times a frame of the camera"
+        "\nCPLO, asked so often, while the camera sees something new 60 times a second: how many fields take one sweep"
     );
-    for times in [1, 2, 5, 10, 17] {
-        println!("  {times:>2} ({:>4.0} a second): {:>5.1} %", times as f64 * RATE, 100.0 * asked(frames, times)?);
+    println!("(published: more than 80 %), mean sweeps, fields a second");
+    for times in [1, 2, 5, 6, 10, 17] {
+        print!("  {:>4} times a second", (times as f64 * RATE).round());
+        for (name, factor) in [("GS", 1.0), ("SOR 1.8", 1.8)] {
+            let (kind, difference) = (Kind::LocallyOriented, Difference::Central);
+            let run = asked(frames, times, &Case { kind, difference, solver: sor(factor), published: None })?;
+            let rate = 1e3 * run.fields as f64 / run.total;
+            print!("   {name} {:>5.1} %, {:>6.2}, {rate:>5.0}", 100.0 * run.share_at_once(), run.mean_sweeps());
+        }
+        println!();
     }
     let [three, one] = three_and_one(frames)?;
     println!("\nthree CPO {three:.2} ms, one CPLO {one:.2} ms (published: 24.12 and 29.18)");
     println!("\nhow far the blue seeker's direction is astray where the field is left as that rule leaves it, degrees");
-    for (name, solver) in [("GS", sor(1.0)), ("SOR 1.5", sor(1.5)), ("multigrid", Solver::Multigrid)] {
-        let angles = astray(frames, &solver)?;
+    let tried = [
+        ("GS", sor(1.0), PUBLISHED_BELOW),
+        ("SOR 1.5", sor(1.5), PUBLISHED_BELOW),
+        ("SOR 1.5, 1e-9", sor(1.5), 1e-9),
+        ("multigrid", Solver::Multigrid, PUBLISHED_BELOW),
+        ("multigrid, 1e-9", Solver::Multigrid, 1e-9),
+    ];
+    for (name, solver, below) in tried {
+        let angles = astray(frames, &solver, below)?;
         let at = |part: f64| angles.get((part * angles.len() as f64) as usize).copied().unwrap_or(0.0);
         let wrong = angles.iter().filter(|&&angle| angle > 90.0).count();
         println!(
-            "  {name:<10} middle {:>6.2}, 95 % within {:>6.2}; {wrong} of {} away from the goal",
+            "  {name:<16} middle {:>6.2}, 95 % within {:>6.2}; {wrong} of {} away from the goal",
             at(0.5),
             at(0.95),
             angles.len()

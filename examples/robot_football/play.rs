@@ -226,7 +226,7 @@ impl Match {
     }
 }
 
-/// Robots keep this far apart, in cells, where they go straight while others do: two ways of a frame cannot cross in it.
+/// Robots end their ways this far apart, in cells: while two go straight they come nearer to one another than at both ends, by less.
 const CLOSE: f64 = 0.25;
 
 impl State {
@@ -248,7 +248,7 @@ impl State {
 
     /// Discs that the centre of a robot keeps out of, wherever these go within the frame.
     fn obstacles(&self, robots: impl Iterator<Item = usize>) -> Vec<Disc> {
-        robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH }.grown_for(BODY)).collect()
+        robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH + CLOSE }.grown_for(BODY)).collect()
     }
 
     /// A blue robot's own field: the others are obstacles, its drift holds everywhere. The seeker comes to the ball along the

@@ -3,5 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod family;
+mod football;
+mod moving;
 mod planners;
 mod streamlines;

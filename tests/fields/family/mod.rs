@@ -3,7 +3,7 @@
 
 mod charges;
 mod convergence;
-mod direct;
+pub mod direct;
 mod divergence;
 mod khatib;
 mod planner;
