@@ -1,5 +1,6 @@
-//! Grid planners: waves at 1024 x 1024 and 4096 x 4096, and the shortening of a path.
+//! Grid planners: waves at 1024 x 1024 and 4096 x 4096, and the shortening of a path; fields among robots that move.
 
+mod moving;
 mod wave;
 
 use cplan::cspace::{Grid, Proves};
@@ -42,5 +43,5 @@ fn fields(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, wave::wave, fields);
+criterion_group!(benches, wave::wave, fields, moving::moving);
 criterion_main!(benches);

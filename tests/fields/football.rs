@@ -25,7 +25,7 @@ const TOGETHER: f64 = 7.5 * std::f64::consts::SQRT_2 / 2.0;
 fn no_robot_runs_into_another_or_off_the_field() {
     let mut nearest = f64::INFINITY;
     for seed in [1, 2] {
-        let (_, frames) = played(seed, 150);
+        let (_, frames) = played(seed, 90);
         for pair in frames.windows(2) {
             for part in 0..=8 {
                 let along = f64::from(part) / 8.0;

@@ -144,6 +144,9 @@ pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     (0..domain.kinds().len()).map(|cell| nearest(cell).unwrap_or_default()).collect()
 }
 
+/// The drift of a cell.
+pub(super) type DriftOf<'a> = Box<dyn Fn(usize) -> [f64; 2] + 'a>;
+
 impl Equation {
     /// Whether a cell's value is a mean of its neighbours' with weights that are not negative, whatever the values are.
     /// Then no value leaves the range of the fixed ones, and the goals are the only minima.
@@ -164,7 +167,7 @@ impl Equation {
     }
 
     /// The drift of each cell, and how it is discretised. None where the drift depends on a field.
-    pub(super) fn drift(&self) -> Option<(Box<dyn Fn(usize) -> [f64; 2] + '_>, Difference)> {
+    pub(super) fn drift(&self) -> Option<(DriftOf<'_>, Difference)> {
         match self {
             Self::Harmonic => Some((Box::new(|_| [0.0; 2]), Difference::Central)),
             Self::Oriented { direction, epsilon, difference } => {

@@ -1,0 +1,34 @@
+//! Fields of a match of robots, each found from that of the frame before: sixty frames, a second of play.
+
+#[path = "../../examples/robot_football/play.rs"]
+#[allow(dead_code, reason = "pages and tables see more of a match")]
+mod play;
+
+use cplan::field::{Boundary, Difference, Factor, MovingField, Order, Relaxation, Scan, Solver};
+use criterion::{Criterion, Throughput};
+use play::{CELLS, Match, walls};
+
+const FRAMES: u64 = 60;
+
+pub fn moving(c: &mut Criterion) {
+    let mut game = Match::new(1).expect("a match");
+    let frames: Vec<_> = (0..FRAMES).map(|_| game.next().expect("a frame")).collect();
+    let first = MovingField::new(CELLS, walls(), [Boundary::High; 2], Difference::Upwind).expect("a flag a cell");
+    let sor = |factor: f64| Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)));
+    let mut group = c.benchmark_group("moving");
+    group.throughput(Throughput::Elements(FRAMES)).sample_size(10);
+    for (field, k) in [("own", 2), ("shared", 3)] {
+        for (name, solver) in [("Gauss-Seidel", sor(1.0)), ("SOR 1.7", sor(1.7)), ("multigrid", Solver::Multigrid)] {
+            group.bench_function(format!("{field}, {name}"), |b| {
+                b.iter(|| {
+                    let mut field = first.clone();
+                    for frame in &frames {
+                        field.next(&frame.moments[k], &solver, 1e-6, 2000).expect("a field");
+                    }
+                    field
+                });
+            });
+        }
+    }
+    group.finish();
+}
