@@ -1,7 +1,10 @@
 //! What the fields of a match cost, beside what the source measured (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of 2009).
 
-use super::play::{BELOW, CELLS, FACTOR, Frame, MOST, RATE, walls};
-use cplan::field::{Boundary, Difference, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Solver};
+use super::play::{CELLS, Frame, MOST, RATE, walls};
+use cplan::field::{
+    Boundary, Difference, Equation, Factor, Moment, MovingField, Order, RelaxError, Relaxation, Scan, Slope, Solver,
+    around, direction, eliminated,
+};
 use std::fmt;
 use std::time::Instant;
 
@@ -207,19 +210,49 @@ pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
 }
 
-/// Angles, in degrees and rising, between the blue seeker's direction in its field as a rule leaves it, and as it is.
-pub fn astray(frames: &[Frame], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
-    let (mut loose, mut exact) = (standing(Difference::Upwind)?, standing(Difference::Upwind)?);
-    let mut angles = Vec::new();
-    for frame in frames {
+/// A direction by elimination: the number of its frame, and where the blue seeker is in it.
+pub struct Exact {
+    frame: usize,
+    at: [f64; 2],
+    direction: [f64; 2],
+}
+
+/// One frame in so many is solved by elimination.
+const ELIMINATED: usize = 20;
+/// A field that is nearer to obstacles' values than this is one without a goal that can be reached.
+const LEVEL: f64 = 1e-12;
+
+/// Directions in the blue seeker's field, where the goal can be reached.
+pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
+    let mut found = Vec::new();
+    for (k, frame) in frames.iter().enumerate().step_by(ELIMINATED) {
         let (moment, at) = (Kind::Oriented.moment(frame), frame.robots[frame.seekers[0]]);
-        loose.next(&moment, solver, below, MOST)?;
-        exact.next(&moment, &sor(FACTOR), BELOW, MOST)?;
-        match (loose.direction(at), exact.direction(at)) {
-            (Some(a), Some(b)) => angles.push((a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees()),
+        // Nothing is relaxed: the field only says what each cell is.
+        let mut field = standing(Difference::Upwind)?;
+        field.next(&moment, &sor(1.0), 1.0, 0)?;
+        let domain = field.domain();
+        let drift = around(domain, &moment.robots);
+        let equation = Equation::LocallyOriented { drift, difference: Difference::Upwind };
+        let Some(values) = eliminated(domain, &equation) else { continue };
+        let is_led = domain.cell_at(at.map(|x| x.round() as i64)).is_some_and(|cell| 1.0 - values[cell] > LEVEL);
+        let slope = Slope::new(domain, &values, |place| domain.cell_at(place));
+        let direction = direction(&slope, [1.0; 2], at).filter(|_| is_led);
+        found.extend(direction.map(|direction| Exact { frame: k, at, direction }));
+    }
+    Ok(found)
+}
+
+/// Angles, in degrees and rising, between the blue seeker's direction in its field as a rule leaves it from frame to frame, and as it is.
+pub fn astray(frames: &[Frame], exact: &[Exact], solver: &Solver, below: f64) -> Result<Vec<f64>, RelaxError> {
+    let mut field = standing(Difference::Upwind)?;
+    let mut angles = Vec::new();
+    let mut sought = exact.iter().peekable();
+    for (k, frame) in frames.iter().enumerate() {
+        field.next(&Kind::Oriented.moment(frame), solver, below, MOST)?;
+        if let Some(Exact { at, direction: b, .. }) = sought.next_if(|exact| exact.frame == k) {
             // No direction at all is as wrong as can be.
-            (None, Some(_)) => angles.push(180.0),
-            _ => {}
+            let angle = |a: [f64; 2]| (a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees();
+            angles.push(field.direction(*at).map_or(180.0, angle));
         }
     }
     angles.sort_by(f64::total_cmp);
@@ -228,6 +261,7 @@ pub fn astray(frames: &[Frame], solver: &Solver, below: f64) -> Result<Vec<f64>,
 
 /// Prints all of it.
 pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
+    directions(frames)?;
     let seconds = frames.len() as f64 / RATE;
     println!(
         "{} frames, {seconds:.1} s of play; until the squared changes of a sweep add up to less than 1e-6;",
@@ -265,24 +299,30 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     }
     let [three, one] = three_and_one(frames)?;
     println!("\nthree CPO {three:.2} ms, one CPLO {one:.2} ms (published: 24.12 and 29.18)");
-    println!("\nhow far the blue seeker's direction is astray where the field is left as that rule leaves it, degrees");
+    Ok(())
+}
+
+/// Prints how far directions are astray.
+fn directions(frames: &[Frame]) -> Result<(), RelaxError> {
+    let exact = exact(frames)?;
+    println!(
+        "how far the blue seeker's direction is astray, degrees, where squared changes of a sweep add up to less than"
+    );
     let tried = [
-        ("GS", sor(1.0), PUBLISHED_BELOW),
-        ("SOR 1.5", sor(1.5), PUBLISHED_BELOW),
-        ("SOR 1.5, 1e-9", sor(1.5), 1e-9),
-        ("multigrid", Solver::Multigrid, PUBLISHED_BELOW),
-        ("multigrid, 1e-9", Solver::Multigrid, 1e-9),
+        ("1e-6, GS", sor(1.0), PUBLISHED_BELOW),
+        ("1e-6, SOR 1.5", sor(1.5), PUBLISHED_BELOW),
+        ("1e-6, multigrid", Solver::Multigrid, PUBLISHED_BELOW),
+        ("1e-12, SOR 1.5", sor(1.5), 1e-12),
+        ("1e-18, SOR 1.5", sor(1.5), 1e-18),
+        ("1e-18, multigrid", Solver::Multigrid, 1e-18),
     ];
     for (name, solver, below) in tried {
-        let angles = astray(frames, &solver, below)?;
+        let angles = astray(frames, &exact, &solver, below)?;
         let at = |part: f64| angles.get((part * angles.len() as f64) as usize).copied().unwrap_or(0.0);
         let wrong = angles.iter().filter(|&&angle| angle > 90.0).count();
-        println!(
-            "  {name:<16} middle {:>6.2}, 95 % within {:>6.2}; {wrong} of {} away from the goal",
-            at(0.5),
-            at(0.95),
-            angles.len()
-        );
+        let (middle, most, all) = (at(0.5), at(0.95), angles.len());
+        println!("  {name:<17} middle {middle:>7.3}, 95 % within {most:>7.3}; {wrong} of {all} away from the goal");
     }
+    println!();
     Ok(())
 }

@@ -43,8 +43,8 @@ const TAKES_OVER: f64 = 6.0;
 /// Red ones that do not seek the ball go no nearer to it.
 const KEEPS_OFF: f64 = 14.0;
 /// What the fields of the match are found to, by SOR with the source's factor: a sum of squared changes that leaves the directions right.
-pub const BELOW: f64 = 1e-12;
-pub const FACTOR: f64 = 1.7;
+const BELOW: f64 = 1e-12;
+const FACTOR: f64 = 1.7;
 /// Sweeps that this may take.
 pub const MOST: usize = 2000;
 /// A ball that stays this long, in frames, within so many cells is put on a mark of the field.
