@@ -1,0 +1,144 @@
+//! The adapter, and the programs that run on it.
+
+use super::buffers::watched;
+use std::fmt;
+use thiserror::Error;
+
+/// Why there is no solution by a GPU.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GpuError {
+    /// There is no adapter, or none that can do it.
+    #[error(
+        "no GPU can be used: {0}\n  cure: install a driver for Vulkan (Linux: that of the graphics card; without one Mesa's software \
+         driver, Debian's mesa-vulkan-drivers), Metal or Direct3D 12; or solve on the CPU"
+    )]
+    NoAdapter(String),
+    /// What was asked for makes no sense: why, in words.
+    #[error("{0}")]
+    Refused(String),
+    /// The adapter has no buffers of this size.
+    #[error("the GPU has buffers of {most} bytes, {needed} are needed\n  cure: fewer cells, or solve on the CPU")]
+    TooLarge {
+        /// Of the greatest buffer, in bytes.
+        needed: u64,
+        /// What the adapter can have, in bytes.
+        most: u64,
+    },
+    /// Out of memory, or lost on the way: what the driver says.
+    #[error("the GPU failed: {0}\n  cure: fewer cells, or solve on the CPU")]
+    Failed(String),
+    /// Values grew without bound, or are numbers no more.
+    #[error("the relaxation diverged: after {sweeps} sweeps cell ({}, {}) has the value {value:e}", cell[0], cell[1])]
+    Diverged {
+        /// Passes over all cells until it was noticed.
+        sweeps: u32,
+        /// The first cell with such a value, as row and column.
+        cell: [usize; 2],
+        /// The value of that cell.
+        value: f64,
+    },
+}
+
+/// A GPU that is ready to work. Threads may share it.
+pub struct Gpu {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
+    name: String,
+    is_software: bool,
+    pub(super) pipelines: Pipelines,
+}
+
+/// One a kernel.
+pub(super) struct Pipelines {
+    pub successive: wgpu::ComputePipeline,
+    pub simultaneous: wgpu::ComputePipeline,
+    pub finish: wgpu::ComputePipeline,
+    pub smooth: wgpu::ComputePipeline,
+    pub restrict: wgpu::ComputePipeline,
+    pub prolong: wgpu::ComputePipeline,
+}
+
+impl Gpu {
+    /// The fastest adapter of the machine; a driver in software where there is no other. It takes some tenths of a second.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`] with the cure; [`GpuError::Failed`] if the driver refuses the kernels.
+    pub fn open() -> Result<Self, GpuError> {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12,
+            // Neither validation layers nor debuggers.
+            flags: wgpu::InstanceFlags::empty(),
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
+        let no_adapter = |reason: &dyn fmt::Display| GpuError::NoAdapter(reason.to_string());
+        let wanted = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..wgpu::RequestAdapterOptions::default()
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&wanted)).map_err(|e| no_adapter(&e))?;
+        let info = adapter.get_info();
+        let most = adapter.limits();
+        let required_limits = wgpu::Limits {
+            max_buffer_size: most.max_buffer_size,
+            max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
+            ..wgpu::Limits::downlevel_defaults()
+        };
+        // What these kernels need beyond the least that there is.
+        let required_limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 6, ..required_limits };
+        let wanted = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };
+        let (device, queue) = pollster::block_on(adapter.request_device(&wanted)).map_err(|e| no_adapter(&e))?;
+        let pipelines = watched(&device, || Ok(Pipelines::new(&device)))?;
+        let name = format!("{} ({})", info.name, info.backend);
+        Ok(Self { device, queue, name, is_software: info.device_type == wgpu::DeviceType::Cpu, pipelines })
+    }
+
+    /// The adapter's name and its interface, such as `NVIDIA RTX A2000 (vulkan)`.
+    #[must_use]
+    pub fn adapter(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether the driver does all on the CPU.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.is_software
+    }
+}
+
+impl fmt::Debug for Gpu {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Gpu").field("name", &self.name).finish_non_exhaustive()
+    }
+}
+
+impl Pipelines {
+    fn new(device: &wgpu::Device) -> Self {
+        let rule = include_str!("kernels/rule.wgsl");
+        let sweep = include_str!("kernels/sweep.wgsl");
+        let successive = [rule, sweep, include_str!("kernels/successive.wgsl")].concat();
+        let simultaneous = [rule, sweep, include_str!("kernels/simultaneous.wgsl")].concat();
+        let finish = [rule, include_str!("kernels/finish.wgsl")].concat();
+        let levels = include_str!("kernels/levels.wgsl");
+        Self {
+            successive: pipeline(device, &successive, "sweep"),
+            simultaneous: pipeline(device, &simultaneous, "sweep"),
+            finish: pipeline(device, &finish, "finish"),
+            smooth: pipeline(device, levels, "relax"),
+            restrict: pipeline(device, levels, "coarsen"),
+            prolong: pipeline(device, levels, "prolong"),
+        }
+    }
+}
+
+fn pipeline(device: &wgpu::Device, text: &str, entry: &str) -> wgpu::ComputePipeline {
+    let source = wgpu::ShaderSource::Wgsl(text.into());
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(entry), source });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(entry),
+        layout: None,
+        module: &module,
+        entry_point: Some(entry),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    })
+}

@@ -1,0 +1,120 @@
+//! Grids that are coarser and coarser, and the equations on them.
+
+use super::{Edge, Problem};
+
+/// Diffusion between blocks of 2 x 2 cells is that of their common sides, over this. 2 would be right in the open, where a block's
+/// centre is twice as far; with a little less corrections stay too small rather than too great where blocks meet walls, which is what
+/// makes cycles converge (tried on random walls of up to 1024 x 1024 cells).
+const STIFFNESS: f64 = 1.7;
+
+/// No coarser grid than of so many rows and columns.
+const COARSEST: usize = 8;
+
+/// Equations on a grid, row by row: `own * x - sum of side * neighbour = right`.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Level {
+    pub cells: [usize; 2],
+    pub edges: [Edge; 2],
+    /// 0 where nothing is sought.
+    pub own: Vec<f64>,
+    /// 0 for neighbours that are no unknowns.
+    pub sides: Vec<[f64; 4]>,
+}
+
+/// The side from which a neighbour sees the cell.
+const BACK: [usize; 4] = [1, 0, 3, 2];
+
+impl Level {
+    /// The finest: the problem's weights, `1 - weight` for sides at which the cell meets itself.
+    pub fn finest(problem: &Problem, weights: impl Fn(usize) -> [f64; 4]) -> Self {
+        let count = problem.values.len();
+        let mut level =
+            Self { cells: problem.cells, edges: problem.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };
+        for cell in (0..count).filter(|&cell| problem.unknown[cell]) {
+            level.own[cell] = 1.0;
+            let weights = weights(cell);
+            for (side, weight) in weights.into_iter().enumerate() {
+                match level.neighbor(cell, side) {
+                    Some(next) if next == cell => level.own[cell] -= weight,
+                    Some(next) if problem.unknown[next] => level.sides[cell][side] = weight,
+                    None if problem.edges[side / 2] == Edge::Mirror => level.own[cell] -= weight,
+                    _ => {}
+                }
+            }
+        }
+        level
+    }
+
+    /// The neighbour on a side; none beyond walls and mirrors.
+    pub fn neighbor(&self, cell: usize, side: usize) -> Option<usize> {
+        let [rows, columns] = self.cells;
+        let (i, j) = (cell / columns, cell % columns);
+        let step = |at: usize, n: usize, edge: Edge| match side % 2 {
+            0 if at > 0 => Some(at - 1),
+            1 if at + 1 < n => Some(at + 1),
+            _ if edge == Edge::Circle => Some(n - 1 - at),
+            _ => None,
+        };
+        match side / 2 {
+            0 => step(i, rows, self.edges[0]).map(|i| i * columns + j),
+            _ => step(j, columns, self.edges[1]).map(|j| i * columns + j),
+        }
+    }
+
+    /// Whether there is a coarser one.
+    fn is_coarsest(&self) -> bool {
+        self.cells.iter().all(|&n| n <= COARSEST)
+    }
+
+    /// The same on blocks of 2 x 2 cells: what flows through the sides that blocks have in common, diffusion over [`STIFFNESS`]. Where
+    /// drift is stronger than that its upwind part is taken, so that coefficients have their signs on every level. `O(cells)`.
+    fn coarser(&self) -> Self {
+        let cells = self.cells.map(|n| n.div_ceil(2));
+        let count = cells[0] * cells[1];
+        let block = |cell: usize| cell / self.cells[1] / 2 * cells[1] + cell % self.cells[1] / 2;
+        // Of each block through each side: from it, and back; and what it loses to walls.
+        let (mut there, mut back, mut lost) = (vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![0.0; count]);
+        for cell in (0..self.own.len()).filter(|&cell| self.own[cell] > 0.0) {
+            let here = block(cell);
+            let mut rest = self.own[cell];
+            for side in 0..4 {
+                let weight = self.sides[cell][side];
+                rest -= weight;
+                if let Some(next) = self.neighbor(cell, side).filter(|&next| self.own[next] > 0.0)
+                    && block(next) != here
+                {
+                    there[here][side] += weight;
+                    back[here][side] += self.sides[next][BACK[side]];
+                }
+            }
+            lost[here] += rest;
+        }
+        let mut coarse = Self { cells, edges: self.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };
+        for here in 0..count {
+            for side in 0..4 {
+                let (diffusion, drift) =
+                    (0.5 * (there[here][side] + back[here][side]), 0.5 * (there[here][side] - back[here][side]));
+                coarse.sides[here][side] = (diffusion / STIFFNESS).max(drift.abs()) + drift;
+            }
+            let own = coarse.sides[here].iter().sum::<f64>() + lost[here].max(0.0) / STIFFNESS;
+            coarse.own[here] = own;
+        }
+        coarse
+    }
+
+    /// All of them, the finest first.
+    pub fn hierarchy(finest: Self) -> Vec<Self> {
+        let mut levels = vec![finest];
+        while let Some(last) = levels.last().filter(|last| !last.is_coarsest()) {
+            let next = last.coarser();
+            levels.push(next);
+        }
+        levels
+    }
+
+    /// Five planes of single precision, as the kernels have them.
+    pub fn planes(&self) -> Vec<f32> {
+        let sides = (0..4).flat_map(|side| self.sides.iter().map(move |sides| sides[side] as f32));
+        sides.chain(self.own.iter().map(|&own| own as f32)).collect()
+    }
+}

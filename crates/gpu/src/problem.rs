@@ -1,0 +1,97 @@
+//! What is to be solved.
+
+use super::GpuError;
+
+/// What lies beyond the first and the last cell of an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Edge {
+    /// The cells of the other end.
+    Circle,
+    /// [`Problem::outside`].
+    Wall,
+    /// The cell itself.
+    Mirror,
+}
+
+/// What the neighbours ask of a cell; in the order row before, row after, column before, column after.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stencil {
+    /// Their mean.
+    Mean,
+    /// A mean with weights, one four a cell: what they add up to is 1. Negative weights make no mean, and may diverge.
+    Weights(Vec<[f64; 4]>),
+    /// Their mean and, one a cell, a part of `(|difference of rows| + |difference of columns|) / 2`.
+    Altered(Vec<f64>),
+}
+
+/// Cells, their values, and what the others are to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    pub(super) cells: [usize; 2],
+    pub(super) edges: [Edge; 2],
+    pub(super) outside: f64,
+    pub(super) values: Vec<f64>,
+    pub(super) unknown: Vec<bool>,
+    pub(super) stencil: Stencil,
+}
+
+/// Cells that one problem may have: places are counted in 32 bits, four weights a cell.
+const MOST: usize = 1 << 29;
+
+impl Problem {
+    /// Of `cells[0]` rows and `cells[1]` columns, row by row. `edges[0]` is beyond the first and the last row, `outside` the value
+    /// beyond walls; `values` are kept where `unknown` is false, and the start where it is true. `O(cells)`.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`] where there is not one entry a cell, a number is not finite, or the cells are more than 2^29.
+    pub fn new(
+        cells: [usize; 2],
+        edges: [Edge; 2],
+        outside: f64,
+        values: Vec<f64>,
+        unknown: Vec<bool>,
+        stencil: Stencil,
+    ) -> Result<Self, GpuError> {
+        let refused = |what: &str| Err(GpuError::Refused(what.into()));
+        let (given, fine) = match &stencil {
+            Stencil::Mean => (values.len(), true),
+            Stencil::Weights(weights) => (weights.len(), weights.iter().flatten().all(|w| w.is_finite())),
+            Stencil::Altered(strength) => (strength.len(), strength.iter().all(|s| s.is_finite())),
+        };
+        let Some(count) = cells[0].checked_mul(cells[1]).filter(|&count| count <= MOST) else {
+            return refused("there are more than 2^29 cells");
+        };
+        if values.len() != count || unknown.len() != count || given != count {
+            return refused("there must be one value, one flag and one stencil a cell");
+        }
+        if !(fine && outside.is_finite() && values.iter().all(|v| v.is_finite())) {
+            return refused("values, weights and strengths must be finite numbers");
+        }
+        Ok(Self { cells, edges, outside, values, unknown, stencil })
+    }
+
+    /// The same problem from other values, one a cell.
+    ///
+    /// # Errors
+    /// As [`Problem::new`].
+    pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
+        Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
+    }
+
+    /// Which circles have an odd number of cells: as bits, the first that of rows.
+    pub(super) fn odd_circles(cells: [usize; 2], edges: [Edge; 2]) -> u32 {
+        let odd = |axis: usize| u32::from(edges[axis] == Edge::Circle && cells[axis] % 2 == 1);
+        odd(0) + 2 * odd(1)
+    }
+}
+
+impl Edge {
+    /// As the kernels count them.
+    pub(super) fn code(self) -> u32 {
+        match self {
+            Self::Circle => 0,
+            Self::Wall => 1,
+            Self::Mirror => 2,
+        }
+    }
+}

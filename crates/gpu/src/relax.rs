@@ -1,0 +1,208 @@
+//! Relaxing, sweep by sweep.
+
+use super::buffers::{blocks, watched};
+use super::half::Half;
+use super::rule::{Rule, State};
+use super::{Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
+use cplan_interrupt::checkpoint;
+
+/// A relaxed field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Relaxed {
+    /// One a cell, row by row. Those that were given are as they were, but for rounding to single precision.
+    pub values: Vec<f64>,
+    /// Passes over all cells.
+    pub sweeps: u32,
+    /// The measure in the last of them; infinite before the first.
+    pub change: f64,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// Sweeps that are asked for at once, at the most. It is even, so that Jacobi's two buffers are where they were.
+const AT_ONCE: usize = 64;
+
+/// Updates of cells that are asked for at once: a part of a second on any GPU, so that no driver thinks that it hangs.
+const UPDATES_AT_ONCE: usize = 1 << 28;
+
+/// A value greater than all at the start by this factor will not come back.
+const BEYOND: f32 = 1e30;
+
+/// Fewer sweeps than this are no floor, though nothing became better in them.
+const PATIENCE: usize = 64;
+
+/// Which cells a dispatch does. The order is that of `Turn` in `kernels/sweep.wgsl`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct Turn {
+    pub colour: u32,
+    /// 0 for most cells; on circles of odd length 1 for the last row, 2 for the last column, 3 for the cell that is in both.
+    pub region: u32,
+    /// Where its partial sums begin.
+    pub slot: u32,
+    pub unused: u32,
+}
+
+/// Those of a sweep, in their order: that of [`Sweep::RedBlack`] one by one.
+pub(super) fn turns(odd: u32, blocks: u32) -> Vec<Turn> {
+    let regions = [0, 2, 1, 3].into_iter().filter(|region| region & !odd == 0);
+    let turns = (0..2).flat_map(|colour| regions.clone().map(move |region| (colour, region)));
+    turns.zip(0..).map(|((colour, region), k)| Turn { colour, region, slot: k * blocks, unused: 0 }).collect()
+}
+
+impl Gpu {
+    /// Relaxes from the problem's values until the rule is met. `O(cells)` a sweep, 12 to 28 bytes a cell on the GPU.
+    ///
+    /// # Errors
+    /// [`GpuError::Refused`] for settings that make no sense, [`GpuError::Diverged`], [`GpuError::TooLarge`], [`GpuError::Failed`].
+    /// A relaxation that does not converge is no error: its [`Ending`] says so.
+    pub fn relax(&self, problem: &Problem, settings: &Settings) -> Result<Relaxed, GpuError> {
+        if let Some(refusal) = settings.refusal() {
+            return Err(refusal);
+        }
+        let is_done = !problem.unknown.contains(&true);
+        if is_done || settings.max_sweeps == 0 {
+            let ending = if is_done { Ending::Converged } else { Ending::Unconverged };
+            return Ok(Relaxed { values: problem.values.clone(), sweeps: 0, change: f64::INFINITY, ending });
+        }
+        watched(&self.device, || self.relax_all(problem, settings))
+    }
+
+    fn relax_all(&self, problem: &Problem, settings: &Settings) -> Result<Relaxed, GpuError> {
+        let half = Half::new(problem.cells);
+        let [across, down] = blocks(half.half, half.rows);
+        let odd = Problem::odd_circles(problem.cells, problem.edges);
+        let turns = turns(odd, across * down);
+        let rule = rule(problem, settings, half, odd, turns.len() as u32 * across * down);
+        let start = half.spread(|cell| problem.values[cell] as f32);
+        let pair = [
+            self.storage(&start)?,
+            if settings.sweep == Sweep::Jacobi { self.storage(&start)? } else { self.storage::<f32>(&[])? },
+        ];
+        let coefficients = self.storage(&coefficients(&problem.stencil, half))?;
+        let unknown = self.storage(&half.mask(&problem.unknown))?;
+        let partials = self.storage(&vec![[0.0_f32; 2]; rule.blocks as usize])?;
+        let state = State {
+            done: 0,
+            sweeps: 0,
+            lost: 0,
+            since: 0,
+            change: f32::MAX,
+            before: 0.0,
+            least: f32::MAX,
+            unused: 0.0,
+        };
+        let state = self.storage(&[state])?;
+        let rule = self.uniform(&rule);
+        let turns: Vec<wgpu::Buffer> = turns.iter().map(|turn| self.uniform(turn)).collect();
+
+        let is_jacobi = settings.sweep == Sweep::Jacobi;
+        let sweep = if is_jacobi { &self.pipelines.simultaneous } else { &self.pipelines.successive };
+        // What an odd or an even sweep sees.
+        let groups = [0, 1].map(|parity: usize| {
+            let of = |turn| {
+                let target = &pair[if is_jacobi { 1 - parity } else { 0 }];
+                let mut buffers = vec![(0, &rule), (1, turn), (2, target), (4, &coefficients), (5, &unknown)];
+                buffers.extend([(6, &partials), (7, &state)]);
+                buffers.extend(is_jacobi.then_some((3, &pair[parity])));
+                self.group(sweep, &buffers)
+            };
+            turns.iter().map(of).collect::<Vec<_>>()
+        });
+        let finish = self.group(&self.pipelines.finish, &[(0, &rule), (6, &partials), (7, &state)]);
+
+        let at_once = (UPDATES_AT_ONCE / problem.values.len()).clamp(2, AT_ONCE) / 2 * 2;
+        let ended = loop {
+            checkpoint();
+            self.submit(|pass| {
+                for k in 0..at_once {
+                    pass.set_pipeline(sweep);
+                    for group in &groups[k % 2] {
+                        pass.set_bind_group(0, group, &[]);
+                        pass.dispatch_workgroups(across, down, 1);
+                    }
+                    pass.set_pipeline(&self.pipelines.finish);
+                    pass.set_bind_group(0, &finish, &[]);
+                    pass.dispatch_workgroups(1, 1, 1);
+                }
+            });
+            let state: State = self.read(&state, size_of::<State>() as u64)?[0];
+            if state.done != 0 {
+                break state;
+            }
+        };
+        let newest = &pair[if is_jacobi { ended.sweeps as usize % 2 } else { 0 }];
+        let values = half.gathered(&self.read(newest, (half.places() * size_of::<f32>()) as u64)?);
+        let ending = match ended.done {
+            1 => Ending::Converged,
+            2 => Ending::Floor,
+            3 => Ending::Unconverged,
+            _ => return Err(diverged(&values, problem, ended.sweeps)),
+        };
+        Ok(Relaxed { values, sweeps: ended.sweeps, change: f64::from(ended.change), ending })
+    }
+}
+
+/// Relative changes that may be nothing but rounding: eight units in the last place. Over-relaxation by `2 - d` keeps what comes in some
+/// `1 / d` sweeps and magnifies it by as much again, as measured; a thousandth is more than rounding.
+fn rounding(factor: f64) -> f32 {
+    let kept = (2.0 - factor).clamp(1e-2, 1.0).powi(-2);
+    ((8.0 * kept) as f32 * f32::EPSILON).min(1e-3)
+}
+
+fn greatest(values: &[f64]) -> f32 {
+    values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs())) as f32
+}
+
+/// Above this, values are lost.
+fn beyond(problem: &Problem) -> f32 {
+    let greatest = greatest(&problem.values).max(problem.outside.abs() as f32);
+    if greatest > 0.0 { (BEYOND * greatest).min(f32::MAX / 2.0) } else { BEYOND }
+}
+
+fn diverged(values: &[f64], problem: &Problem, sweeps: u32) -> GpuError {
+    let bound = f64::from(beyond(problem));
+    // What is no number is lost, too. The value that was may have been overwritten: then the greatest.
+    let lost = values.iter().position(|value| value.is_nan() || value.abs() > bound);
+    let largest = || (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()));
+    let at = lost.or_else(largest).unwrap_or(0);
+    GpuError::Diverged { sweeps, cell: [at / problem.cells[1], at % problem.cells[1]], value: values[at] }
+}
+
+fn rule(problem: &Problem, settings: &Settings, half: Half, odd: u32, blocks: u32) -> Rule {
+    let [low, high] = settings.clamp.map_or([-f32::MAX, f32::MAX], |range| range.map(|bound| bound as f32));
+    Rule {
+        rows: half.rows as u32,
+        columns: half.columns as u32,
+        half: half.half as u32,
+        edge_rows: problem.edges[0].code(),
+        edge_columns: problem.edges[1].code(),
+        odd,
+        stencil: match problem.stencil {
+            Stencil::Mean => 0,
+            Stencil::Weights(_) => 1,
+            Stencil::Altered(_) => 2,
+        },
+        measure: settings.measure.code(),
+        max_sweeps: settings.max_sweeps,
+        blocks,
+        outside: problem.outside as f32,
+        factor: settings.factor as f32,
+        low,
+        high,
+        below: settings.below as f32,
+        beyond: beyond(problem),
+        rounding: rounding(settings.factor),
+        patience: half.rows.max(half.columns).max(PATIENCE) as u32,
+        unused: [0; 2],
+    }
+}
+
+/// One number a place, or four, place after place of each.
+fn coefficients(stencil: &Stencil, half: Half) -> Vec<f32> {
+    match stencil {
+        Stencil::Mean => Vec::new(),
+        Stencil::Altered(strength) => half.spread(|cell| strength[cell] as f32),
+        Stencil::Weights(weights) => (0..4).flat_map(|side| half.spread(|cell| weights[cell][side] as f32)).collect(),
+    }
+}

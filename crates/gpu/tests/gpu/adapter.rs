@@ -1,0 +1,35 @@
+//! Whether there is an adapter, and what is said where there is none.
+
+use cplan_gpu::{Gpu, GpuError};
+use std::process::Command;
+
+/// Where Vulkan's loader is told to look for drivers, and a place that has none.
+const DRIVERS: &str = "VK_DRIVER_FILES";
+const NOWHERE: &str = "/nowhere/driver.json";
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn an_adapter_is_found_where_drivers_are() {
+    match std::env::var(DRIVERS).as_deref() {
+        Ok(NOWHERE) => {
+            let error = Gpu::open().expect_err("no drivers");
+            assert!(matches!(error, GpuError::NoAdapter(_)), "{error}");
+            let text = error.to_string();
+            assert!(text.contains("no GPU can be used") && text.contains("cure: install a driver"), "{text}");
+        }
+        _ => assert!(!Gpu::open().expect("a driver").adapter().is_empty()),
+    }
+}
+
+/// The test above once more, in a process that finds no drivers.
+#[test]
+#[cfg(target_os = "linux")]
+#[ignore = "needs a Vulkan loader: .ci/gpu"]
+fn without_drivers_the_cure_is_told() {
+    let mut again = Command::new(std::env::current_exe().unwrap());
+    again.args(["--include-ignored", "--exact", "adapter::an_adapter_is_found_where_drivers_are"]);
+    // The older name of the variable goes first where a loader knows both.
+    let done = again.env(DRIVERS, NOWHERE).env("VK_ICD_FILENAMES", NOWHERE).output().unwrap();
+    let text = String::from_utf8_lossy(&done.stdout);
+    assert!(done.status.success() && text.contains("1 passed"), "{text}{}", String::from_utf8_lossy(&done.stderr));
+}

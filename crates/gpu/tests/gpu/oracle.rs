@@ -1,0 +1,158 @@
+//! Problems at random, relaxed one cell after the other in double precision, and solved by dense elimination.
+
+use cplan_gpu::{Edge, Measure, Problem, Settings, Stencil, Sweep};
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// A problem, in the open.
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub cells: [usize; 2],
+    pub edges: [Edge; 2],
+    pub outside: f64,
+    pub values: Vec<f64>,
+    pub unknown: Vec<bool>,
+    pub stencil: Stencil,
+}
+
+/// Which equation.
+#[derive(Debug, Clone, Copy)]
+pub enum Kind {
+    Mean,
+    Central,
+    Upwind,
+    Altered,
+}
+
+impl Case {
+    pub fn problem(&self) -> Problem {
+        let Case { cells, edges, outside, values, unknown, stencil } = self.clone();
+        Problem::new(cells, edges, outside, values, unknown, stencil).unwrap()
+    }
+
+    /// The places around a cell: another (or the same) cell, or none for what lies outside.
+    fn around(&self, cell: usize) -> [Option<usize>; 4] {
+        let [rows, columns] = self.cells.map(|n| n as isize);
+        let (i, j) = (cell as isize / columns, cell as isize % columns);
+        [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)].map(|(a, b)| {
+            let is_beyond = [a != a.clamp(0, rows - 1), b != b.clamp(0, columns - 1)];
+            for (edge, is_beyond) in self.edges.into_iter().zip(is_beyond) {
+                match edge {
+                    Edge::Wall if is_beyond => return None,
+                    Edge::Mirror if is_beyond => return Some(cell),
+                    _ => {}
+                }
+            }
+            Some((a.rem_euclid(rows) * columns + b.rem_euclid(columns)) as usize)
+        })
+    }
+
+    fn asked(&self, cell: usize, values: &[f64]) -> f64 {
+        let [a, b, c, d] = self.around(cell).map(|place| place.map_or(self.outside, |place| values[place]));
+        match &self.stencil {
+            Stencil::Mean => (a + b + c + d) / 4.0,
+            Stencil::Weights(w) => w[cell][0] * a + w[cell][1] * b + w[cell][2] * c + w[cell][3] * d,
+            Stencil::Altered(s) => (a + b + c + d) / 4.0 + s[cell] * ((a - b).abs() + (c - d).abs()) / 2.0,
+        }
+    }
+
+    /// The values after so many sweeps, and the measure of each.
+    pub fn relaxed(&self, settings: &Settings, sweeps: u32) -> (Vec<f64>, Vec<f64>) {
+        let columns = self.cells[1];
+        let mut order: Vec<usize> = (0..self.values.len()).filter(|&cell| self.unknown[cell]).collect();
+        order.sort_by_key(|cell| (cell / columns + cell % columns) % 2);
+        let mut values = self.values.clone();
+        let (mut measures, mut before) = (Vec::new(), f64::INFINITY);
+        for _ in 0..sweeps {
+            let old = values.clone();
+            for &cell in &order {
+                let asked = self.asked(cell, if settings.sweep == Sweep::Jacobi { &old } else { &values });
+                let next = old[cell] + settings.factor * (asked - old[cell]);
+                values[cell] = settings.clamp.map_or(next, |[low, high]| next.clamp(low, high));
+            }
+            let changes = || order.iter().map(|&cell| (values[cell] - old[cell]).abs());
+            let sum: f64 = changes().sum();
+            let shares =
+                || order.iter().zip(changes()).filter(|(_, c)| *c > 0.0).map(|(&cell, c)| c / values[cell].abs());
+            measures.push(match settings.measure {
+                Measure::Sum => sum,
+                Measure::Squares => changes().map(|c| c * c).sum(),
+                Measure::Greatest => changes().fold(0.0, f64::max),
+                Measure::Relative => shares().fold(0.0, f64::max),
+                Measure::DifferenceOfSums => (sum - before).abs(),
+            });
+            before = sum;
+        }
+        (values, measures)
+    }
+
+    /// The solution of a linear equation; none where it is singular.
+    pub fn solved(&self) -> Option<Vec<f64>> {
+        let n = self.values.len();
+        let (mut matrix, mut right) = (DMatrix::identity(n, n), DVector::from_column_slice(&self.values));
+        for cell in (0..n).filter(|&cell| self.unknown[cell]) {
+            right[cell] = 0.0;
+            let weights = if let Stencil::Weights(weights) = &self.stencil { weights[cell] } else { [0.25; 4] };
+            for (place, weight) in self.around(cell).into_iter().zip(weights) {
+                match place {
+                    Some(place) => matrix[(cell, place)] -= weight,
+                    None => right[cell] += weight * self.outside,
+                }
+            }
+        }
+        Some(matrix.lu().solve(&right)?.iter().copied().collect())
+    }
+}
+
+fn edge() -> impl Strategy<Value = Edge> {
+    prop_oneof![Just(Edge::Circle), Just(Edge::Wall), Just(Edge::Mirror)]
+}
+
+fn stencil(kind: Kind, drifts: &[[f64; 2]]) -> Stencil {
+    let side = |b: f64| if matches!(kind, Kind::Upwind) { 1.0 + b.max(0.0) } else { 1.0 + 0.5 * b };
+    let weights = |b: &[f64; 2]| {
+        let weights = [side(-b[0]), side(b[0]), side(-b[1]), side(b[1])];
+        let sum: f64 = weights.iter().sum();
+        weights.map(|weight| weight / sum)
+    };
+    match kind {
+        Kind::Mean => Stencil::Mean,
+        Kind::Central | Kind::Upwind => Stencil::Weights(drifts.iter().map(weights).collect()),
+        Kind::Altered => Stencil::Altered(drifts.iter().map(|b| 0.25 * b[0]).collect()),
+    }
+}
+
+/// Walls at random, goals at random, a drift in each cell that central differences bear.
+pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
+    let cells = [1..=most, 1..=most];
+    (cells, [edge(), edge()], 0.0..0.6_f64).prop_flat_map(move |(cells, edges, walls)| {
+        let count = cells[0] * cells[1];
+        let cell = prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, [-1.9..1.9_f64, -1.9..1.9]), count);
+        (cell, -1.0..1.0_f64).prop_map(move |(drawn, outside)| {
+            // The first is given, so that there is a solution, unless walls cut it off: then those within have walls.
+            let is_given = |(k, cell): (usize, &(f64, f64, [f64; 2]))| k == 0 || cell.0 < walls;
+            let unknown: Vec<bool> = drawn.iter().enumerate().map(|cell| !is_given(cell)).collect();
+            let drifts: Vec<[f64; 2]> = drawn.iter().map(|cell| cell.2).collect();
+            let values = drawn.iter().map(|cell| cell.1).collect();
+            Case { cells, edges, outside, values, unknown, stencil: stencil(kind, &drifts) }
+        })
+    })
+}
+
+/// Any equation.
+pub fn any(most: usize) -> impl Strategy<Value = Case> {
+    prop_oneof![case(Kind::Mean, most), linear(most), case(Kind::Altered, most)]
+}
+
+/// Any linear one.
+pub fn linear(most: usize) -> impl Strategy<Value = Case> {
+    prop_oneof![case(Kind::Mean, most), case(Kind::Central, most), case(Kind::Upwind, most)]
+}
+
+/// The greatest difference of two fields.
+pub fn apart(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .fold(0.0, |most, (a, b)| if (a - b).is_nan() { f64::INFINITY } else { f64::max(most, (a - b).abs()) })
+}

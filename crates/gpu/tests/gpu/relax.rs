@@ -1,0 +1,174 @@
+//! Relaxations on the GPU, sweep by sweep as one cell after the other.
+
+use crate::gpu;
+use crate::oracle::{Case, Kind, any, apart, case};
+use cplan_gpu::{Edge, Ending, GpuError, Measure, Settings, Stencil, Sweep};
+use proptest::prelude::*;
+
+/// Single precision: an update is off by some units in the last place of the greatest value, and so are its neighbours'.
+const ROUNDING: f64 = 4.0 / (1 << 24) as f64;
+
+/// Over-relaxation magnifies rounding: by so much at the most in these cases.
+const MAGNIFIED: f64 = 20.0;
+
+fn settings() -> impl Strategy<Value = Settings> {
+    let measure = prop_oneof![
+        Just(Measure::Sum),
+        Just(Measure::Squares),
+        Just(Measure::Greatest),
+        Just(Measure::Relative),
+        Just(Measure::DifferenceOfSums)
+    ];
+    let way = prop_oneof![
+        Just((Sweep::Jacobi, 1.0)),
+        (0.3..1.0_f64).prop_map(|factor| (Sweep::Jacobi, factor)),
+        Just((Sweep::RedBlack, 1.0)),
+        (1.0..1.8_f64).prop_map(|factor| (Sweep::RedBlack, factor))
+    ];
+    let clamp = prop_oneof![Just(None), Just(Some([0.1, 0.9]))];
+    (measure, way, clamp, 1..40_u32).prop_map(|(measure, (sweep, factor), clamp, max_sweeps)| Settings {
+        sweep,
+        factor,
+        clamp,
+        measure,
+        below: 0.0,
+        max_sweeps,
+    })
+}
+
+proptest! {
+    #![proptest_config(crate::random::cases(60))]
+
+    #[test]
+    #[ignore = "needs a Vulkan driver: .ci/gpu"]
+    fn sweeps_are_those_of_one_cell_after_the_other(case in any(40), settings in settings()) {
+        let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
+        // It ends earlier where nothing changes any more.
+        prop_assert!(on_gpu.sweeps == settings.max_sweeps || on_gpu.ending == Ending::Converged);
+        let (expected, measures) = case.relaxed(&settings, settings.max_sweeps);
+        let greatest = expected.iter().chain(&case.values).fold(1.0, |most: f64, value| most.max(value.abs()));
+        let tolerance = f64::from(settings.max_sweeps) * ROUNDING * greatest * MAGNIFIED.powf(f64::from(settings.factor > 1.0));
+        let off = apart(&on_gpu.values, &expected);
+        prop_assert!(off <= tolerance, "off by {off:e}, not {tolerance:e}");
+        if on_gpu.sweeps == settings.max_sweeps && settings.measure != Measure::Relative {
+            let (own, count) = (measures[on_gpu.sweeps as usize - 1], case.values.len() as f64);
+            if own.is_finite() {
+                // Each change is off by what two values are, squares by twice the change more.
+                let slack = 4.0 * tolerance * count * (1.0 + greatest);
+                prop_assert!((on_gpu.change - own).abs() <= slack + 1e-4 * own, "{} is {own}", on_gpu.change);
+            }
+        }
+    }
+}
+
+/// A square with walls around and a goal in its middle, free cells from 0.
+fn square(n: usize) -> Case {
+    let mut values = vec![0.0; n * n];
+    let mut unknown = vec![true; n * n];
+    (values[n / 2 * n + n / 2], unknown[n / 2 * n + n / 2]) = (1.0, false);
+    Case { cells: [n; 2], edges: [Edge::Wall; 2], outside: 0.0, values, unknown, stencil: Stencil::Mean }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn rules_end_where_they_end_one_by_one() {
+    let case = square(41);
+    for (measure, below) in [
+        (Measure::Sum, 1e-2),
+        (Measure::Squares, 1e-6),
+        (Measure::Greatest, 1e-4),
+        (Measure::Relative, 1e-4),
+        (Measure::DifferenceOfSums, 1e-3),
+    ] {
+        for sweep in [Sweep::Jacobi, Sweep::RedBlack] {
+            let settings = Settings { sweep, measure, below, max_sweeps: 10_000, ..Settings::default() };
+            let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
+            let (_, measures) = case.relaxed(&settings, 2_000);
+            let expected = 1 + measures.iter().position(|&m| m < below).expect("it converges") as u32;
+            assert_eq!(on_gpu.ending, Ending::Converged);
+            // A sum of rounded numbers may fall below the bound a sweep earlier or later.
+            assert!(
+                on_gpu.sweeps.abs_diff(expected) <= 1 + expected / 200,
+                "{measure:?}: {} is {expected}",
+                on_gpu.sweeps
+            );
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn what_single_precision_cannot_reach_is_said() {
+    let case = square(33);
+    let exact = case.solved().unwrap();
+    let mut floors = 0;
+    for factor in [1.0, 1.5, 1.8, 1.9] {
+        // A bound that nothing but rest meets, and factors that do not let values rest.
+        let measure = Measure::Relative;
+        let settings = Settings { factor, measure, below: 1e-12, max_sweeps: 20_000, ..Settings::default() };
+        let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
+        assert_ne!(on_gpu.ending, Ending::Unconverged, "{factor}: {:e}", on_gpu.change);
+        floors += u32::from(on_gpu.ending == Ending::Floor);
+        // Gauss-Seidel's changes are lost in rounding long before the error is.
+        let off = apart(&on_gpu.values, &exact);
+        assert!(off < 2e-5, "{factor}: {off:e} after {} sweeps", on_gpu.sweeps);
+    }
+    assert!(floors > 0);
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn divergence_is_said_with_its_cell() {
+    let settings = Settings { factor: 2.5, max_sweeps: 100_000, ..Settings::default() };
+    let error = gpu().relax(&square(20).problem(), &settings).expect_err("factors above 2 diverge");
+    let GpuError::Diverged { cell, value, sweeps } = error else { panic!("{error}") };
+    assert!(
+        cell.iter().all(|&at| at < 20) && (value.is_nan() || value.abs() > 1e20) && sweeps < 1_000,
+        "{cell:?} {value}"
+    );
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn the_same_comes_out_each_time() {
+    let (case, settings) = (square(64), Settings { factor: 1.7, ..Settings::default() });
+    let once = gpu().relax(&case.problem(), &settings).unwrap();
+    for _ in 0..3 {
+        assert_eq!(gpu().relax(&case.problem(), &settings).unwrap(), once);
+    }
+}
+
+#[test]
+#[ignore = "needs a Vulkan driver: .ci/gpu"]
+fn nothing_to_do_is_done_at_once() {
+    let mut case = square(5);
+    case.unknown = vec![false; 25];
+    let done = gpu().relax(&case.problem(), &Settings::default()).unwrap();
+    assert_eq!((done.values, done.sweeps, done.ending), (case.values, 0, Ending::Converged));
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let Case { cells, edges, values, unknown, .. } = square(3);
+    let new = |values, stencil| cplan_gpu::Problem::new(cells, edges, 0.0, values, unknown.clone(), stencil);
+    assert!(matches!(new(vec![0.0; 8], Stencil::Mean), Err(GpuError::Refused(_))));
+    assert!(matches!(new(vec![f64::NAN; 9], Stencil::Mean), Err(GpuError::Refused(_))));
+    assert!(matches!(new(values.clone(), Stencil::Altered(vec![0.0; 3])), Err(GpuError::Refused(_))));
+    assert!(matches!(new(values.clone(), Stencil::Weights(vec![[f64::INFINITY; 4]; 9])), Err(GpuError::Refused(_))));
+    assert!(new(values, Stencil::Mean).is_ok());
+}
+
+proptest! {
+    #![proptest_config(crate::random::cases(12))]
+
+    #[test]
+    #[ignore = "needs a Vulkan driver: .ci/gpu"]
+    fn converged_fields_are_solutions(case in case(Kind::Upwind, 16)) {
+        let settings = Settings { measure: Measure::Greatest, below: 1e-7, max_sweeps: 20_000, ..Settings::default() };
+        let on_gpu = gpu().relax(&case.problem(), &settings).unwrap();
+        let Some(solution) = case.solved() else { return Ok(()) };
+        prop_assert!(on_gpu.ending != Ending::Unconverged);
+        // What is left after small changes is those times the number of sweeps that an error lives.
+        prop_assert!(apart(&on_gpu.values, &solution) < 1e-3, "{}", apart(&on_gpu.values, &solution));
+    }
+}
