@@ -169,6 +169,7 @@ impl ExploreArgs {
         let usual = Settings::default();
         let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
+        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
         if let Some(error) = self.grid.error() {
             return Err(Failure::Usage(format!("--grid: {error}")));
         }

@@ -3,7 +3,7 @@
 use super::args::number_in;
 use crate::engine::Method;
 use crate::field::{
-    Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
+    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
 };
 use crate::model::Preference;
 use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
@@ -72,6 +72,24 @@ impl From<OrderName> for Order {
     }
 }
 
+/// Where sweeps are done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DeviceName {
+    /// In double precision.
+    Cpu,
+    /// In single precision, cells red-black or all at once; needs a program with the feature gpu.
+    Gpu,
+}
+
+impl From<DeviceName> for Device {
+    fn from(name: DeviceName) -> Self {
+        match name {
+            DeviceName::Cpu => Self::Cpu,
+            DeviceName::Gpu => Self::Gpu,
+        }
+    }
+}
+
 /// What lies beyond joint limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum LimitsName {
@@ -111,7 +129,7 @@ pub struct FieldArgs {
     /// harmonic one: gauss-seidel].
     #[arg(long, value_enum, value_name = "NAME")]
     pub relaxation: Option<RelaxationName>,
-    /// In which order cells go (gauss-seidel, sor) [default: corners].
+    /// In which order cells go (gauss-seidel, sor) [default: corners, on a GPU red-black].
     #[arg(long, value_enum, value_name = "NAME")]
     pub order: Option<OrderName>,
     /// How far cells go (weighted-jacobi, sor) [default of sor: the best one for Laplace's equation in an empty
@@ -127,6 +145,9 @@ pub struct FieldArgs {
     /// At most so many sweeps [default: 10000].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
+    /// What the field is relaxed on [default: cpu].
+    #[arg(long, value_enum, value_name = "DEVICE")]
+    pub on: Option<DeviceName>,
     /// Pull of the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]
     pub attraction: Option<Attraction>,
@@ -164,7 +185,8 @@ impl FieldArgs {
                 return Err(format!("{option} is for --field {}", listed(fields)));
             }
         }
-        if given == ["--field"] && name == FieldName::Harmonic {
+        let is_plain = |option: &&str| *option == "--field" || (*option == "--on" && self.device().is_cpu());
+        if given.iter().all(is_plain) && name == FieldName::Harmonic {
             return Ok(None);
         }
         let field = match name {
@@ -178,10 +200,21 @@ impl FieldArgs {
                 relaxation: self.relaxation()?,
                 tolerance: self.tolerance.unwrap_or(TOLERANCE),
                 max_sweeps: self.max_sweeps.unwrap_or(MAX_SWEEPS) as usize,
+                on: self.device(),
             },
         };
         let limits = self.limits.unwrap_or(LimitsName::High).into();
         Ok(Some(FieldPlanner { field, limits, path: PathKind::Own }))
+    }
+
+    /// What the field is relaxed on.
+    fn device(&self) -> Device {
+        self.on.map_or(Device::Cpu, Device::from)
+    }
+
+    /// Why what it is relaxed on cannot be had, if it cannot, with the cure.
+    pub fn missing(&self) -> Option<String> {
+        self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
     }
 
     /// What the field needs and these regions of the world lack, if anything.
@@ -218,6 +251,7 @@ impl FieldArgs {
             ("--limits", self.limits.is_some()),
             ("--tolerance", self.tolerance.is_some()),
             ("--max-sweeps", self.max_sweeps.is_some()),
+            ("--on", self.on.is_some()),
             ("--attraction", self.attraction.is_some()),
             ("--repulsion", self.repulsion.is_some()),
             ("--saturated", self.saturated),
@@ -245,7 +279,12 @@ impl FieldArgs {
 
     fn relaxation(&self) -> Result<Relaxation, String> {
         let name = self.relaxation.unwrap_or(RelaxationName::GaussSeidel);
-        let order = self.order.unwrap_or(OrderName::Corners).into();
+        let usual = if self.device().is_cpu() { OrderName::Corners } else { OrderName::RedBlack };
+        let order = self.order.unwrap_or(usual);
+        if !self.device().is_cpu() && order != OrderName::RedBlack {
+            return Err("--on gpu takes cells red-black: other orders are for --on cpu".into());
+        }
+        let order = order.into();
         let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
         if jacobi && self.order.is_some() {
             return Err("--order is for --relaxation gauss-seidel and sor: with Jacobi's all cells go at once".into());
@@ -274,7 +313,7 @@ fn needed_field(option: &str) -> Option<&'static [FieldName]> {
         "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
         "--direction" => Some(&[Oriented, Local]),
         "--difference" => Some(&[Oriented, Local, Bvp]),
-        "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" => {
+        "--relaxation" | "--order" | "--factor" | "--tolerance" | "--max-sweeps" | "--on" => {
             Some(&[Harmonic, Oriented, Local, Bvp, Bvp2])
         }
         "--attraction" | "--repulsion" | "--saturated" => Some(&[Khatib]),

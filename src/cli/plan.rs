@@ -79,10 +79,12 @@ impl PlanArgs {
     /// What is asked for.
     ///
     /// # Errors
-    /// Options that contradict each other or the planner.
+    /// Options that contradict each other or the planner, and a GPU that is not there.
     fn options(&self) -> Result<Options, Failure> {
+        let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
+        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
         Ok(Options {
-            planner: self.options.planner(self.planner).map_err(Failure::Usage)?,
+            planner,
             levels: self.options.levels(),
             drive: self.motion.drive(),
             jerk: self.motion.jerk(),

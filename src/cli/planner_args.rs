@@ -159,6 +159,11 @@ impl PlannerArgs {
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
     }
 
+    /// Why what the field is relaxed on cannot be had, if it cannot, with the cure.
+    pub fn missing(&self) -> Option<String> {
+        self.field.missing()
+    }
+
     /// What the field needs and these regions of the world lack, if anything.
     pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
         self.field.lack(preferences)

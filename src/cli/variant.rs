@@ -40,6 +40,11 @@ impl Variant {
         (own.put_into(base.put_into(self.planner)), levels)
     }
 
+    /// Why what its field is relaxed on cannot be had, if it cannot, with the cure.
+    pub fn missing(&self) -> Option<String> {
+        self.options.missing()
+    }
+
     /// What it needs and these regions of the world lack, if anything.
     pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
         self.options.lack(preferences)

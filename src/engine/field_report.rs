@@ -16,11 +16,12 @@ pub(super) fn field_report(planner: &FieldPlanner, answer: &Answer) -> FieldRepo
             saturated: Some(saturated),
             ..FieldReport::default()
         },
-        FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps } => {
+        FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
             let sweeps = if let Size::Grid { sweeps, .. } = answer.run.size { sweeps } else { 0 };
             FieldReport {
                 tolerance: Some(tolerance),
                 max_sweeps: Some(max_sweeps),
+                on: on.adapter().ok().flatten(),
                 converged: (sweeps > 0).then_some(answer.run.note.is_none()),
                 ..relaxed(equation_report(equation), &relaxation, answer)
             }

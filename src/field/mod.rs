@@ -3,7 +3,7 @@
 //! - [`StepLabels`] and [`search`]: steps to the goal by waves, and the classical searches for comparison;
 //! - [`harmonic()`]: the harmonic potential by direct and multigrid solution, precise at any distance;
 //! - [`relax()`]: the family of field equations and relaxations as values that combine; [`trace()`]: how one converges, sweep by
-//!   sweep; [`eliminated`]: the solution that it converges to;
+//!   sweep; [`relax_on`]: the same on a GPU; [`eliminated`]: the solution that it converges to;
 //!   [`by_multigrid`]: the same solution in a few steps;
 //! - [`MovingField`]: a field among obstacles that move, which robots share, from frame to frame;
 //! - [`Khatib`]: attraction and repulsion, with their local minima;
@@ -27,8 +27,9 @@ pub use cplan_multigrid as multigrid;
 pub use khatib::{Attraction, Downforce, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
-    Boundary, Cell, Convergence, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Levels, Limits,
-    Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Sample, Scan, Scheme, Slope, Stopping,
-    Stuck, Trace, Watched, around, by_multigrid, descend, eliminated, relax, relax_from, relax_watched, trace,
+    Boundary, Cell, Convergence, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence, Levels,
+    Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, Relaxed, Sample, Scan, Scheme, Slope,
+    Stopping, Stuck, Trace, Watched, around, by_multigrid, descend, eliminated, relax, relax_from, relax_on,
+    relax_watched, trace,
 };
 pub use waves::{FreeCells, Move, Neighborhood, StepLabels, search};

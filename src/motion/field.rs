@@ -32,6 +32,9 @@ pub struct FieldReport {
     /// At most so many sweeps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
+    /// The GPU that relaxed it, by its name and interface; left out on the CPU.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on: Option<&'static str>,
     /// Pull of the goal.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub attraction: Option<String>,

@@ -2,7 +2,7 @@
 
 use super::PathKind;
 use crate::cspace::ZonedGrid;
-use crate::field::{Difference, Direction, Equation, Khatib, Limits, Relaxation};
+use crate::field::{Device, Difference, Direction, Equation, Khatib, Limits, Relaxation};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -56,13 +56,16 @@ pub enum FieldChoice {
         tolerance: f64,
         /// At most so many sweeps, of each stage.
         max_sweeps: usize,
+        /// What it is relaxed on.
+        #[serde(default, skip_serializing_if = "Device::is_cpu")]
+        on: Device,
     },
     /// Attraction and repulsion.
     Khatib(Khatib),
 }
 
 /// Computes a field with the goals' cells as its goals and follows it from the start. Values are those of
-/// [`Levels::PROBABILITY`](crate::field::Levels::PROBABILITY), relaxed in relative precision, as far as doubles go.
+/// [`Levels::PROBABILITY`](crate::field::Levels::PROBABILITY), relaxed in relative precision, as far as doubles (on a GPU single precision) go.
 ///
 /// A path is found only where the field leads to a goal. Where it does not (a local minimum, a difference of values that
 /// doubles cannot tell, a relaxation that diverged) the planner gives up and says where and why. Only
@@ -141,7 +144,12 @@ impl fmt::Display for EquationChoice {
 impl fmt::Display for FieldPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.field {
-            FieldChoice::Relaxed { equation, relaxation, .. } => write!(f, "{equation}; {relaxation}")?,
+            FieldChoice::Relaxed { equation, relaxation, on, .. } => {
+                write!(f, "{equation}; {relaxation}")?;
+                if !on.is_cpu() {
+                    write!(f, "; on {}", on.adapter().ok().flatten().unwrap_or("a GPU"))?;
+                }
+            }
             FieldChoice::Khatib(Khatib { attraction, repulsion, saturated }) => {
                 write!(
                     f,

@@ -5,8 +5,8 @@ use super::field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 use super::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::{Grid, ZonedGrid};
 use crate::field::{
-    Cell, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation, Relaxed, Slope,
-    Stopping, Stuck, Trap, relax,
+    Cell, Device, Domain, Downforce, Equation, ForceField, Khatib, Levels, Limits, Measure, Place, Relaxation, Relaxed,
+    Slope, Stopping, Stuck, Trap, relax_on,
 };
 use crate::space::{Configuration, Path};
 
@@ -47,9 +47,9 @@ impl Planner for FieldPlanner {
         let task = Task { space, query, joined: &joined, start, kind: self.path };
         let followed = match self.field {
             FieldChoice::Khatib(laws) => task.follow_forces(laws, &goals, self.limits),
-            FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps } => {
+            FieldChoice::Relaxed { equation, relaxation, tolerance, max_sweeps, on } => {
                 let stopping = Stopping { measure: Measure::GreatestRelativeChange, below: tolerance, max_sweeps };
-                match task.follow_relaxed(&domain, equation, &relaxation, &stopping) {
+                match task.follow_relaxed(&domain, equation, &relaxation, &stopping, on) {
                     Ok(followed) => followed,
                     Err(reason) => return ended(Proposal::GaveUp(reason), cells),
                 }
@@ -111,14 +111,15 @@ impl Task<'_> {
         choice: EquationChoice,
         relaxation: &Relaxation,
         stopping: &Stopping,
+        on: Device,
     ) -> Result<Followed, String> {
         let grid = &self.space.grid;
         let equation = choice.on(self.space)?;
-        let field = relax(domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
+        let field = relax_on(on, domain, &equation, relaxation, stopping).map_err(|error| error.to_string())?;
         let mut guide = Slope::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
         let path = grid_path::along(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|stuck| {
-            format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, &equation, &field))
+            format!("{} at {}: {}", what(&stuck), shown(grid, stuck.cell), why(&stuck, &equation, &field, on))
         });
         let logarithm = |(value, kind): (&f64, &Cell)| match kind {
             Cell::Obstacle => f64::NEG_INFINITY,
@@ -126,7 +127,13 @@ impl Task<'_> {
             _ => value.max(0.0).ln(),
         };
         let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
-        let note = (!field.converged()).then(|| Note::Unconverged { sweeps: field.sweeps(), change: field.change() });
+        let (sweeps, change) = (field.sweeps(), field.change());
+        // On a GPU what ends before the limit has come to the end of its precision.
+        let is_floor = field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps);
+        let note = (!field.converged()).then_some(match is_floor {
+            true => Note::Floor { sweeps, change },
+            false => Note::Unconverged { sweeps, change },
+        });
         let trace = Trace::Field { cells: domain.cells(), potential };
         Ok(Followed { path, trace, sweeps: field.sweeps(), note })
     }
@@ -138,14 +145,14 @@ fn what(stuck: &Stuck) -> &'static str {
 }
 
 /// Why a climb is stuck, as far as that can be told.
-fn why(stuck: &Stuck, equation: &Equation, field: &Relaxed) -> String {
+fn why(stuck: &Stuck, equation: &Equation, field: &Relaxed, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone() => {
             "the equation is not monotone; take upwind differences, or a smaller epsilon".into()
         }
         _ if !field.converged() => format!("it is not converged after {} sweeps", field.sweeps()),
-        Stuck { value: 0.0, .. } => "its values are too small for doubles".into(),
-        Stuck { value, .. } => format!("values around {value} differ by less than doubles can tell"),
+        Stuck { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
+        Stuck { value, .. } => format!("values around {value} differ by less than {} can tell", on.precision()),
     }
 }
 

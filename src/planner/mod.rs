@@ -262,6 +262,13 @@ pub enum Note {
         /// Greatest relative change of a value in the last sweep that was measured.
         change: f64,
     },
+    /// Not relaxed to the tolerance, since the precision of a GPU goes no further.
+    Floor {
+        /// Passes over all cells, until only roundings changed.
+        sweeps: usize,
+        /// Greatest relative change of a value in the last sweep.
+        change: f64,
+    },
 }
 
 impl std::fmt::Display for Note {
@@ -271,6 +278,13 @@ impl std::fmt::Display for Note {
                 write!(
                     f,
                     "not converged: relaxation stopped after {sweeps} sweeps, at a relative change of {change:.1e}"
+                )
+            }
+            Self::Floor { sweeps, change } => {
+                write!(
+                    f,
+                    "not converged: after {sweeps} sweeps single precision goes no further, at a relative change of \
+                     {change:.1e}"
                 )
             }
         }

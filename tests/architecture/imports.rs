@@ -11,9 +11,10 @@ const EVERYWHERE: [&str; 2] = ["cplan_interrupt", "text"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 20] = [
+const MAY_IMPORT: [(&str, &[&str]); 21] = [
     (EVERYWHERE[0], &[]),
     ("cplan_multigrid", &[]),
+    ("cplan_gpu", &[]),
     ("cplan_harmonic", &["cplan_multigrid"]),
     (EVERYWHERE[1], &[]),
     ("geometry", &[]),
@@ -21,7 +22,7 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
     ("model", &["geometry", "space"]),
     ("input", &["geometry", "space", "model"]),
     ("cspace", &["geometry", "space", "model"]),
-    ("field", &["cplan_multigrid", "cplan_harmonic", "geometry", "space", "cspace"]),
+    ("field", &["cplan_multigrid", "cplan_gpu", "cplan_harmonic", "geometry", "space", "cspace"]),
     ("planner", &["geometry", "space", "cspace", "field"]),
     ("check", &["geometry", "space", "model"]),
     ("search", &["geometry", "space", "model", "check"]),

@@ -5,7 +5,7 @@
 
 use crate::common::{all_kinds, arm, disc, joint, link, q, rectangle, rr, scene, wall};
 use cplan::cspace::{Grid, Proves, Regions, ZonedGrid, outer_grid, regions, sampled_grid};
-use cplan::field::{Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
+use cplan::field::{Device, Difference, Direction, Limits, Lines, Neighborhood, Order, Relaxation};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::planner::{
@@ -98,7 +98,7 @@ fn is_no_path(name: &str, run: &Run) -> bool {
 /// A field relaxed so far that it leads to the goal.
 fn relaxed(equation: EquationChoice) -> FieldPlanner {
     let relaxation = Relaxation::gauss_seidel(Order::Corners(Lines::Rows));
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120 };
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-2, max_sweeps: 120, on: Device::Cpu };
     FieldPlanner { field, limits: Limits::High, path: PathKind::Taut }
 }
 

@@ -98,7 +98,7 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
 /// The planners for each world.
 ///
 /// # Errors
-/// Options of a planner that need something of a world which it lacks.
+/// Options of a planner that need something of a world which it lacks, or a GPU that is not there.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
@@ -106,6 +106,9 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         Entry { label: method.to_string(), options: options(args, planner, args.effort.levels()) }
     });
     let plain: Vec<Entry> = plain.collect();
+    if let Some(missing) = args.with.iter().find_map(Variant::missing) {
+        return Err(Failure::Option(missing));
+    }
     let of = |case: &Case| {
         let mut entries = plain.clone();
         for variant in &args.with {

@@ -47,8 +47,10 @@ impl Options {
         if grammar.motion.period < SHORTEST_PERIOD {
             return Err(format!("--period: the live page takes at least {SHORTEST_PERIOD} s"));
         }
+        let planner = grammar.options.planner(grammar.planner)?;
+        grammar.options.missing().map_or(Ok(()), Err)?;
         let options = engine::Options {
-            planner: grammar.options.planner(grammar.planner)?,
+            planner,
             levels: grammar.options.levels(),
             drive: grammar.motion.drive(),
             jerk: grammar.motion.jerk(),

@@ -1,5 +1,5 @@
 //! The family of field equations and their relaxations, as values that combine: a [`Domain`], an [`Equation`], a
-//! [`Relaxation`] and a [`Stopping`] rule; [`relax`] takes one of each.
+//! [`Relaxation`] and a [`Stopping`] rule; [`relax`] takes one of each, [`relax_on`] a GPU as well.
 //!
 //! An equation becomes a `Stencil` (what the neighbours ask of a cell), an order a list of passes, a measure a `Tally`;
 //! the sweeps are compiled for each pair of stencil and tally, and know no other combinations. A new linear equation is a
@@ -8,9 +8,12 @@
 
 mod by_multigrid;
 mod descent;
+mod device;
 mod direct;
 mod domain;
 mod equation;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod relaxation;
 mod stencil;
 mod stopping;
@@ -19,6 +22,7 @@ mod trace;
 
 pub use by_multigrid::by_multigrid;
 pub use descent::{Slope, Stuck, descend};
+pub use device::{Device, relax_on};
 pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Levels, Limits, Neighbor};
 pub use equation::{Difference, Direction, Equation, Influence, around};

@@ -143,20 +143,11 @@ pub fn relax_watched(
     start: Vec<f64>,
     watch: &mut dyn FnMut(Watched),
 ) -> Result<Relaxed, RelaxError> {
-    if let Some(refusal) = equation.refusal(domain) {
-        return Err(RelaxError::Refused(refusal));
+    if let Some(refusal) = refusal(domain, equation, relaxation) {
+        return Err(refusal);
     }
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
-    }
-    let factor = relaxation.factor(domain.cells());
-    if !(factor.is_finite() && factor > 0.0) {
-        return Err(RelaxError::Refused(format!("a relaxation factor must be positive, this one is {factor}")));
-    }
-    if let Some([low, high]) = relaxation.clamp
-        && (low > high || low.is_nan() || high.is_nan())
-    {
-        return Err(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
     }
     let mut engine = Engine::new(domain, equation, relaxation, stopping, start, watch);
     match equation {
@@ -173,8 +164,8 @@ pub fn relax_watched(
         }
         Equation::AlteredPreference { epsilon } => {
             engine.harmonic()?;
-            let quarter = 0.25 * domain.levels().orientation();
-            let strength = engine.unknowns.iter().map(|&cell| quarter * epsilon[cell as usize]).collect();
+            let strengths = strengths(domain, epsilon);
+            let strength = engine.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
             engine.run(&Altered { strength })?;
         }
     }
@@ -182,9 +173,50 @@ pub fn relax_watched(
     Ok(Relaxed { values: engine.values, stages: engine.stages })
 }
 
+/// Why what is asked for makes no sense, if it does not.
+pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxation) -> Option<RelaxError> {
+    if let Some(refusal) = equation.refusal(domain) {
+        return Some(RelaxError::Refused(refusal));
+    }
+    let factor = relaxation.factor(domain.cells());
+    if !(factor.is_finite() && factor > 0.0) {
+        return Some(RelaxError::Refused(format!("a relaxation factor must be positive, this one is {factor}")));
+    }
+    if let Some([low, high]) = relaxation.clamp
+        && (low > high || low.is_nan() || high.is_nan())
+    {
+        return Some(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
+    }
+    None
+}
+
+/// The free cells that have neighbours, rising. A cell that has no neighbour but itself keeps its value.
+pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
+    let alone = |cell: usize| domain.neighbors(cell) == [Neighbor::Mirror; 4];
+    let unknown = |cell: usize| domain.kinds()[cell] == Cell::Free && !alone(cell);
+    (0..domain.kinds().len()).filter(|&cell| unknown(cell)).map(|cell| cell as u32).collect()
+}
+
+/// `epsilon / 4` of altered preferences, with the sign that the levels ask for; one a cell.
+pub(super) fn strengths(domain: &Domain, epsilon: &[f64]) -> Vec<f64> {
+    let quarter = 0.25 * domain.levels().orientation();
+    epsilon.iter().map(|epsilon| quarter * epsilon).collect()
+}
+
+/// What may be the reason of a divergence, and what to do.
+pub(super) fn hint(equation: &Equation, factor: f64) -> String {
+    if equation.is_monotone() {
+        format!("the factor {factor:.4} is too great for this equation")
+    } else {
+        "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
+         epsilon"
+            .into()
+    }
+}
+
 /// The direction in which each free cell's value rises towards that of obstacles, by central differences; 0 where values
 /// around it are level.
-fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
+pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();
     let at = |cell: usize| {
         if domain.kinds()[cell] != Cell::Free {
@@ -228,7 +260,7 @@ impl<'a> Engine<'a> {
         watch: &'a mut dyn FnMut(Watched),
     ) -> Self {
         let limit = domain.kinds().len() as u32;
-        let unknowns: Vec<u32> = (0..limit).filter(|&cell| domain.is_sought(cell as usize)).collect();
+        let unknowns = unknowns(domain);
         let around = unknowns.iter().map(|&cell| {
             domain.neighbors(cell as usize).map(|neighbor| match neighbor {
                 Neighbor::Cell(next) => next as u32,
@@ -339,14 +371,7 @@ impl<'a> Engine<'a> {
         };
         let Some(&cell) = self.unknowns.iter().find(lost) else { return Ok(()) };
         let (cell, columns) = (cell as usize, self.domain.cells()[1]);
-        let factor = self.relaxation.factor(self.domain.cells());
-        let hint = if !self.equation.is_monotone() {
-            "central differences are monotone only for an |epsilon| of less than 2 a cell: take upwind ones, or a smaller \
-             epsilon"
-                .into()
-        } else {
-            format!("the factor {factor:.4} is too great for this equation")
-        };
+        let hint = hint(self.equation, self.relaxation.factor(self.domain.cells()));
         Err(RelaxError::Diverged { sweeps, cell: [cell / columns, cell % columns], value: self.values[cell], hint })
     }
 }

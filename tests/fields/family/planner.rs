@@ -2,7 +2,9 @@
 
 use crate::common::{placed, rr};
 use cplan::cspace::{Grid, Proves, ZonedGrid};
-use cplan::field::{Attraction, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion};
+use cplan::field::{
+    Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion,
+};
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{
@@ -34,7 +36,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
 }
 
 fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {
-    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-12, max_sweeps: 20_000 };
+    let field = FieldChoice::Relaxed { equation, relaxation, tolerance: 1e-12, max_sweeps: 20_000, on: Device::Cpu };
     FieldPlanner { field, limits: Limits::High, path: PathKind::Own }
 }
 
@@ -169,8 +171,13 @@ fn a_field_that_is_not_finished_says_so() {
     let zoned = ZonedGrid::new(drawn(&"..........\n".repeat(10)), &scene(Vec::new()));
     let hasty = |max_sweeps| {
         let relaxation = Relaxation::JACOBI;
-        let field =
-            FieldChoice::Relaxed { equation: EquationChoice::Harmonic, relaxation, tolerance: 1e-9, max_sweeps };
+        let field = FieldChoice::Relaxed {
+            equation: EquationChoice::Harmonic,
+            relaxation,
+            tolerance: 1e-9,
+            max_sweeps,
+            on: Device::Cpu,
+        };
         FieldPlanner { field, limits: Limits::High, path: PathKind::Own }
     };
     // After three sweeps nobody ten cells away has heard of the goal.

@@ -170,6 +170,18 @@ fn a_program_without_mcap_says_so_before_any_work() {
     assert!(!place.path("a.json").exists());
 }
 
+#[cfg(not(feature = "gpu"))]
+#[test]
+fn a_program_without_gpu_says_so_before_any_work() {
+    let place = Place::new();
+    let done = place.run(&shelf(), "--output a.json --planner harmonic --on gpu");
+    done.refused(1, &["--on gpu", "built without GPU", "--features gpu"]);
+    assert!(!place.path("a.json").exists());
+    // What contradicts itself is a wrong command line, with or without it.
+    let done = place.run(&shelf(), "--planner harmonic --on gpu --relaxation sor --order rows");
+    done.refused(2, &["--on gpu", "red-black"]);
+}
+
 #[test]
 fn readers_that_go_away_are_no_error() {
     let place = Place::new();

@@ -1,0 +1,137 @@
+//! Relaxing on a GPU: the equations as weights a cell, stage after stage.
+
+use super::stencil::Weighted;
+use super::sweeps::{hint, normalized_gradient, refusal, strengths, unknowns};
+use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
+use super::{Relaxed, Scheme, Stopping};
+use cplan_gpu::{Edge, Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
+use std::sync::OnceLock;
+
+/// The GPU of this process, opened when it is asked for first.
+///
+/// # Errors
+/// Why there is none, with the cure.
+pub(super) fn shared() -> Result<&'static Gpu, String> {
+    static GPU: OnceLock<Result<Gpu, String>> = OnceLock::new();
+    GPU.get_or_init(|| Gpu::open().map_err(|error| error.to_string())).as_ref().map_err(Clone::clone)
+}
+
+/// As [`super::relax`].
+pub(super) fn relax(
+    domain: &Domain,
+    equation: &Equation,
+    relaxation: &Relaxation,
+    stopping: &Stopping,
+) -> Result<Relaxed, RelaxError> {
+    if let Some(refusal) = refusal(domain, equation, relaxation) {
+        return Err(refusal);
+    }
+    let sweep = match relaxation.scheme {
+        Scheme::Simultaneous { .. } => Sweep::Jacobi,
+        Scheme::Successive { order: Order::RedBlack, .. } => Sweep::RedBlack,
+        Scheme::Successive { order, .. } => {
+            let reason = format!("on a GPU cells go red-black, or all at once; the order {order} is for the CPU");
+            return Err(RelaxError::Refused(reason));
+        }
+    };
+    let settings = Settings {
+        sweep,
+        factor: relaxation.factor(domain.cells()),
+        clamp: relaxation.clamp,
+        measure: match stopping.measure {
+            Measure::SumOfChange => cplan_gpu::Measure::Sum,
+            Measure::SumOfSquares => cplan_gpu::Measure::Squares,
+            Measure::DifferenceOfSums => cplan_gpu::Measure::DifferenceOfSums,
+            Measure::GreatestChange => cplan_gpu::Measure::Greatest,
+            Measure::GreatestRelativeChange => cplan_gpu::Measure::Relative,
+        },
+        below: stopping.below,
+        max_sweeps: u32::try_from(stopping.max_sweeps).unwrap_or(u32::MAX),
+    };
+    let gpu = shared().map_err(RelaxError::Refused)?;
+    let unknowns = unknowns(domain);
+    let mut field = Field { gpu, domain, equation, settings, unknowns, values: domain.start(), stages: Vec::new() };
+    match equation {
+        Equation::Harmonic => field.harmonic()?,
+        Equation::Oriented { direction, epsilon, difference } => {
+            let drift = direction.drift(*epsilon);
+            field.linear(|_| drift, *difference)?;
+        }
+        Equation::LocallyOriented { drift, difference } => field.linear(|cell| drift[cell], *difference)?,
+        Equation::Preference { epsilon, difference } => {
+            field.harmonic()?;
+            let direction = normalized_gradient(domain, &field.values);
+            field.linear(|cell| direction[cell].map(|v| epsilon[cell] * v), *difference)?;
+        }
+        Equation::AlteredPreference { epsilon } => {
+            field.harmonic()?;
+            field.stage(Stencil::Altered(strengths(domain, epsilon)))?;
+        }
+    }
+    Ok(Relaxed { values: field.values, stages: field.stages })
+}
+
+/// A field under way.
+struct Field<'a> {
+    gpu: &'a Gpu,
+    domain: &'a Domain,
+    equation: &'a Equation,
+    settings: Settings,
+    unknowns: Vec<u32>,
+    values: Vec<f64>,
+    stages: Vec<Convergence>,
+}
+
+impl Field<'_> {
+    fn harmonic(&mut self) -> Result<(), RelaxError> {
+        self.linear(|_| [0.0; 2], Difference::Central)
+    }
+
+    fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
+        let weighted = Weighted::new(self.domain, &self.unknowns, drift, difference);
+        // Where all are alike the GPU need not be told cell by cell.
+        let stencil = if (0..self.unknowns.len()).all(|k| weighted.at(k) == [0.25; 4]) {
+            Stencil::Mean
+        } else {
+            let mut weights = vec![[0.0; 4]; self.values.len()];
+            for (k, &cell) in self.unknowns.iter().enumerate() {
+                weights[cell as usize] = weighted.at(k);
+            }
+            Stencil::Weights(weights)
+        };
+        self.stage(stencil)
+    }
+
+    fn stage(&mut self, stencil: Stencil) -> Result<(), RelaxError> {
+        let Self { domain, gpu, .. } = *self;
+        let mut unknown = vec![false; self.values.len()];
+        self.unknowns.iter().for_each(|&cell| unknown[cell as usize] = true);
+        let edges = domain.boundaries().map(|boundary| match boundary {
+            Boundary::Periodic => Edge::Circle,
+            Boundary::High => Edge::Wall,
+            Boundary::Reflecting => Edge::Mirror,
+        });
+        let values = std::mem::take(&mut self.values);
+        let problem = Problem::new(domain.cells(), edges, domain.levels().obstacle, values, unknown, stencil);
+        let relaxed = problem.and_then(|problem| gpu.relax(&problem, &self.settings)).map_err(|e| self.error(e))?;
+        let sweeps = relaxed.sweeps as usize;
+        let converged = relaxed.ending == Ending::Converged;
+        self.stages.push(Convergence { sweeps, change: relaxed.change, converged });
+        self.values = relaxed.values;
+        // What is fixed keeps all its digits.
+        for (value, &kind) in self.values.iter_mut().zip(domain.kinds()).filter(|(_, kind)| **kind != Cell::Free) {
+            *value = domain.fixed(kind).unwrap_or(*value);
+        }
+        Ok(())
+    }
+
+    fn error(&self, error: GpuError) -> RelaxError {
+        match error {
+            GpuError::Diverged { sweeps, cell, value } => {
+                let hint = hint(self.equation, self.settings.factor);
+                RelaxError::Diverged { sweeps: sweeps as usize, cell, value, hint }
+            }
+            error => RelaxError::Refused(error.to_string()),
+        }
+    }
+}
