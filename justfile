@@ -23,6 +23,10 @@ browser:
 fuzz:
     .ci/fuzz
 
+# Relaxation on a GPU, or a driver in software
+gpu:
+    .ci/gpu
+
 # Licences, bans and duplicates of dependencies (needs cargo-deny)
 deny:
     cargo deny --locked check

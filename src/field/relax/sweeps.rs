@@ -192,9 +192,7 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
 
 /// The free cells that have neighbours, rising. A cell that has no neighbour but itself keeps its value.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
-    let alone = |cell: usize| domain.neighbors(cell) == [Neighbor::Mirror; 4];
-    let unknown = |cell: usize| domain.kinds()[cell] == Cell::Free && !alone(cell);
-    (0..domain.kinds().len()).filter(|&cell| unknown(cell)).map(|cell| cell as u32).collect()
+    (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
 }
 
 /// `epsilon / 4` of altered preferences, with the sign that the levels ask for; one a cell.
