@@ -8,7 +8,7 @@ use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
-use crate::input::{self, Explorable};
+use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
 use crate::output::{Line, contours, laid_out, title_of};
@@ -51,6 +51,9 @@ pub struct ExploreArgs {
     /// The world is known within this distance of the arm at first, metres; by default two cells of the map.
     #[arg(long, value_name = "METRES", value_parser = super::field_args::positive)]
     pub surveyed: Option<f64>,
+    /// What is known already: the map (FILE.yaml) that an earlier exploration of this world wrote with --map.
+    #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath)]
+    pub known: Option<PathBuf>,
     /// At most so many decisions.
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub decisions: u32,
@@ -111,16 +114,17 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
     sinks::distinct(files())?;
     let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&args.query.overrides())?;
-    sinks::spare_inputs(files())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    let settings = args.settings(world.goals.is_some())?;
+    let known = args.known.as_deref().map(OccupancyMap::read).transpose()?;
+    sinks::spare_inputs(files())?;
+    let settings = Settings { known, ..args.settings(world.goals.is_some())? };
     let mut say = |text: &str| {
         if !args.quiet {
             sinks::say(&format!("{text} ..."));
         }
     };
     let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
-        .map_err(|error| refused(&error, &args.files.world))?;
+        .map_err(|error| args.refused(&error))?;
     let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
     let json = || done.to_json(joints.each_ref().map(String::as_str), &world.sensor, args.timings).to_string() + "\n";
     let mut files = Vec::new();
@@ -165,6 +169,18 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
 }
 
 impl ExploreArgs {
+    /// Why there is no exploration, with what to do about it.
+    fn refused(&self, error: &ExploreError) -> Failure {
+        let (file, cure) = match error {
+            ExploreError::Map(_) => (&self.files.world, "give its [sensor] a larger cell, or joint 1 narrower limits"),
+            ExploreError::NoGoal => (&self.files.world, "give it a [goal], or explore with --strategy view"),
+            ExploreError::Known(_) => {
+                (self.known.as_ref().unwrap_or(&self.files.world), "take the map that was written of this world, arm and sensor")
+            }
+        };
+        Failure::Option(format!("{}: {error}\n  cure: {cure}", file.display()))
+    }
+
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
         let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
@@ -181,15 +197,6 @@ impl ExploreArgs {
             options: Options { planner, levels: self.options.levels(), ..usual.options },
         })
     }
-}
-
-/// Why there is no exploration, with what to do about it.
-fn refused(error: &ExploreError, world: &Path) -> Failure {
-    let cure = match error {
-        ExploreError::Map(_) => "give its [sensor] a larger cell, or joint 1 narrower limits",
-        ExploreError::NoGoal => "give it a [goal], or explore with --strategy nearest",
-    };
-    Failure::Option(format!("{}: {error}\n  cure: {cure}", world.display()))
 }
 
 /// Whether an exploration can be written so.

@@ -25,7 +25,7 @@ const AT_GOAL: f64 = 1e-9;
 /// shortest-path search over the grid of configurations, and certificates; with a goal, a plan.
 ///
 /// # Errors
-/// A map of too many cells, a strategy without its goal.
+/// A map of too many cells, one that is known already but not of this world, a strategy without its goal.
 pub fn explore(
     scene: &Scene,
     sensor: &Sensor,
@@ -39,8 +39,12 @@ pub fn explore(
     }
     let (arm, clearance) = (scene.arm(), scene.workspace().clearance);
     let mut survey = Survey::new(scene, sensor.cell).ok_or(ExploreError::Map(sensor.cell))?;
+    if let Some(known) = &settings.known {
+        survey.recall(known).map_err(ExploreError::Known)?;
+    }
     let margin = settings.surveyed.unwrap_or(2.0 * sensor.cell) + clearance;
-    let surroundings = survey.survey_about(arm, start, margin);
+    let mut surroundings: Vec<usize> = (0..survey.map().cells.len()).filter(|&cell| !survey.is_unknown(cell)).collect();
+    surroundings.extend(survey.survey_about(arm, start, margin));
     let frontier = Frontier::new(settings.cells[0] * settings.cells[1], &survey, sensor);
     let known = Known::new(&survey, arm, settings.cells, clearance);
     let free = (0..known.grid.blocked.len()).filter(|&cell| !known.grid.blocked[cell]).collect();

@@ -68,7 +68,7 @@ pub struct Exploration {
     pub ending: Ending,
     /// The map in the end.
     pub survey: Survey,
-    /// What the arm stood among at first, which is no reading: cells of the map.
+    /// What was known at first, without a reading: cells of the map that the arm stood among, or that were known already.
     pub surroundings: Vec<usize>,
     /// All readings, in order.
     pub readings: Vec<Reading>,

@@ -2,6 +2,7 @@
 
 use super::survey::MOST_CELLS;
 use crate::engine::Options;
+use crate::input::OccupancyMap;
 use crate::motion::Drive;
 use serde::Serialize;
 use thiserror::Error;
@@ -32,6 +33,8 @@ pub struct Settings {
     pub cells: [usize; 2],
     /// Distance about the arm, at first, in which the world is known, metres; none for two cells of the map.
     pub surveyed: Option<f64>,
+    /// What is known already: the map of an earlier exploration of the same world.
+    pub known: Option<OccupancyMap>,
     /// Decisions at the most.
     pub decisions: usize,
     /// The planner of [`Strategy::Goal`], and how motions are driven.
@@ -44,7 +47,7 @@ impl Default for Settings {
         // A corner is stopped at: there the arm looks around.
         let drive = Drive { blend: 0.0, ..options.drive };
         let options = Options { drive, bounded: false, ..options };
-        Self { strategy: Strategy::default(), cells: [96, 96], surveyed: None, decisions: 10_000, options }
+        Self { strategy: Strategy::default(), cells: [96, 96], surveyed: None, known: None, decisions: 10_000, options }
     }
 }
 
@@ -54,6 +57,9 @@ pub enum ExploreError {
     /// The map would be too large.
     #[error("a map of cells of {0} m would have more than {MOST_CELLS} of them")]
     Map(f64),
+    /// What is said to be known already is not of this world.
+    #[error("the map that is known already {0}")]
+    Known(String),
     /// There is no goal to go to.
     #[error("the strategy \"goal\" has no goal to go to")]
     NoGoal,

@@ -65,6 +65,38 @@ impl Survey {
         Some(survey)
     }
 
+    /// Takes over what an earlier exploration knew.
+    ///
+    /// # Errors
+    /// A map of other cells, or of another world: what is wrong with it, in words.
+    pub fn recall(&mut self, map: &OccupancyMap) -> Result<(), String> {
+        let own = &self.known;
+        if (map.size, map.resolution, map.pose) != (own.size, own.resolution, own.pose) {
+            let [width, height] = own.size;
+            let at = self.origin();
+            return Err(format!(
+                "has other cells than the {width} x {height} of {} m from ({}, {}) that the arm and its sensor ask for",
+                own.resolution, at.x, at.y
+            ));
+        }
+        for (cell, &label) in map.cells.iter().enumerate() {
+            let is_wrong = match label {
+                Occupancy::Free => self.truth[cell],
+                Occupancy::Occupied => !self.truth[cell],
+                Occupancy::Unknown => false,
+            };
+            if is_wrong {
+                let [width, height] = map.size;
+                let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
+                let at = map.pose * Point::new(x, y);
+                let (said, is) = if self.truth[cell] { ("free", "something") } else { ("occupied", "nothing") };
+                return Err(format!("says that it is {said} about ({:.4}, {:.4}), where there is {is}", at.x, at.y));
+            }
+        }
+        self.known.cells.clone_from(&map.cells);
+        Ok(())
+    }
+
     /// What is known.
     #[must_use]
     pub fn map(&self) -> &OccupancyMap {

@@ -60,8 +60,10 @@ fn tabled(page: &Page) -> (usize, Vec<String>) {
         // What is code stands between every other pair of backquotes.
         let parts: Vec<&str> = if is_in_table { text.split('`').collect() } else { Vec::new() };
         for (code, after) in parts.iter().zip(&parts[parts.len().min(1)..]).skip(1).step_by(2) {
-            let fault = if let Some(name) = code.strip_prefix("cargo run --example ") {
-                let examples = root().join("examples");
+            let example = code.strip_prefix("cargo run ").and_then(|options| options.split_once("--example "));
+            let fault = if let Some((package, name)) = example {
+                let package = package.trim().strip_prefix("-p cplan-").map(|name| format!("crates/{name}"));
+                let examples = root().join(package.unwrap_or_default()).join("examples");
                 let is_there = |file: String| examples.join(file).exists();
                 let is_example = is_there(format!("{name}.rs")) || is_there(format!("{name}/main.rs"));
                 (!is_example).then(|| "there is no such example".to_owned())
