@@ -193,6 +193,7 @@ impl ExploreArgs {
             strategy,
             cells: self.grid.0,
             surveyed: self.surveyed,
+            known: self.known.as_deref().map(OccupancyMap::read).transpose()?,
             decisions: self.decisions as usize,
             options: Options { planner, levels: self.options.levels(), ..usual.options },
         })
