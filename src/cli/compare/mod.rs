@@ -106,7 +106,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         Entry { label: method.to_string(), options: options(args, planner, args.effort.levels()) }
     });
     let plain: Vec<Entry> = plain.collect();
-    if let Some(missing) = args.with.iter().find_map(Variant::missing) {
+    if let Some(missing) = args.with.iter().find_map(super::variant::Variant::missing) {
         return Err(Failure::Option(missing));
     }
     let of = |case: &Case| {
