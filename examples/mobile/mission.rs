@@ -8,7 +8,7 @@ use super::robot::Robot;
 use super::{START, TARGETS, fields, in_the_way};
 use cplan::engine::{CellCounts, Method, Planner};
 use cplan::explore::{self, Exploration, Settings, explore};
-use cplan::field::{Attraction, Difference, Direction, Khatib, Limits, Order, Relaxation, Repulsion, Scan};
+use cplan::field::{Attraction, Device, Difference, Direction, Khatib, Limits, Order, Relaxation, Repulsion, Scan};
 use cplan::model::{Mount, Scene, Sensor};
 use cplan::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use cplan::{Configuration, Obstacle, Options, Point};
@@ -101,6 +101,7 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     let khatib = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(1.0), saturated: false };
     let direction = Direction::of([0.0, 1.0]).expect("a direction");
     let oriented = FieldChoice::Relaxed {
+        on: Device::Cpu,
         equation: EquationChoice::Oriented { direction, epsilon: 0.5, difference: Difference::Upwind },
         relaxation: Relaxation::gauss_seidel(Order::Lines(Scan::ROWS)),
         tolerance: 1e-6,

@@ -174,9 +174,10 @@ impl ExploreArgs {
         let (file, cure) = match error {
             ExploreError::Map(_) => (&self.files.world, "give its [sensor] a larger cell, or joint 1 narrower limits"),
             ExploreError::NoGoal => (&self.files.world, "give it a [goal], or explore with --strategy view"),
-            ExploreError::Known(_) => {
-                (self.known.as_ref().unwrap_or(&self.files.world), "take the map that was written of this world, arm and sensor")
-            }
+            ExploreError::Known(_) => (
+                self.known.as_ref().unwrap_or(&self.files.world),
+                "take the map that was written of this world, arm and sensor",
+            ),
         };
         Failure::Option(format!("{}: {error}\n  cure: {cure}", file.display()))
     }
