@@ -168,7 +168,7 @@ impl Explorer<'_> {
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
         self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
         self.frontier.update(&self.survey);
-        if fresh.iter().any(|&cell| self.survey.is_free(cell)) {
+        if !fresh.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);
         }
     }

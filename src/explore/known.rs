@@ -8,7 +8,7 @@ use crate::model::Arm;
 
 /// A grid of configurations, blocked where the arm meets a cell of the map that is not known to be free.
 ///
-/// Each blocked configuration has such a cell as its witness and is looked at again only when that is found to be free, so that
+/// Each blocked configuration has such a cell as its witness and is looked at again only when something new is known of that, so that
 /// all the updates of an exploration together cost a few looks a configuration.
 #[derive(Debug)]
 pub struct Known {
@@ -35,12 +35,11 @@ impl Known {
 
     /// Takes note of cells of the map that are known anew. The configurations that are free for the first time, in ascending order.
     pub fn update(&mut self, survey: &Survey, arm: &Arm, new: &[usize]) -> Vec<usize> {
-        let freed = new.iter().filter(|&&cell| survey.is_free(cell));
-        let waiting: Vec<u32> = freed.flat_map(|&cell| std::mem::take(&mut self.waiting[cell])).collect();
-        // A step may be free where less is solid.
-        if !waiting.is_empty() {
+        // A step may be free where less is solid, and what is seen to be there may be lower than was feared.
+        if !new.is_empty() {
             self.closed.clear();
         }
+        let waiting: Vec<u32> = new.iter().flat_map(|&cell| std::mem::take(&mut self.waiting[cell])).collect();
         self.look_at(survey, arm, waiting)
     }
 

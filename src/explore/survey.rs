@@ -22,8 +22,8 @@ pub struct Survey {
     known: OccupancyMap,
     /// What is between the lowest obstacle's floor and the highest one's top; what is above or below is free, as everybody knows.
     heights: Heights,
-    /// Whether anything is in a cell.
-    truth: Vec<bool>,
+    /// From the lowest floor to the highest top of what is in a cell, if anything is: known as soon as the cell is.
+    truth: Vec<Option<Heights>>,
 }
 
 /// A cell that a ray crosses.
@@ -38,10 +38,7 @@ impl Survey {
     #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
         let obstacles = &scene.workspace().obstacles;
-        let heights = obstacles
-            .iter()
-            .map(|obstacle| obstacle.heights)
-            .reduce(|all, one| Heights { lower: all.lower.min(one.lower), upper: all.upper.max(one.upper) });
+        let heights = obstacles.iter().map(|obstacle| obstacle.heights).reduce(Heights::and);
         let heights = heights.unwrap_or(Heights::ALL);
         let [low, high] = extent(scene, heights);
         let size = [0, 1].map(|k| ((high[k] - low[k]) / cell + 2.0 * MARGIN).ceil());
@@ -58,10 +55,15 @@ impl Survey {
             pose: Isometry2::new(Vector2::from(origin), 0.0),
             cells: vec![Occupancy::Unknown; size[0] * size[1]],
         };
-        let mut survey = Self { truth: vec![false; known.cells.len()], heights, known };
-        let pieces = obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
-        let occupied: Vec<usize> = pieces.flat_map(|piece| survey.touched(piece, 0.0, |_| true)).collect();
-        occupied.into_iter().for_each(|cell| survey.truth[cell] = true);
+        let mut survey = Self { truth: vec![None; known.cells.len()], heights, known };
+        for obstacle in obstacles {
+            for cell in
+                obstacle.pieces.iter().flat_map(|piece| survey.touched(piece, 0.0, |_| true)).collect::<Vec<_>>()
+            {
+                let own = obstacle.heights;
+                survey.truth[cell] = Some(survey.truth[cell].map_or(own, |others| others.and(own)));
+            }
+        }
         Some(survey)
     }
 
@@ -81,15 +83,16 @@ impl Survey {
         }
         for (cell, &label) in map.cells.iter().enumerate() {
             let is_wrong = match label {
-                Occupancy::Free => self.truth[cell],
-                Occupancy::Occupied => !self.truth[cell],
+                Occupancy::Free => self.truth[cell].is_some(),
+                Occupancy::Occupied => self.truth[cell].is_none(),
                 Occupancy::Unknown => false,
             };
             if is_wrong {
                 let [width, height] = map.size;
                 let [x, y] = [cell % width, height - 1 - cell / width].map(|k| (k as f64 + 0.5) * map.resolution);
                 let at = map.pose * Point::new(x, y);
-                let (said, is) = if self.truth[cell] { ("free", "something") } else { ("occupied", "nothing") };
+                let (said, is) =
+                    if self.truth[cell].is_some() { ("free", "something") } else { ("occupied", "nothing") };
                 return Err(format!("says that it is {said} about ({:.4}, {:.4}), where there is {is}", at.x, at.y));
             }
         }
@@ -154,17 +157,19 @@ impl Survey {
         Convex::trusted(vec![at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)], 0.0)
     }
 
-    /// The shapes of the arm at `q` that are as high as the obstacles.
-    fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = Convex> {
+    /// The shapes of the arm at `q` that are as high as any obstacle, with their heights.
+    fn parts(&self, arm: &Arm, q: Configuration) -> impl Iterator<Item = (Convex, Heights)> {
         let poses = arm.poses(q);
         let parts = (0..2).flat_map(|link| arm.links[link].parts.iter().map(move |part| (link, part)));
-        parts.filter(|(_, part)| part.heights.meet(self.heights)).map(move |(link, part)| part.shape.at(&poses[link]))
+        let high = parts.filter(|(_, part)| part.heights.meet(self.heights));
+        high.map(move |(link, part)| (part.shape.at(&poses[link]), part.heights))
     }
 
-    /// The cells that the arm meets at `q`, grown by a margin; in ascending order.
+    /// The cells that the arm meets at `q`, grown by a margin, whatever is in them; in ascending order.
     fn under(&self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
+        let parts = self.parts(arm, q);
         let mut cells: Vec<usize> =
-            self.parts(arm, q).flat_map(|part| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
+            parts.flat_map(|(part, _)| self.touched(&part, margin, |_| true).collect::<Vec<_>>()).collect();
         cells.sort_unstable();
         cells.dedup();
         cells
@@ -173,8 +178,20 @@ impl Survey {
     /// A cell that is not known to be free and that the arm meets at `q`, grown by a margin; none if all are known to be.
     #[must_use]
     pub fn obstruction(&self, arm: &Arm, q: Configuration, margin: f64) -> Option<usize> {
-        let is_solid = |cell: usize| self.known.cells[cell] != Occupancy::Free;
-        self.parts(arm, q).find_map(|part| self.touched(&part, margin, is_solid).next())
+        self.parts(arm, q).find_map(|(part, heights)| {
+            let is_solid = |cell: usize| self.solid(cell).is_some_and(|solid| solid.meet(heights));
+            self.touched(&part, margin, is_solid).next()
+        })
+    }
+
+    /// The heights at which a cell is not known to be free. What is unknown is as high as anything in the world; of what was seen it is
+    /// known how high it is.
+    fn solid(&self, cell: usize) -> Option<Heights> {
+        match self.known.cells[cell] {
+            Occupancy::Free => None,
+            Occupancy::Occupied => self.truth[cell],
+            Occupancy::Unknown => Some(self.heights),
+        }
     }
 
     /// The cells that a ray crosses as far as the sensor sees, those whole that it leaves before that, in order.
@@ -253,12 +270,6 @@ impl Survey {
         cells
     }
 
-    /// Whether a cell is known to be free.
-    #[must_use]
-    pub fn is_free(&self, cell: usize) -> bool {
-        self.known.cells[cell] == Occupancy::Free
-    }
-
     /// Whether nothing is known of a cell.
     #[must_use]
     pub fn is_unknown(&self, cell: usize) -> bool {
@@ -313,7 +324,7 @@ impl Survey {
         for angle in sensor.rays(ahead) {
             let crossings: Vec<Crossing> = self.crossings(from, angle, sensor.range).collect();
             let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
-            let hit = crossings.iter().position(|crossing| self.truth[crossing.cell]);
+            let hit = crossings.iter().position(|crossing| self.truth[crossing.cell].is_some());
             let told = hit.map(|hit| crossings[hit].enters + error);
             // The first cell that the ray may have ended at, and whether no other is.
             let (first, is_sole) = match (hit, told) {
@@ -342,7 +353,7 @@ impl Survey {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));
         for &cell in &new {
-            self.known.cells[cell] = if self.truth[cell] { Occupancy::Occupied } else { Occupancy::Free };
+            self.known.cells[cell] = if self.truth[cell].is_some() { Occupancy::Occupied } else { Occupancy::Free };
         }
         new
     }
@@ -350,10 +361,23 @@ impl Survey {
     /// The arm among all that is not known to be free; or, with `unknown_is_free`, among what is known to be there.
     #[must_use]
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
-        let name = if unknown_is_free { "seen" } else { "not seen to be free" };
-        let pieces = self.known.pieces(unknown_is_free, usize::MAX).unwrap_or_default();
-        let solid = Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights: self.heights };
-        let obstacles = if solid.pieces.is_empty() { Vec::new() } else { vec![solid] };
+        let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
+        let mut layers: Vec<Heights> = Vec::new();
+        for heights in seen.filter_map(|(_, heights)| *heights) {
+            if !layers.contains(&heights) {
+                layers.push(heights);
+            }
+        }
+        let obstacle = |name: &str, heights: Heights, is_among: &dyn Fn(usize) -> bool| {
+            let pieces = self.known.rectangles_of(is_among, usize::MAX).unwrap_or_default();
+            Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights }
+        };
+        let is_seen = |cell: usize| self.known.cells[cell] == Occupancy::Occupied;
+        let unknown = obstacle("unknown", self.heights, &|cell| !unknown_is_free && self.is_unknown(cell));
+        let seen = layers
+            .iter()
+            .map(|&layer| obstacle("seen", layer, &|cell| is_seen(cell) && self.truth[cell] == Some(layer)));
+        let obstacles = std::iter::once(unknown).chain(seen).filter(|obstacle| !obstacle.pieces.is_empty()).collect();
         let workspace = Workspace { name: String::new(), obstacles, clearance, preferences: Vec::new() };
         Scene::trusted(arm.clone(), workspace)
     }

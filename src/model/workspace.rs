@@ -20,6 +20,12 @@ impl Heights {
     /// The extent that holds all heights.
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
+    /// From the lower of two floors to the higher of two tops.
+    #[must_use]
+    pub fn and(self, other: Heights) -> Heights {
+        Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
+    }
+
     /// Whether the two extents share a height; touching counts.
     #[must_use]
     pub fn meet(self, other: Heights) -> bool {

@@ -105,12 +105,17 @@ impl OccupancyMap {
     /// same points.
     #[must_use]
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
-        let [width, height] = self.size;
-        let solid = |x: usize, y: usize| match self.cells[y * width + x] {
+        let is_solid = |cell: usize| match self.cells[cell] {
             Occupancy::Free => false,
             Occupancy::Occupied => true,
             Occupancy::Unknown => !unknown_is_free,
         };
+        self.rectangles_of(is_solid, most)
+    }
+
+    /// Some cells as rectangles with disjoint interiors, as [`OccupancyMap::pieces`].
+    pub(crate) fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
+        let [width, height] = self.size;
         let corner = |x: usize, y: usize| {
             self.pose * Point::new(x as f64 * self.resolution, (height - y) as f64 * self.resolution)
         };
@@ -121,7 +126,7 @@ impl OccupancyMap {
                 0.0,
             )
         };
-        Some(rectangles(self.size, solid, most)?.iter().map(piece).collect())
+        Some(rectangles(self.size, |x, y| is_among(y * width + x), most)?.iter().map(piece).collect())
     }
 }
 
