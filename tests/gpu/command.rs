@@ -18,7 +18,7 @@ fn cplan(world: &str, options: &str) -> Command {
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
 fn fields_of_a_gpu_are_followed_and_certified() {
-    let options = "--planner harmonic --cells 64 --relaxation sor --tolerance 1e-4";
+    let options = "--planner harmonic --cells 64 --relaxation gauss-seidel --tolerance 1e-4";
     let run = |on: &str| -> Value {
         let done = cplan("shelf", &format!("{options} {on} --json")).output().unwrap();
         assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
