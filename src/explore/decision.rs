@@ -11,7 +11,7 @@ use crate::field::{Component, Lattice, harmonic};
 use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
-use crate::space::{Configuration, GoalSet, Metric, Path, Segment};
+use crate::space::{Configuration, GoalSet, Path, Segment};
 use std::collections::BTreeSet;
 
 /// Places ahead on an optimistic path whose unknown cells are looked for.
@@ -53,7 +53,11 @@ impl Explorer<'_> {
         loop {
             checkpoint();
             let (reach, target) = match self.settings.strategy {
-                Strategy::View => self.best_view(joined),
+                Strategy::View => {
+                    let reach = self.reach(joined);
+                    let best = self.best_view(&reach);
+                    (reach, best.map(Target::Cell))
+                }
                 Strategy::Harmonic => self.whole_frontier(joined),
                 Strategy::Nearest | Strategy::Goal => self.nearest(joined),
             };
@@ -122,8 +126,7 @@ impl Explorer<'_> {
     }
 
     /// The one of most [`worth`]. What was counted before is a bound: only those that may be best are counted anew.
-    fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
-        let reach = self.reach(joined);
+    fn best_view(&mut self, reach: &Reach) -> Option<usize> {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let mut open = OpenList::default();
         for &cell in reach.cells.iter().filter(|&&cell| frontier.most(cell) > 0) {
@@ -133,7 +136,7 @@ impl Explorer<'_> {
         while let Some((_, (cell, is_counted))) = open.pop() {
             checkpoint();
             if is_counted {
-                best = Some(Target::Cell(cell));
+                best = Some(cell);
                 break;
             }
             let seen = frontier.gain(survey, sensor, scene.arm(), &known.grid, cell);
@@ -141,7 +144,7 @@ impl Explorer<'_> {
                 open.push(-worth(seen, reach.cost(cell), sensor.step), (cell, true));
             }
         }
-        (reach, best)
+        best
     }
 
     /// Along the planner's way through what may be free, as far as it is known to be.
@@ -185,8 +188,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to where anything new can be seen,
-    /// for the way there and on to the goal; if that is nowhere, to the goal within what is known.
+    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to the one of most [`worth`]; if there is none,
+    /// to the goal within what is known.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &[usize]) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
@@ -194,29 +197,27 @@ impl Explorer<'_> {
         }
         loop {
             checkpoint();
-            let Self { survey, sensor, scene, known, frontier, .. } = self;
-            let (arm, grid) = (scene.arm(), &known.grid);
-            let mut showing = None;
-            let reach = Reach::new(grid, &known.closed, self.at, &joined, |cell| {
-                let shows = !in_the_way.is_empty()
-                    && frontier.contains(survey, sensor, arm, grid, cell)
-                    && survey.shows_any(sensor, arm, grid.center(cell), in_the_way);
-                showing = shows.then_some(cell);
-                shows
-            });
-            let on = |cell: usize| goals.distance(&grid.topology, Metric::Euclidean, grid.center(cell));
-            let mut best: Option<(f64, usize)> = None;
-            for &cell in reach.cells.iter().filter(|_| showing.is_none()) {
-                let total = reach.cost(cell) + on(cell);
-                if best.is_none_or(|(least, _)| total < least) && frontier.contains(survey, sensor, arm, grid, cell) {
-                    best = Some((total, cell));
-                }
-            }
-            let Some(target) = showing.or(best.map(|best| best.1)) else { return self.within_known(goals) };
+            let (reach, showing) = self.showing(&joined, in_the_way);
+            let Some(target) = showing.or_else(|| self.best_view(&reach)) else { return self.within_known(goals) };
             if let Some(decision) = self.along(&reach, &reach.way(target)) {
                 return decision;
             }
         }
+    }
+
+    /// The nearest configuration from which any of some cells of the map can be seen.
+    fn showing(&mut self, joined: &[usize], cells: &[usize]) -> (Reach, Option<usize>) {
+        let Self { survey, sensor, scene, known, frontier, .. } = self;
+        let (arm, grid) = (scene.arm(), &known.grid);
+        let mut showing = None;
+        let reach = Reach::new(grid, &known.closed, self.at, joined, |cell| {
+            let shows = !cells.is_empty()
+                && frontier.contains(survey, sensor, arm, grid, cell)
+                && survey.shows_any(sensor, arm, grid.center(cell), cells);
+            showing = shows.then_some(cell);
+            shows
+        });
+        (reach, showing)
     }
 
     /// To the goal where nothing new can be seen.

@@ -12,7 +12,7 @@ use thiserror::Error;
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
     /// To the goal, by the optimistic path: the one that the options' planner finds where what is unknown counts as free. As far as that is
-    /// known to be free; where that shows nothing new, to where something new can be seen, soonest on the way to the goal.
+    /// known to be free; where that shows nothing new, to where what is in its way can be seen, or as [`Strategy::View`].
     #[default]
     Goal,
     /// To a frontier configuration that is near, and shows more than others that are about as near: a next best view (González-Baños,
