@@ -42,7 +42,7 @@ fn the_goal_is_reached_and_what_is_played_is_free() {
 fn rooms_are_explored_and_the_map_is_a_world() {
     let place = Place::new();
     let files = "--map rooms.yaml --picture rooms.html --picture rooms.svg --quiet";
-    for strategy in ["nearest", "harmonic"] {
+    for strategy in ["view", "nearest", "harmonic"] {
         let options = format!("{COARSE} --strategy {strategy} --json");
         let done = explore(&place, &rooms(), &options);
         let result = json(&done.stdout);
@@ -68,6 +68,43 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
 }
 
+/// What is known of a world needs no second look; what is said of another world is not believed.
+#[test]
+fn a_known_map_is_taken_up() {
+    let place = Place::new();
+    let first = explore(&place, &rooms(), &format!("{COARSE} --map rooms.yaml --json"));
+    assert!(json(&first.stdout)["readings"].as_array().unwrap().len() > 50);
+    let again = json(&explore(&place, &rooms(), &format!("{COARSE} --known rooms.yaml --json")).stdout);
+    assert_eq!((&again["status"], again["length"].as_f64()), (&"explored".into(), Some(0.0)), "{again}");
+    assert_eq!(again["map"], json(&first.stdout)["map"]);
+    let onto = explore(&place, &rooms(), &format!("{COARSE} --known rooms.yaml --map rooms.yaml"));
+    onto.refused(1, &["rooms.yaml", "is the input"]);
+    let [robot, world] = rooms();
+    let text = std::fs::read_to_string(&world).unwrap();
+    let one = "[0.65, -0.1], [0.7, -0.1], [0.7, 0.5], [0.65, 0.5]";
+    assert!(text.contains(one));
+    place.write("moved.toml", &text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
+    let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
+    moved.refused(1, &["rooms.yaml", "says that it is occupied about (0.6", "there is nothing", "cure"]);
+    place.write("finer.toml", &text.replace("cell = 0.025", "cell = 0.02"));
+    let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
+    finer.refused(1, &["rooms.yaml", "has other cells"]);
+}
+
+/// All that stands there is lower than the arm, which goes above it with its tool beside.
+#[test]
+fn heights_that_are_known_let_a_scara_pass() {
+    let place = Place::new();
+    let files = [shipped("robots/scara.urdf"), shipped("workspaces/explore/packing_cell.toml")];
+    let done = explore(&place, &files, "--json --output way.csv");
+    let result = json(&done.stdout);
+    assert_eq!((done.code, &result["status"]), (0, &"reached".into()), "{}", done.stderr);
+    let [length, known] = ["length", "known_length"].map(|key| result[key].as_f64().unwrap());
+    assert!(length >= known - 1e-9 && known > 1.0, "{length} {known}");
+    let verified = place.run(&["verify", &files[0], &files[1], "way.csv"], "");
+    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+}
+
 #[test]
 fn what_cannot_be_reached_is_proven() {
     let place = Place::new();
@@ -84,7 +121,7 @@ fn what_cannot_be_reached_is_proven() {
 #[test]
 fn on_a_coarse_grid_it_ends() {
     let place = Place::new();
-    for strategy in ["nearest", "harmonic"] {
+    for strategy in ["view", "nearest", "harmonic"] {
         for grid in ["9", "13x8"] {
             let done = explore(&place, &rooms(), &format!("--grid {grid} --strategy {strategy}"));
             assert!([0, 4].contains(&done.code), "{}{}", done.stdout, done.stderr);
