@@ -115,9 +115,8 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     sinks::distinct(files())?;
     let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&args.query.overrides())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    let known = args.known.as_deref().map(OccupancyMap::read).transpose()?;
     sinks::spare_inputs(files())?;
-    let settings = Settings { known, ..args.settings(world.goals.is_some())? };
+    let settings = args.settings(world.goals.is_some())?;
     let mut say = |text: &str| {
         if !args.quiet {
             sinks::say(&format!("{text} ..."));

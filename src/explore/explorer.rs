@@ -96,7 +96,7 @@ pub fn explore(
         }
     };
     let known_length =
-        goals.filter(|_| ending == Ending::Reached).and_then(|goals| length_if_known(scene, start, goals));
+        goals.filter(|_| ending == Ending::Reached).and_then(|goals| length_if_known(scene, start, goals, settings));
     let Explorer { survey, readings, opened, legs, trajectory, length, .. } = explorer;
     let (cells, strategy) = (settings.cells, settings.strategy);
     Ok(Exploration {
@@ -116,9 +116,9 @@ pub fn explore(
 }
 
 /// Length of the shortest motion that is found in the world itself.
-fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet) -> Option<f64> {
+fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
-    let options = Options { bounded: false, ..Options::default() };
+    let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
     match solve(&problem, &options, &mut |_| ()).verdict {
         Verdict::Found(path) => Some(path.path().length()),
         Verdict::Infeasible(_) | Verdict::Unknown(_) => None,
@@ -157,6 +157,9 @@ impl Explorer<'_> {
     fn look(&mut self) -> bool {
         let new = self.survey.look(self.sensor, self.scene.arm(), self.at, &mut self.errors);
         let is_new = !new.is_empty();
+        if is_new {
+            self.frontier.forget_edges();
+        }
         self.fresh.extend(&new);
         self.readings.push(Reading { at: self.at, length: self.length, new });
         is_new

@@ -12,7 +12,9 @@ use crate::model::{Arm, Sensor};
 pub struct Frontier {
     configurations: Vec<Prospect>,
     /// Columns of the unknown cells of the map beside free ones, row by row: what rays come to first is one of them.
-    edges: Vec<Vec<usize>>,
+    ///
+    /// None while something new has been seen since they were looked for.
+    edges: Option<Vec<Vec<usize>>>,
     /// When each cell of the map was counted last.
     counted: Vec<u32>,
     count: u32,
@@ -38,12 +40,17 @@ impl Frontier {
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
         let configurations = vec![Prospect { witness: None, most }; configurations];
-        Self { configurations, edges: Vec::new(), counted: vec![0; cells], count: 0, given_up: 0 }
+        Self { configurations, edges: None, counted: vec![0; cells], count: 0, given_up: 0 }
     }
 
     /// Takes note of what the map knows now.
     pub fn update(&mut self, survey: &Survey) {
-        self.edges = survey.edges();
+        self.edges = Some(survey.edges());
+    }
+
+    /// Something new has been seen: there may be edges elsewhere.
+    pub fn forget_edges(&mut self) {
+        self.edges = None;
     }
 
     /// Whether a reading at the middle of a cell of the grid would show something new.
@@ -52,7 +59,7 @@ impl Frontier {
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
             let q = grid.center(cell);
             // Rays that come to nothing new now never will.
-            let is_near = survey.may_see(sensor, arm, q, &self.edges);
+            let is_near = self.edges.as_ref().is_none_or(|edges| survey.may_see(sensor, arm, q, edges));
             prospect.witness = if is_near { survey.promise(sensor, arm, q) } else { None };
             if prospect.witness.is_none() {
                 prospect.most = 0;

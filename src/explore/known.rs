@@ -9,7 +9,7 @@ use crate::model::Arm;
 /// A grid of configurations, blocked where the arm meets a cell of the map that is not known to be free.
 ///
 /// Each blocked configuration has such a cell as its witness and is looked at again only when something new is known of that, so that
-/// all the updates of an exploration together cost a few looks a configuration.
+/// all the updates of an exploration together cost a few looks a configuration, and what it takes to read the map.
 #[derive(Debug)]
 pub struct Known {
     /// The middles of its cells are the configurations.

@@ -297,12 +297,13 @@ impl Survey {
     pub fn may_see(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: &[Vec<usize>]) -> bool {
         let (from, _) = sensor.pose(arm, q.into());
         let local = (from.coords - self.origin()) / self.known.resolution;
-        let (x, y) = (local.x, self.known.size[1] as f64 - local.y);
-        let inside = |v: f64, size: usize| 0.0 <= v && v < size as f64;
         let [width, height] = self.known.size;
-        if inside(x, width) && inside(y, height) && self.is_unknown(y as usize * width + x as usize) {
+        let inside = |v: f64, size: usize| 0.0 <= v && v < size as f64;
+        let is_inside = inside(local.x, width) && inside(local.y, height);
+        if is_inside && self.is_unknown(self.index(local.x as usize, local.y as usize)) {
             return true;
         }
+        let (x, y) = (local.x, height as f64 - local.y);
         // A cell more to each side: for its far side, and rounding.
         let range = sensor.range / self.known.resolution + 2.0;
         let rows = (y - range).max(0.0) as usize..((y + range).max(0.0) as usize).min(height);

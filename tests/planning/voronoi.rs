@@ -5,7 +5,7 @@ use crate::common::dice::Dice;
 use crate::common::roadmap::*;
 use cplan::cspace::{Polygon, Proves, Regions};
 use cplan::geometry::Point;
-use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Trace, Voronoi};
+use cplan::planner::{PathKind, Planner, Proposal, Query, Run, Size, Trace, Voronoi};
 use cplan::space::{Configuration, JointRange, Path, Topology};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -283,4 +283,22 @@ fn with_no_obstacle_on_a_torus_the_way_is_straight() {
     let regions = repeated_crowd(&[], 1, [true, true]);
     let run = run(&regions, Point::new(0.5, 0.5), Point::new(3.0, -0.5));
     assert_eq!(path(&run).expect("a way").waypoints().len(), 2);
+}
+
+/// A corner that all but touches a side: between them is no way, and nothing that is worth arcs.
+#[test]
+fn corners_that_all_but_touch_a_side_make_few_arcs() {
+    for gap in [1e-12, 1e-11, 1e-10, 1e-9, 2e-9, 4e-9, 7e-9, 1e-8, 1e-7, 1e-6] {
+        for x in [1.03, 17.03] {
+            let wall = rectangle((0.5, x + 6.0), (0.4, 0.5));
+            let diamond = points(&[(x, 0.5 + gap), (x + 0.17, 0.8), (x, 1.1), (x - 0.23, 0.8)]);
+            let regions = window_with_holes((0.0, x + 7.0), (0.0, 1.7), vec![wall, diamond]);
+            let run = run(&regions, Point::new(x - 0.4, 0.6), Point::new(x + 0.4, 0.6));
+            let Size::Graph { edges, .. } = run.size else { panic!("{:?}", run.size) };
+            assert!(edges < 2000, "{edges} edges at a gap of {gap} by {x}");
+            let path = path(&run).expect("a way above the diamond");
+            assert_free(&regions, path);
+            assert!(least_clearance(&obstacles(&regions), path) > 0.05, "{gap} {x}");
+        }
+    }
 }

@@ -67,6 +67,7 @@ impl Gpu {
         let residual = |values: &[f64]| residual(problem, &levels[0], &weights, values);
         let mut values = problem.values.clone();
         let mut left = residual(&values);
+        let mut best = (values.clone(), left.1);
         let mut solved =
             Solution { values: Vec::new(), cycles: 0, residual: left.1, converged: left.1 <= settings.below };
         if !solved.converged {
@@ -75,8 +76,9 @@ impl Gpu {
                 let mut idle = 0;
                 while !solved.converged && solved.cycles < settings.max_cycles && idle < PATIENCE {
                     checkpoint();
-                    let next = self.corrected(&cycle, &values, &left.0)?;
-                    solved.cycles += ROUND;
+                    let cycles = ROUND.min(settings.max_cycles - solved.cycles);
+                    let next = self.corrected(&cycle, cycles, &values, &left.0)?;
+                    solved.cycles += cycles;
                     let after = residual(&next);
                     // What is no number has not helped, either.
                     idle = if after.1 <= HELPED * solved.residual { 0 } else { idle + 1 };
@@ -84,22 +86,27 @@ impl Gpu {
                         break;
                     }
                     (values, left) = (next, after);
+                    if left.1 < best.1 {
+                        best = (values.clone(), left.1);
+                    }
                     (solved.residual, solved.converged) = (left.1, left.1 <= settings.below);
                 }
                 Ok(())
             })?;
         }
-        Ok(Solution { values, ..solved })
+        // Rounds that did not help may have made it worse.
+        let (values, residual) = best;
+        Ok(Solution { values, residual, ..solved })
     }
 
-    /// The values after a round of cycles for what is left to do.
-    fn corrected(&self, cycle: &Cycle, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
+    /// The values after so many cycles for what is left to do.
+    fn corrected(&self, cycle: &Cycle, cycles: usize, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
         // Scaled, so that no correction is lost below the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();
         self.queue.write_buffer(&cycle.right, 0, bytemuck::cast_slice(&right));
         self.queue.write_buffer(&cycle.x, 0, bytemuck::cast_slice(&vec![0.0_f32; right.len()]));
-        for _ in 0..ROUND {
+        for _ in 0..cycles {
             self.submit(|pass| cycle.record(self, pass));
         }
         let x: Vec<f32> = self.read(&cycle.x, size_of_val(&right[..]) as u64)?;

@@ -13,8 +13,8 @@ const ADVICE: f64 = 0.1;
 
 /// Solves a linear equation from `start`, such as the field for obstacles that have moved a little since. Flexible GMRES (Saad 1993),
 /// preconditioned by the multigrid solution of the same problem without the drift, to a digit. A step costs as much as that; how many
-/// there are depends on the drift times the width of what it holds in, not on the number of cells: 8 to 13 from nothing in the
-/// fields of `examples/robot_football`, where Gauss and Seidel's relaxation takes 400 to 1200 sweeps to the same rule.
+/// there are depends on the drift times the width of what it holds in, not on the number of cells: 2 to 14 from nothing in the
+/// fields of `examples/robot_football`, where Gauss and Seidel's relaxation takes 400 to 1400 sweeps to the same rule.
 ///
 /// [`Convergence::sweeps`] counts steps; [`Convergence::change`] is the sum of squared changes that a sweep of Jacobi's would make.
 /// Where the start fulfils the rule nothing is done.

@@ -27,7 +27,7 @@ impl Bisector {
     /// Those of a site and another one, of which `other` is the number: two where a corner sees both ends of a side better than
     /// its middle.
     pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
-        let (parts, on_side) = match (site.is_side(), with.is_side()) {
+        let (parts, on_side) = match (site.is_side, with.is_side) {
             (true, true) => ([side_and_side(site, with), None, None], true),
             (true, false) => ([side_and_point(site, with), None, None], true),
             (false, true) => (point_and_side(site, with), false),

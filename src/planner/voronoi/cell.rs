@@ -38,8 +38,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
     let mut arcs = Vec::new();
     let touching = |a: &Bisector, b: &Bisector| {
         let (a, b) = (&others[a.other], &others[b.other]);
-        a.is_side() != b.is_side()
-            && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side() && (x.at == y.at || x.to == y.at))
+        a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
     };
     let mut at = first;
     let mut current = lowest(bisectors, at, slack);
@@ -57,8 +56,8 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
         };
         // A side is nearer than its own end wherever it is seen.
         let seen = |b: &&Bisector| b.from <= at + slack && b.to > at + slack && touching(b, now);
-        if !others[now.other].is_side() {
-            now = bisectors.iter().filter(|b| others[b.other].is_side()).find(seen).unwrap_or(now);
+        if !others[now.other].is_side {
+            now = bisectors.iter().filter(|b| others[b.other].is_side).find(seen).unwrap_or(now);
         }
         let (mut end, mut next) = (now.to, None);
         for b in bisectors {
@@ -66,7 +65,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
                 continue;
             }
             let event = if touching(b, now) {
-                (others[b.other].is_side() && b.from > at).then_some(b.from)
+                (others[b.other].is_side && b.from > at).then_some(b.from)
             } else if b.from > at && b.from < end && b.value(b.from) < now.value(b.from) {
                 Some(b.from)
             } else {

@@ -3,8 +3,10 @@
 use super::bisector::Bisector;
 use super::cell::{Arc, border};
 use super::site::{Site, TOUCH};
+use super::ways::NARROW;
 use crate::cspace::Regions;
 use crate::geometry::{Bounds, BoxTree, Point};
+use crate::interrupt::checkpoint;
 use crate::planner::mesh::Mesh;
 use crate::space::{Configuration, JointRange, Segment};
 use std::f64::consts::{PI, TAU};
@@ -32,6 +34,8 @@ pub(super) struct Diagram {
     originals: Vec<(usize, [i32; 2])>,
     lower: [f64; 2],
     ranges: [JointRange; 2],
+    /// A distance from the boundary that no configuration has.
+    most: f64,
     pub chords: Vec<Chord>,
 }
 
@@ -67,19 +71,19 @@ impl Diagram {
                 }
             }
         }
-        let mut diagram = Self { sites, originals, lower, ranges, chords: Vec::new() };
-        diagram.chords = diagram.drawn(count, most);
+        let mut diagram = Self { sites, originals, lower, ranges, most, chords: Vec::new() };
+        diagram.chords = diagram.drawn(count);
         diagram
     }
 
     /// All chords, each once.
-    fn drawn(&self, count: usize, most: f64) -> Vec<Chord> {
+    fn drawn(&self, count: usize) -> Vec<Chord> {
         let bounds = |site: &Site| [site.at.inf(&site.to), site.at.sup(&site.to)];
         let tree = BoxTree::new(self.sites.iter().map(bounds).collect());
         let mut chords = Vec::new();
         for number in 0..count {
             let site = &self.sites[number];
-            for arc in self.cell(&tree, number, bounds(site), most) {
+            for arc in self.cell(&tree, number, bounds(site)) {
                 let (other, turns) = self.originals[arc.bisector.other];
                 // From a side rather than a corner, where parabolas are polynomials; of two alike from the first.
                 if number < other || (number == other && turns > [0; 2]) {
@@ -91,7 +95,8 @@ impl Diagram {
     }
 
     /// The border of a site's cell: among others near by, of which it is known at last that they are all that matter.
-    fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds, most: f64) -> Vec<Arc> {
+    fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
+        let most = self.most;
         let site = &self.sites[number];
         let extent = site.range[1] - site.range[0];
         let mut reach = extent.min(most);
@@ -139,8 +144,13 @@ impl Diagram {
         height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
     }
 
-    /// The distance of a free segment, not longer than half a turn, from the boundary. Linear.
+    /// The distance of a free segment from the boundary. Linear in the sites, and in the length.
     pub fn clearance(&self, a: Point, b: Point) -> f64 {
+        // Copies of sites reach no farther around the part than twice the greatest distance.
+        if (b - a).norm() > self.most {
+            let middle = a + (b - a) / 2.0;
+            return self.clearance(a, middle).min(self.clearance(middle, b));
+        }
         let (home, _) = self.at_home(a);
         let there = home + (b - a);
         self.sites.iter().map(|site| site.distance(home, there)).fold(f64::INFINITY, f64::min)
@@ -194,7 +204,9 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
     if !(heights[0] + heights[1]).is_finite() {
         return;
     }
-    if arc.bisector.sag(to - from) > SAG.min(SHARE * heights[0].min(heights[1])) {
+    // What is narrower is no way: where a corner all but touches a side, heights are rounding.
+    if arc.bisector.sag(to - from) > SAG.min(SHARE * heights[0].min(heights[1])).max(NARROW) {
+        checkpoint();
         let middle = 0.5 * (from + to);
         if from < middle && middle < to {
             chord(site, other, arc, [from, middle], chords);

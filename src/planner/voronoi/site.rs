@@ -22,6 +22,8 @@ pub(super) struct Site {
     pub along: Vector,
     /// Least and greatest parameter.
     pub range: [f64; 2],
+    /// Whether it is a side: one stays a side where its ends are rounded to one place.
+    pub is_side: bool,
 }
 
 /// Where a ray begins, and its direction.
@@ -31,7 +33,7 @@ impl Site {
     /// A side of some length, from `at` to `to`.
     pub fn side(at: Point, to: Point) -> Self {
         let length = (to - at).norm();
-        Self { at, to, along: (to - at) / length, range: [0.0, length] }
+        Self { at, to, along: (to - at) / length, range: [0.0, length], is_side: true }
     }
 
     /// A corner of free space of more than half a turn.
@@ -41,17 +43,18 @@ impl Site {
         let angle = cross(first, last).atan2(first.dot(&last)).abs();
         let (sin, cos) = (angle / 2.0).sin_cos();
         let most = (angle / 4.0).tan();
-        Self { at: corner.at, to: corner.at, along: first * cos + perpendicular(first) * sin, range: [-most, most] }
-    }
-
-    pub fn is_side(&self) -> bool {
-        self.at != self.to
+        Self {
+            at: corner.at,
+            to: corner.at,
+            along: first * cos + perpendicular(first) * sin,
+            range: [-most, most],
+            is_side: false,
+        }
     }
 
     /// The same elsewhere.
     pub fn turned(&self, turns: [f64; 2]) -> Self {
         let [at, to] = Segment::new(self.at.coords, self.to.coords).turned(turns).corners();
-        // A side is none the less one if its ends are rounded to one place.
         Self { at, to, ..*self }
     }
 
@@ -62,7 +65,7 @@ impl Site {
 
     /// The ray of a parameter.
     pub fn ray(&self, parameter: f64) -> Ray {
-        if self.is_side() {
+        if self.is_side {
             (self.at + self.along * parameter, self.normal())
         } else {
             let square = parameter * parameter;
@@ -73,12 +76,12 @@ impl Site {
     /// The end of a side that a parameter is as good as at.
     pub fn end(&self, parameter: f64) -> Option<Point> {
         let ends = [(self.range[0], self.at), (self.range[1], self.to)];
-        ends.into_iter().find(|(end, _)| self.is_side() && (parameter - end).abs() < TOUCH).map(|(_, p)| p)
+        ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < TOUCH).map(|(_, p)| p)
     }
 
     /// The point of it that is nearest to `p`.
     pub fn nearest(&self, p: Point) -> Point {
-        if self.is_side() {
+        if self.is_side {
             self.at + self.along * (p - self.at).dot(&self.along).clamp(0.0, self.range[1])
         } else {
             self.at
@@ -101,7 +104,7 @@ impl Site {
             return f64::INFINITY;
         }
         let there = from - self.at;
-        if !self.is_side() {
+        if !self.is_side {
             let (towards, square) = (-there.dot(&direction), there.norm_squared());
             return if towards > 0.0 { square / (2.0 * towards) } else { f64::INFINITY };
         }

@@ -140,7 +140,7 @@ impl Ways {
         }
         for node in nearest(self.points.len(), |k| (self.points[k] - at).norm()) {
             if mesh.is_clear(at, self.points[node]) {
-                asked.join(end, NodeIndex::new(node));
+                asked.join_of_width(end, NodeIndex::new(node), diagram.clearance(at, self.points[node]));
             }
         }
     }

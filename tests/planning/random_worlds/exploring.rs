@@ -36,8 +36,17 @@ fn sensor(scene: &Scene, seed: u64) -> Sensor {
 }
 
 fn explored(problem: &MotionProblem, sensor: &Sensor, strategy: Strategy) -> Exploration {
+    explored_from(None, problem, sensor, strategy)
+}
+
+fn explored_from(
+    known: Option<OccupancyMap>,
+    problem: &MotionProblem,
+    sensor: &Sensor,
+    strategy: Strategy,
+) -> Exploration {
     let options = engine::Options { boxes: 2000, levels: 1, ..Settings::default().options };
-    let settings = Settings { strategy, cells: GRID, decisions: 3000, options, ..Settings::default() };
+    let settings = Settings { strategy, cells: GRID, known, decisions: 3000, options, ..Settings::default() };
     let (scene, start) = (problem.scene(), problem.start());
     explore(scene, sensor, start, Some(problem.goals()), &settings, &mut |_| ()).expect("an exploration")
 }
@@ -162,6 +171,11 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
         }
         Ending::Explored { given_up, .. } => {
             assert!(*given_up == 0 || sensor.noise > 0.0, "{given_up} given up without errors");
+            // Who knows all that need not move.
+            if sensor.noise == 0.0 {
+                let again = explored_from(Some(map.clone()), problem, sensor, Strategy::Nearest);
+                assert!(again.legs.len() < 2 && again.survey.map() == map, "{} legs more", again.legs.len());
+            }
             let known = done.survey.scene(arm, clearance, false);
             for cell in reachable(&Oracle::new(&known), &topology, at) {
                 let q = center(&topology, cell);

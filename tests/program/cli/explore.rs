@@ -91,6 +91,28 @@ fn a_known_map_is_taken_up() {
     finer.refused(1, &["rooms.yaml", "has other cells"]);
 }
 
+/// The head goes above all that may stand there, so that its sensor stands above what it has not seen, and one leg is longer than it sees.
+#[test]
+fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
+    let place = Place::new();
+    let robot = shipped("robots/gantry.urdf");
+    place.write(
+        "above.toml",
+        "[start]\njoints = [0.2, 0.2]\n[sensor]\non = \"tip\"\nrays = 90\nfield_of_view = \"360deg\"\nrange = 0.04\nstep = 0.05\n\
+         cell = 0.01\n[[obstacle]]\npolygon = [[0.65, 0.3], [0.7, 0.3], [0.7, 0.5], [0.65, 0.5]]\nheight = [0.0, 0.01]\n",
+    );
+    for strategy in ["view", "nearest", "harmonic"] {
+        let run = |options: &str| {
+            let options = format!("--grid 12 --strategy {strategy} --json {options}");
+            json(&place.run(&["explore", &robot, "above.toml"], &options).stdout)
+        };
+        let first = run(&format!("--map {strategy}.yaml"));
+        assert_eq!((&first["status"], &first["configurations"]), (&"explored".into(), &144.into()));
+        let again = run(&format!("--known {strategy}.yaml"));
+        assert_eq!((again["readings"].as_array().unwrap().len(), &again["map"]), (1, &first["map"]), "{strategy}");
+    }
+}
+
 /// All that stands there is lower than the arm, which goes above it with its tool beside.
 #[test]
 fn heights_that_are_known_let_a_scara_pass() {
