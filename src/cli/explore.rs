@@ -115,8 +115,8 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     sinks::distinct(files())?;
     let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&args.query.overrides())?;
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    sinks::spare_inputs(files())?;
     let settings = args.settings(world.goals.is_some())?;
+    sinks::spare_inputs(files())?;
     let mut say = |text: &str| {
         if !args.quiet {
             sinks::say(&format!("{text} ..."));

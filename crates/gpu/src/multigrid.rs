@@ -100,7 +100,7 @@ impl Gpu {
     }
 
     /// The values after so many cycles for what is left to do.
-    fn corrected(&self, cycle: &Cycle, cycles: usize, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
+    fn corrected(&self, cycle: &Cycle, cycles: u32, values: &[f64], left: &[f64]) -> Result<Vec<f64>, GpuError> {
         // Scaled, so that no correction is lost below the least number of single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();

@@ -83,10 +83,10 @@ fn a_known_map_is_taken_up() {
     let text = std::fs::read_to_string(&world).unwrap();
     let one = "[0.65, -0.1], [0.7, -0.1], [0.7, 0.5], [0.65, 0.5]";
     assert!(text.contains(one));
-    place.write("moved.toml", &text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
+    place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
     let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
     moved.refused(1, &["rooms.yaml", "says that it is occupied about (0.6", "there is nothing", "cure"]);
-    place.write("finer.toml", &text.replace("cell = 0.025", "cell = 0.02"));
+    place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
     finer.refused(1, &["rooms.yaml", "has other cells"]);
 }
