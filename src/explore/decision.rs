@@ -8,7 +8,6 @@ use crate::check::{CertifiedPath, certify};
 use crate::cspace::Grid;
 use crate::engine::{Options, Verdict, solve};
 use crate::field::{Component, Lattice, harmonic};
-use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
 use crate::space::{Configuration, GoalSet, Path, Segment};
@@ -54,8 +53,7 @@ impl Explorer<'_> {
             checkpoint();
             let (reach, target) = match self.settings.strategy {
                 Strategy::View => {
-                    let reach = self.reach(joined);
-                    let best = self.best_view(&reach);
+                    let (reach, best) = self.best_view(joined);
                     (reach, best.map(Target::Cell))
                 }
                 Strategy::Harmonic => self.whole_frontier(joined),
@@ -105,13 +103,13 @@ impl Explorer<'_> {
     }
 
     fn reach(&self, joined: &[usize]) -> Reach {
-        Reach::new(&self.known.grid, &self.known.closed, self.at, joined, |_| false)
+        Reach::new(&self.known.grid, &self.known.closed, self.at, joined, |_, _| false)
     }
 
     fn nearest(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let mut found = None;
-        let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell| {
+        let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell, _| {
             let is_frontier = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell);
             found = is_frontier.then_some(Target::Cell(cell));
             is_frontier
@@ -125,26 +123,23 @@ impl Explorer<'_> {
         (reach, (!frontier.is_empty()).then_some(Target::Any(frontier)))
     }
 
-    /// The one of most [`worth`]. What was counted before is a bound: only those that may be best are counted anew.
-    fn best_view(&mut self, reach: &Reach) -> Option<usize> {
+    /// The one of most [`worth`], of several the nearest. What was counted before is a bound: only those that may be best are counted anew, and
+    /// none is looked for farther away than where nothing could be.
+    fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<usize>) {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
-        let mut open = OpenList::default();
-        for &cell in reach.cells.iter().filter(|&&cell| frontier.most(cell) > 0) {
-            open.push(-worth(frontier.most(cell), reach.cost(cell), sensor.step), (cell, false));
-        }
-        let mut best = None;
-        while let Some((_, (cell, is_counted))) = open.pop() {
-            checkpoint();
-            if is_counted {
-                best = Some(cell);
-                break;
+        let mut best: Option<(f64, usize)> = None;
+        let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell, length| {
+            let is_better =
+                |seen: u32| seen > 0 && best.is_none_or(|(most, _)| worth(seen, length, sensor.step) > most);
+            if is_better(frontier.most(cell)) {
+                let seen = frontier.gain(survey, sensor, scene.arm(), &known.grid, cell);
+                if is_better(seen) {
+                    best = Some((worth(seen, length, sensor.step), cell));
+                }
             }
-            let seen = frontier.gain(survey, sensor, scene.arm(), &known.grid, cell);
-            if seen > 0 {
-                open.push(-worth(seen, reach.cost(cell), sensor.step), (cell, true));
-            }
-        }
-        best
+            best.is_some_and(|(most, _)| worth(frontier.most_of_all(), length, sensor.step) <= most)
+        });
+        (reach, best.map(|(_, cell)| cell))
     }
 
     /// Along the planner's way through what may be free, as far as it is known to be.
@@ -197,8 +192,11 @@ impl Explorer<'_> {
         }
         loop {
             checkpoint();
-            let (reach, showing) = self.showing(&joined, in_the_way);
-            let Some(target) = showing.or_else(|| self.best_view(&reach)) else { return self.within_known(goals) };
+            let (reach, target) = match self.showing(&joined, in_the_way) {
+                (reach, Some(cell)) => (reach, Some(cell)),
+                (_, None) => self.best_view(&joined),
+            };
+            let Some(target) = target else { return self.within_known(goals) };
             if let Some(decision) = self.along(&reach, &reach.way(target)) {
                 return decision;
             }
@@ -210,7 +208,7 @@ impl Explorer<'_> {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let (arm, grid) = (scene.arm(), &known.grid);
         let mut showing = None;
-        let reach = Reach::new(grid, &known.closed, self.at, joined, |cell| {
+        let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, _| {
             let shows = !cells.is_empty()
                 && frontier.contains(survey, sensor, arm, grid, cell)
                 && survey.shows_any(sensor, arm, grid.center(cell), cells);

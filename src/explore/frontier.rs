@@ -15,6 +15,8 @@ pub struct Frontier {
     ///
     /// None while something new has been seen since they were looked for.
     edges: Option<Vec<Vec<usize>>>,
+    /// No more cells than these can be seen from anywhere.
+    most_of_all: u32,
     /// When each cell of the map was counted last.
     counted: Vec<u32>,
     count: u32,
@@ -40,7 +42,7 @@ impl Frontier {
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
         let configurations = vec![Prospect { witness: None, most }; configurations];
-        Self { configurations, edges: None, counted: vec![0; cells], count: 0, given_up: 0 }
+        Self { configurations, edges: None, most_of_all: most, counted: vec![0; cells], count: 0, given_up: 0 }
     }
 
     /// Takes note of what the map knows now.
@@ -72,6 +74,12 @@ impl Frontier {
     #[must_use]
     pub fn most(&self, cell: usize) -> u32 {
         self.configurations[cell].most
+    }
+
+    /// No more cells than these can be seen from anywhere.
+    #[must_use]
+    pub fn most_of_all(&self) -> u32 {
+        self.most_of_all
     }
 
     /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.

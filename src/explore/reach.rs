@@ -27,13 +27,13 @@ pub struct Reach {
 const NONE: u32 = u32::MAX;
 
 impl Reach {
-    /// From the cells that `start` is joined to. Stops at the first cell for which `is_enough`.
+    /// From the cells that `start` is joined to. Stops at the first cell, with the length of the way there, that `is_enough`.
     pub fn new(
         grid: &Grid,
         closed: &Closed,
         start: Configuration,
         joined: &[usize],
-        mut is_enough: impl FnMut(usize) -> bool,
+        mut is_enough: impl FnMut(usize, f64) -> bool,
     ) -> Self {
         let free = FreeCells::new(grid);
         let count = grid.blocked.len();
@@ -49,7 +49,7 @@ impl Reach {
                 continue;
             }
             reach.cells.push(cell);
-            if is_enough(cell) {
+            if is_enough(cell, cost) {
                 break;
             }
             let here = grid.center(cell);
@@ -63,11 +63,6 @@ impl Reach {
             }
         }
         reach
-    }
-
-    /// Length of the way to a cell; infinite where none leads.
-    pub fn cost(&self, cell: usize) -> f64 {
-        self.costs[cell]
     }
 
     /// The cells on the way to one, itself last.
