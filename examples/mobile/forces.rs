@@ -82,9 +82,13 @@ pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> 
     Some(Vector2::new(force.x, -force.y))
 }
 
-/// Drives to a target, to within 1 cm.
-pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Manner) -> Ending {
-    let (speed_gain, turn_gain, stop, slow) = (0.5, 1.2, 0.01, 1.0);
+/// Drives to within `stop` of a target, by commands of speed and turning rate; `command` is asked for them at each distance.
+pub fn approach(
+    robot: &mut Robot,
+    target: Point,
+    stop: f64,
+    mut command: impl FnMut(&Robot, f64) -> Result<[f64; 2], Ending>,
+) -> Ending {
     let mut patience = Patience::new(robot);
     loop {
         let distance = (target - robot.pose.at).norm();
@@ -94,16 +98,27 @@ pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Mann
         if let Some(best) = patience.lost(robot, distance) {
             return Ending::Trapped(best);
         }
+        match command(robot, distance) {
+            Ok([speed, turn]) => robot.drive(speed, turn, CYCLE),
+            Err(ending) => return ending,
+        }
+    }
+}
+
+/// Drives to a target, to within 1 cm.
+pub fn drive(robot: &mut Robot, map: &mut Occupancy, target: Point, manner: Manner) -> Ending {
+    let (speed_gain, turn_gain, stop, slow) = (0.5, 1.2, 0.01, 1.0);
+    approach(robot, target, stop, |robot, distance| {
         if manner.maps {
             map.scan(robot.floor, robot.pose);
         }
-        let Some(force) = force(map, target, robot.pose.at) else { return Ending::OnObstacle };
+        let force = force(map, target, robot.pose.at).ok_or(Ending::OnObstacle)?;
         let error = wrapped(force.y.atan2(force.x) - robot.pose.heading);
         let speed = match distance {
             _ if manner.mended && error.abs() >= 10_f64.to_radians() => 0.0,
             d if d > slow => speed_gain * force.norm(),
             d => speed_gain * d / slow,
         };
-        robot.drive(speed.min(TOP_SPEED), turn_gain * error, CYCLE);
-    }
+        Ok([speed.min(TOP_SPEED), turn_gain * error])
+    })
 }

@@ -1,10 +1,10 @@
 //! Paths by a probabilistic roadmap.
 
 use super::mesh::Mesh;
-use super::roadmap::{Asked, Nearby, Roadmap, RoadmapSearch};
+use super::roadmap::{self, Asked, Nearby, Roadmap, RoadmapSearch};
 use super::terminals::Terminals;
 use super::triangles::taut;
-use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use super::{PathKind, Planner, Proposal, Query, Run};
 use crate::cspace::Regions;
 use crate::geometry::Point;
 use crate::geometry::planar::Boundary;
@@ -15,9 +15,6 @@ use petgraph::graph::NodeIndex;
 
 /// Draws for each sample that is wanted, at most: a free share of a hundredth is enough.
 const DRAWS: usize = 100;
-
-/// Places at which a segment of goals is tried, beside that nearest to the start.
-const PLACES: usize = 17;
 
 /// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison: random free configurations, each joined to
 /// the nearest ones that it sees.
@@ -82,31 +79,15 @@ impl Planner for Prm {
     fn query(&self, space: &Regions, map: &PrmMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
-            Err(reason) => {
-                return Run {
-                    outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Roads { edges: Vec::new(), expanded: Vec::new() },
-                    size: Size::Graph { nodes: 0, edges: 0 },
-                    note: None,
-                };
-            }
+            Err(reason) => return roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
         };
         let asked = self.asked(map, &terminals);
         let (way, expanded) = asked.search(self.search, &terminals);
         let outcome = match way {
             None => Proposal::GaveUp(format!("{} do not join start and goal", counted(self.samples, "sample"))),
-            Some(way) => {
-                let own: Vec<Point> = way.into_iter().map(|node| asked.at(node)).collect();
-                let waypoints = match self.path {
-                    PathKind::Own => own,
-                    PathKind::Taut => tightened(&map.mesh, &own).unwrap_or(own),
-                };
-                Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
-            }
+            Some(way) => along(&map.mesh, way.into_iter().map(|node| asked.at(node)).collect(), self.path),
         };
-        let [nodes, edges] = asked.size();
-        let trace = Trace::Roads { edges: asked.edges(), expanded };
-        Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
+        roadmap::run(outcome, Some(&asked), expanded)
     }
 }
 
@@ -145,28 +126,28 @@ impl Prm {
             }
         };
         join(&mut asked, start);
-        let euclid = Measure::from(Metric::Euclidean);
-        for goals in &terminals.goals {
-            let places = if goals.is_point() { 1 } else { PLACES };
-            let along = (0..places).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
-            for place in along.chain([goals.nearest(euclid, terminals.start.coords)]) {
-                let at = Point::from(place);
-                if map.mesh.triangles_at(at).next().is_none() {
-                    continue;
-                }
-                let goal = asked.goal(at);
-                join(&mut asked, goal);
-                if map.mesh.is_clear(terminals.start, at) {
-                    asked.join(start, goal);
-                }
+        for at in terminals.places(&map.mesh) {
+            let goal = asked.goal(at);
+            join(&mut asked, goal);
+            if map.mesh.is_clear(terminals.start, at) {
+                asked.join(start, goal);
             }
         }
         asked
     }
 }
 
+/// A way through free space as a path: as it is, or pulled tight through the triangles that it crosses.
+pub(super) fn along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
+    let waypoints = match kind {
+        PathKind::Own => own,
+        PathKind::Taut => tightened(mesh, &own).unwrap_or(own),
+    };
+    Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
+}
+
 /// A path pulled tight through the triangles that it crosses; none if it passes through a vertex, or along a side.
-pub(super) fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
+fn tightened(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
     let crossed = |first: u32| {
         let (mut at, mut portals) = (first, Vec::new());
         for leg in path.windows(2) {

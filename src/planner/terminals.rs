@@ -1,10 +1,14 @@
 //! Where a path over polygonal regions begins and may end.
 
 use super::Query;
+use super::mesh::Mesh;
 use crate::cspace::Regions;
 use crate::geometry::Point;
-use crate::space::{Measure, Segment};
+use crate::space::{Measure, Metric, Segment};
 use std::f64::consts::TAU;
+
+/// Places at which a segment of goals is tried, beside that nearest to the start.
+const PLACES: usize = 17;
 
 /// Ends of the paths that answer a query.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +50,16 @@ impl Terminals {
         }
         parts.sort_by_key(|part| part.0);
         Ok(Self { start, goals, parts })
+    }
+
+    /// Goals as places, those of a mesh's free space: a point as it is; of a segment some, and that nearest to the start.
+    pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
+        let places = self.goals.iter().flat_map(|goals| {
+            let count = if goals.is_point() { 1 } else { PLACES };
+            let along = (0..count).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
+            along.chain([goals.nearest(Measure::from(Metric::Euclidean), self.start.coords)])
+        });
+        places.map(Point::from).filter(|&at| mesh.triangles_at(at).next().is_some())
     }
 
     /// What of the goals is in a cell.

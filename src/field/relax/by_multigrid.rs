@@ -1,7 +1,8 @@
 //! Linear equations with a drift by multigrid: what a relaxation converges to, in a few steps.
 
 use super::stencil::weights;
-use super::{Boundary, Convergence, Domain, Equation, Measure, Neighbor, RelaxError, Relaxed, Stopping};
+use super::sweeps::{begun, places_around, unknowns};
+use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxed, Stopping};
 use crate::field::multigrid::{Ends, Multigrid, Workspace};
 use crate::interrupt::checkpoint;
 
@@ -48,18 +49,13 @@ pub fn by_multigrid(
     if let Some(refusal) = equation.refusal(domain) {
         return Err(RelaxError::Refused(refusal));
     }
-    if start.len() != domain.kinds().len() {
-        return Err(refused("there must be one value a cell to start from"));
-    }
     if stopping.measure != Measure::SumOfSquares {
         return Err(refused("multigrid measures the sum of squared changes: stop by that"));
     }
     let (drift, difference) =
         equation.drift().ok_or_else(|| refused("multigrid solves linear equations: relax preferences"))?;
     let system = System::new(domain, |cell| weights(domain, cell, drift(cell), difference));
-    let mut values: Vec<f64> =
-        start.into_iter().zip(domain.kinds()).map(|(value, &kind)| domain.fixed(kind).unwrap_or(value)).collect();
-    values.push(domain.levels().obstacle);
+    let mut values = begun(domain, start)?;
     let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: false };
     let mut preconditioner = None;
     loop {
@@ -97,16 +93,8 @@ struct System {
 
 impl System {
     fn new(domain: &Domain, weights: impl Fn(usize) -> [f64; 4]) -> Self {
-        let limit = domain.kinds().len() as u32;
-        let unknowns: Vec<u32> = (0..limit).filter(|&cell| domain.is_sought(cell as usize)).collect();
-        let around = unknowns.iter().map(|&cell| {
-            domain.neighbors(cell as usize).map(|neighbor| match neighbor {
-                Neighbor::Cell(next) => next as u32,
-                Neighbor::Limit => limit,
-                Neighbor::Mirror => cell,
-            })
-        });
-        let around = around.collect();
+        let unknowns = unknowns(domain);
+        let around = places_around(domain, &unknowns);
         let weights: Vec<[f64; 4]> = unknowns.iter().map(|&cell| weights(cell as usize)).collect();
         let sums = weights.iter().map(|weights| weights.iter().sum()).collect();
         Self { unknowns, around, weights, sums }

@@ -1,7 +1,8 @@
 //! Relaxing on a GPU: the equations as weights a cell, stage after stage.
 
+use super::stages::{Stages, in_stages};
 use super::stencil::Weighted;
-use super::sweeps::{hint, normalized_gradient, refusal, strengths, unknowns};
+use super::sweeps::{hint, refusal, unknowns};
 use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
 use super::{Relaxed, Scheme, Stopping};
 use cplan_gpu::{Edge, Ending, Gpu, GpuError, Problem, Settings, Stencil, Sweep};
@@ -51,23 +52,7 @@ pub(super) fn relax(
     let gpu = shared().map_err(RelaxError::Refused)?;
     let unknowns = unknowns(domain);
     let mut field = Field { gpu, domain, equation, settings, unknowns, values: domain.start(), stages: Vec::new() };
-    match equation {
-        Equation::Harmonic => field.harmonic()?,
-        Equation::Oriented { direction, epsilon, difference } => {
-            let drift = direction.drift(*epsilon);
-            field.linear(|_| drift, *difference)?;
-        }
-        Equation::LocallyOriented { drift, difference } => field.linear(|cell| drift[cell], *difference)?,
-        Equation::Preference { epsilon, difference } => {
-            field.harmonic()?;
-            let direction = normalized_gradient(domain, &field.values);
-            field.linear(|cell| direction[cell].map(|v| epsilon[cell] * v), *difference)?;
-        }
-        Equation::AlteredPreference { epsilon } => {
-            field.harmonic()?;
-            field.stage(Stencil::Altered(strengths(domain, epsilon)))?;
-        }
-    }
+    in_stages(equation, domain, &mut field)?;
     Ok(Relaxed { values: field.values, stages: field.stages })
 }
 
@@ -82,7 +67,7 @@ struct Field<'a> {
     stages: Vec<Convergence>,
 }
 
-impl Field<'_> {
+impl Stages for Field<'_> {
     fn harmonic(&mut self) -> Result<(), RelaxError> {
         self.linear(|_| [0.0; 2], Difference::Central)
     }
@@ -102,6 +87,16 @@ impl Field<'_> {
         self.stage(stencil)
     }
 
+    fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
+        self.stage(Stencil::Altered(strengths))
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl Field<'_> {
     fn stage(&mut self, stencil: Stencil) -> Result<(), RelaxError> {
         let Self { domain, gpu, .. } = *self;
         let mut unknown = vec![false; self.values.len()];

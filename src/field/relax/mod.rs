@@ -15,6 +15,7 @@ mod equation;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod relaxation;
+mod stages;
 mod stencil;
 mod stopping;
 mod sweeps;

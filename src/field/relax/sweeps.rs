@@ -1,6 +1,7 @@
 //! Relaxing an equation on a domain.
 
 use super::relaxation::{Precision, Relaxation, Scheme};
+use super::stages::{Stages, in_stages};
 use super::stencil::{Altered, Mean, Stencil, Weighted};
 use super::stopping::{Convergence, Greatest, Measure, Relative, Squares, Stopping, Sum, Tally};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
@@ -146,29 +147,8 @@ pub fn relax_watched(
     if let Some(refusal) = refusal(domain, equation, relaxation) {
         return Err(refusal);
     }
-    if start.len() != domain.kinds().len() {
-        return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
-    }
-    let mut engine = Engine::new(domain, equation, relaxation, stopping, start, watch);
-    match equation {
-        Equation::Harmonic => engine.harmonic()?,
-        Equation::Oriented { direction, epsilon, difference } => {
-            let drift = direction.drift(*epsilon);
-            engine.linear(|_| drift, *difference)?;
-        }
-        Equation::LocallyOriented { drift, difference } => engine.linear(|cell| drift[cell], *difference)?,
-        Equation::Preference { epsilon, difference } => {
-            engine.harmonic()?;
-            let direction = normalized_gradient(domain, &engine.values);
-            engine.linear(|cell| direction[cell].map(|v| epsilon[cell] * v), *difference)?;
-        }
-        Equation::AlteredPreference { epsilon } => {
-            engine.harmonic()?;
-            let strengths = strengths(domain, epsilon);
-            let strength = engine.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
-            engine.run(&Altered { strength })?;
-        }
-    }
+    let mut engine = Engine::new(domain, equation, relaxation, stopping, begun(domain, start)?, watch);
+    in_stages(equation, domain, &mut engine)?;
     engine.values.pop();
     Ok(Relaxed { values: engine.values, stages: engine.stages })
 }
@@ -193,6 +173,28 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
 /// The free cells that have neighbours, rising. A cell that has no neighbour but itself keeps its value.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
     (0..domain.kinds().len()).filter(|&cell| domain.is_sought(cell)).map(|cell| cell as u32).collect()
+}
+
+/// Places of the values around each unknown, among those that begin as [`begun`].
+pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> {
+    let beyond = domain.kinds().len() as u32;
+    let around = unknowns.iter().map(|&cell| {
+        domain.neighbors(cell as usize).map(|neighbor| match neighbor {
+            Neighbor::Cell(next) => next as u32,
+            Neighbor::Limit => beyond,
+            Neighbor::Mirror => cell,
+        })
+    });
+    around.collect()
+}
+
+/// Values to begin with: those of obstacles and goals are set to their levels, and one more is what lies beyond limits.
+pub(super) fn begun(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
+    if start.len() != domain.kinds().len() {
+        return Err(RelaxError::Refused("there must be one value a cell to start from".into()));
+    }
+    let fixed = start.into_iter().zip(domain.kinds()).map(|(value, &kind)| domain.fixed(kind).unwrap_or(value));
+    Ok(fixed.chain([domain.levels().obstacle]).collect())
 }
 
 /// `epsilon / 4` of altered preferences, with the sign that the levels ask for; one a cell.
@@ -248,34 +250,7 @@ struct Engine<'a> {
     watch: &'a mut dyn FnMut(Watched),
 }
 
-impl<'a> Engine<'a> {
-    fn new(
-        domain: &'a Domain,
-        equation: &'a Equation,
-        relaxation: &'a Relaxation,
-        stopping: &'a Stopping,
-        start: Vec<f64>,
-        watch: &'a mut dyn FnMut(Watched),
-    ) -> Self {
-        let limit = domain.kinds().len() as u32;
-        let unknowns = unknowns(domain);
-        let around = unknowns.iter().map(|&cell| {
-            domain.neighbors(cell as usize).map(|neighbor| match neighbor {
-                Neighbor::Cell(next) => next as u32,
-                Neighbor::Limit => limit,
-                Neighbor::Mirror => cell,
-            })
-        });
-        let around = around.collect();
-        let mut values = start;
-        for (value, &kind) in values.iter_mut().zip(domain.kinds()) {
-            *value = domain.fixed(kind).unwrap_or(*value);
-        }
-        values.push(domain.levels().obstacle);
-        let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
-        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
-    }
-
+impl Stages for Engine<'_> {
     fn harmonic(&mut self) -> Result<(), RelaxError> {
         if self.has_mirrors() { self.linear(|_| [0.0; 2], Difference::Central) } else { self.run(&Mean) }
     }
@@ -283,6 +258,31 @@ impl<'a> Engine<'a> {
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
         let stencil = Weighted::new(self.domain, &self.unknowns, drift, difference);
         self.run(&stencil)
+    }
+
+    fn altered(&mut self, strengths: Vec<f64>) -> Result<(), RelaxError> {
+        let strength = self.unknowns.iter().map(|&cell| strengths[cell as usize]).collect();
+        self.run(&Altered { strength })
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl<'a> Engine<'a> {
+    fn new(
+        domain: &'a Domain,
+        equation: &'a Equation,
+        relaxation: &'a Relaxation,
+        stopping: &'a Stopping,
+        values: Vec<f64>,
+        watch: &'a mut dyn FnMut(Watched),
+    ) -> Self {
+        let unknowns = unknowns(domain);
+        let around = places_around(domain, &unknowns);
+        let greatest = values.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
+        Self { domain, equation, relaxation, stopping, values, greatest, unknowns, around, stages: Vec::new(), watch }
     }
 
     fn has_mirrors(&self) -> bool {

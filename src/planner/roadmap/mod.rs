@@ -11,6 +11,7 @@ pub(super) use search::{Question, Searched, search};
 pub use search::{RoadmapSearch, SearchOrder};
 
 use super::terminals::Terminals;
+use super::{Proposal, Run, Size, Trace};
 use crate::geometry::Point;
 use crate::space::{Configuration, Measure};
 use petgraph::graph::{NodeIndex, UnGraph};
@@ -62,6 +63,13 @@ impl Roadmap {
         let start = self.add(start);
         Asked { roadmap: self, start, goals: BTreeMap::new(), ends: BTreeSet::new() }
     }
+}
+
+/// What a search of a roadmap came to; without one where it was given up before.
+pub(super) fn run(outcome: Proposal, asked: Option<&Asked>, expanded: Vec<Configuration>) -> Run {
+    let [nodes, edges] = asked.map_or([0; 2], Asked::size);
+    let trace = Trace::Roads { edges: asked.map_or_else(Vec::new, Asked::edges), expanded };
+    Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
 }
 
 /// A roadmap with the ends of a query.

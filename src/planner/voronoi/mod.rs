@@ -11,14 +11,12 @@ mod site;
 mod ways;
 
 use super::mesh::Mesh;
-use super::prm::tightened;
-use super::roadmap::RoadmapSearch;
+use super::prm::along;
+use super::roadmap::{self, RoadmapSearch};
 use super::terminals::Terminals;
-use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
+use super::{PathKind, Planner, Proposal, Query, Run};
 use crate::cspace::Regions;
-use crate::geometry::Point;
 use crate::geometry::planar::Boundary;
-use crate::space::Path;
 use diagram::Diagram;
 use ways::Ways;
 
@@ -72,31 +70,15 @@ impl Planner for Voronoi {
     fn query(&self, space: &Regions, map: &VoronoiMap, query: &Query) -> Run {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
-            Err(reason) => return run(Proposal::GaveUp(reason), [0, 0], Vec::new(), Vec::new()),
+            Err(reason) => return roadmap::run(Proposal::GaveUp(reason), None, Vec::new()),
         };
         let asked = map.ways.asked(&map.mesh, &map.diagram, &terminals);
-        let (size, edges) = (asked.size(), asked.edges());
         let Some(widest) = asked.widest(ways::NARROW) else {
-            return run(Proposal::NoPath, size, edges, Vec::new());
+            return roadmap::run(Proposal::NoPath, Some(&asked), Vec::new());
         };
         let (way, expanded) = widest.search(self.search, &terminals);
-        let path = |way: Vec<_>| {
-            let own: Vec<Point> = way.into_iter().map(|node| widest.at(node)).collect();
-            let waypoints = match self.path {
-                PathKind::Own => own,
-                PathKind::Taut => tightened(&map.mesh, &own).unwrap_or(own),
-            };
-            Proposal::Found(Path::new(waypoints.into_iter().map(|p| p.coords).collect()))
-        };
-        run(way.map_or(Proposal::NoPath, path), size, edges, expanded)
+        let own = |way: Vec<_>| way.into_iter().map(|node| widest.at(node)).collect();
+        let outcome = way.map_or(Proposal::NoPath, |way| along(&map.mesh, own(way), self.path));
+        roadmap::run(outcome, Some(&asked), expanded)
     }
-}
-
-fn run(
-    outcome: Proposal,
-    [nodes, edges]: [usize; 2],
-    roads: Vec<[crate::space::Configuration; 2]>,
-    expanded: Vec<crate::space::Configuration>,
-) -> Run {
-    Run { outcome, trace: Trace::Roads { edges: roads, expanded }, size: Size::Graph { nodes, edges }, note: None }
 }

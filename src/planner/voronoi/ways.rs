@@ -20,9 +20,6 @@ pub(super) const NARROW: f64 = SAME;
 /// Chords and nodes that are tried where a configuration is joined to the diagram.
 const TRIED: usize = 12;
 
-/// Places at which a segment of goals is tried, beside that nearest to the start.
-const PLACES: usize = 17;
-
 /// The chords in a window, as a graph.
 #[derive(Debug, Clone)]
 pub(super) struct Ways {
@@ -72,17 +69,7 @@ impl Ways {
         let mut asked = self.roadmap.clone().asked(terminals.start);
         let start = asked.start;
         let mut ends = vec![start];
-        let euclid = Measure::from(Metric::Euclidean);
-        for goals in &terminals.goals {
-            let places = if goals.is_point() { 1 } else { PLACES };
-            let along = (0..places).map(|k| goals.at(k as f64 / (PLACES - 1) as f64));
-            for place in along.chain([goals.nearest(euclid, terminals.start.coords)]) {
-                let at = Point::from(place);
-                if mesh.triangles_at(at).next().is_some() {
-                    ends.push(asked.goal(at));
-                }
-            }
-        }
+        ends.extend(terminals.places(mesh).map(|at| asked.goal(at)));
         ends.sort_unstable();
         ends.dedup();
         // Where each chord is met: how far along it, and the node there.
