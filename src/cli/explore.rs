@@ -36,8 +36,8 @@ pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
     /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
-    /// be seen: one that is near and shows much (view, the default elsewhere), or the nearest; or up the harmonic potential of all such
-    /// places.
+    /// be seen: one that is near and shows much (view, the default elsewhere), the nearest, the first along the wall to the right; or up the
+    /// harmonic potential of all such places.
     #[arg(long, value_enum, value_name = "NAME")]
     pub strategy: Option<StrategyName>,
     /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.
@@ -87,6 +87,7 @@ pub enum StrategyName {
     View,
     Nearest,
     Harmonic,
+    Wall,
 }
 
 impl From<StrategyName> for Strategy {
@@ -96,6 +97,7 @@ impl From<StrategyName> for Strategy {
             StrategyName::View => Self::View,
             StrategyName::Nearest => Self::Nearest,
             StrategyName::Harmonic => Self::Harmonic,
+            StrategyName::Wall => Self::Wall,
         }
     }
 }

@@ -50,25 +50,21 @@ impl Grid {
 
     /// The up to four cells that share a side with `index`, across the seam of a circle too, in the order
     /// `-q1, +q1, -q2, +q2`.
-    pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
-        let [rows, columns] = self.cells;
-        let (i, j) = (index / columns, index % columns);
-        let step = |k: usize, at: usize, n: usize, up: bool| -> Option<usize> {
-            match (up, self.topology.ranges[k].is_circle()) {
-                (true, _) if at + 1 < n => Some(at + 1),
-                (false, _) if at > 0 => Some(at - 1),
-                (true, true) => Some(0),
-                (false, true) => Some(n - 1),
-                _ => None,
-            }
+    pub fn neighbors(&self, index: usize) -> impl Iterator<Item = usize> {
+        [(0, false), (0, true), (1, false), (1, true)].into_iter().filter_map(move |(k, up)| self.beside(index, k, up))
+    }
+
+    /// The cell that shares a side with `index`, up or down axis `k`, across the seam of a circle too; none beyond a limit.
+    #[must_use]
+    pub fn beside(&self, index: usize, k: usize, up: bool) -> Option<usize> {
+        let mut at = [index / self.cells[1], index % self.cells[1]];
+        let last = self.cells[k] - 1;
+        let (end, beyond) = if up { (last, 0) } else { (0, last) };
+        at[k] = match at[k] {
+            here if here == end => self.topology.ranges[k].is_circle().then_some(beyond)?,
+            here if up => here + 1,
+            here => here - 1,
         };
-        [
-            step(0, i, rows, false).map(|i| i * columns + j),
-            step(0, i, rows, true).map(|i| i * columns + j),
-            step(1, j, columns, false).map(|j| i * columns + j),
-            step(1, j, columns, true).map(|j| i * columns + j),
-        ]
-        .into_iter()
-        .flatten()
+        Some(at[0] * self.cells[1] + at[1])
     }
 }

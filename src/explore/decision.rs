@@ -1,9 +1,11 @@
 //! Where to go next.
 
 use super::explorer::Explorer;
+use super::known::Known;
 use super::reach::{Reach, is_free, join, places, tightened};
 use super::result::Ending;
 use super::settings::Strategy;
+use super::wall::{self, Heading, Place};
 use crate::check::{CertifiedPath, certify};
 use crate::cspace::Grid;
 use crate::engine::{Options, Verdict, solve};
@@ -11,10 +13,13 @@ use crate::field::{Component, Lattice, harmonic};
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
 use crate::space::{Configuration, GoalSet, Path, Segment};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// Places ahead on an optimistic path whose unknown cells are looked for.
 const PLACES_AHEAD: usize = 8;
+
+/// Cells along a wall that are gone past straight: as many as smooth its steps, not its corners.
+const BY_THE_WALL: usize = 4;
 
 /// What comes next.
 pub enum Decision {
@@ -57,14 +62,20 @@ impl Explorer<'_> {
                     (reach, best.map(Target::Cell))
                 }
                 Strategy::Harmonic => self.whole_frontier(joined),
+                Strategy::Wall => self.along_wall(joined),
                 Strategy::Nearest | Strategy::Goal => self.nearest(joined),
             };
             let Some(target) = target else {
                 let configurations = reach.cells.len();
                 return Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up });
             };
+            let mut taut = usize::MAX;
             let way = match target {
                 Target::Cell(cell) => reach.way(cell),
+                Target::End(way) => {
+                    taut = BY_THE_WALL;
+                    way
+                }
                 Target::Any(frontier) => {
                     let grid = &self.known.grid;
                     let ascent = joined.iter().find_map(|&from| uphill(grid, &frontier, from));
@@ -74,17 +85,53 @@ impl Explorer<'_> {
                     if is_closed { reach.way(ascent[ascent.len() - 1]) } else { ascent }
                 }
             };
-            if let Some(decision) = self.along(&reach, &way) {
+            if let Some(decision) = self.along(&reach, &way, taut) {
                 return decision;
             }
         }
     }
 
-    /// Towards the last of the cells on a way; none if a step is not free, which is noted.
-    fn along(&mut self, reach: &Reach, way: &[usize]) -> Option<Decision> {
+    /// To the nearest wall, and along it to the first configuration from which something new can be seen; where it comes round again
+    /// without one, to the nearest.
+    fn along_wall(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+        let Known { grid, closed, .. } = &self.known;
+        let mut begin = None;
+        let reach = Reach::new(grid, closed, self.at, joined, |cell, _| {
+            begin = wall::is_beside_wall(grid, cell).then_some(cell);
+            begin.is_some()
+        });
+        let Some(begin) = begin else { return self.nearest(joined) };
+        let mut way = reach.way(begin);
+        let mut place = Place { cell: begin, heading: self.heading() };
+        let mut gone = HashSet::new();
+        while !self.is_frontier(place.cell) {
+            checkpoint();
+            let next = wall::next(&self.known.grid, &self.known.closed, place);
+            let Some(next) = next.filter(|&next| gone.insert(next)) else { return self.nearest(joined) };
+            place = next;
+            way.push(place.cell);
+        }
+        (reach, Some(Target::End(way)))
+    }
+
+    /// Which way the arm went last, in eighths of a turn.
+    fn heading(&self) -> Heading {
+        let last = self.legs.last().and_then(|leg| leg.curve.curve().path().segments().last());
+        let step = self.known.grid.step();
+        let [along, across] = last.map_or([1.0, 0.0], |(from, to)| [0, 1].map(|k| (to - from)[k] / step[k]));
+        match (along.abs() >= across.abs(), along >= 0.0, across >= 0.0) {
+            (true, true, _) => 0,
+            (true, false, _) => 4,
+            (false, _, true) => 2,
+            (false, _, false) => 6,
+        }
+    }
+
+    /// Towards the last of the cells on a way, straight past no more than `most` at a time; none if a step is not free, which is noted.
+    fn along(&mut self, reach: &Reach, way: &[usize], most: usize) -> Option<Decision> {
         let configurations = reach.unwrapped(&self.known.grid, way);
         let clearance = self.solid.workspace().clearance;
-        match tightened(&self.solid, &configurations) {
+        match tightened(&self.solid, &configurations, most) {
             Ok(path) => {
                 let certified = certify(&self.solid, path, clearance);
                 let target = way[way.len() - 1];
@@ -197,7 +244,7 @@ impl Explorer<'_> {
                 (_, None) => self.best_view(&joined),
             };
             let Some(target) = target else { return self.within_known(goals) };
-            if let Some(decision) = self.along(&reach, &reach.way(target)) {
+            if let Some(decision) = self.along(&reach, &reach.way(target), usize::MAX) {
                 return decision;
             }
         }
@@ -261,6 +308,8 @@ enum Target {
     Cell(usize),
     /// Up the potential of all of these.
     Any(Vec<usize>),
+    /// The last of these cells, by way of the others.
+    End(Vec<usize>),
 }
 
 /// From cell to cell up the harmonic potential of some goals; none if they cannot be reached.

@@ -46,6 +46,7 @@ mod reach;
 mod result;
 mod settings;
 mod survey;
+mod wall;
 
 pub use explorer::explore;
 pub use map_files::{map_description, map_picture};

@@ -107,9 +107,9 @@ pub fn is_free(scene: &Scene, from: Configuration, to: Configuration) -> bool {
     certify(scene, Path::new(vec![from, to]), scene.workspace().clearance).is_ok()
 }
 
-/// Leaves out waypoints: each time the farthest is gone to straight that doubling steps, then halves, find free. The number of the
-/// first step that is not free, if one is not.
-pub fn tightened(scene: &Scene, waypoints: &[Configuration]) -> Result<Path, usize> {
+/// Leaves out waypoints: each time the farthest of the next `most` is gone to straight that doubling steps, then halves, find free. The
+/// number of the first step that is not free, if one is not.
+pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
     let mut kept = vec![waypoints[0]];
     let mut at = 0;
     while at + 1 < waypoints.len() {
@@ -117,17 +117,18 @@ pub fn tightened(scene: &Scene, waypoints: &[Configuration]) -> Result<Path, usi
         if !goes(at + 1) {
             return Err(at);
         }
-        let (mut good, mut bad) = (at + 1, waypoints.len());
+        let end = waypoints.len().min(at.saturating_add(most).saturating_add(1));
+        let (mut good, mut bad) = (at + 1, end);
         let mut step = 2;
         while good + 1 < bad {
-            let next = if bad == waypoints.len() { (at + step).min(bad - 1) } else { usize::midpoint(good, bad) };
+            let next = if bad == end { (at + step).min(bad - 1) } else { usize::midpoint(good, bad) };
             if goes(next) {
                 good = next
             } else {
                 bad = next
             }
             step *= 2;
-            if good == waypoints.len() - 1 {
+            if good == end - 1 {
                 break;
             }
         }

@@ -22,6 +22,9 @@ pub enum Strategy {
     Nearest,
     /// Up the harmonic potential whose goals are all frontier configurations (Prestes et al. 2002).
     Harmonic,
+    /// Along the boundary of what is known to be free, that to the right, to the first frontier configuration there; where none is left, to
+    /// the nearest.
+    Wall,
 }
 
 /// How to explore.

@@ -16,7 +16,8 @@ use cplan::space::{Configuration, Path, Topology};
 use cplan::{Point, engine};
 use std::f64::consts::TAU;
 
-const STRATEGIES: [Strategy; 4] = [Strategy::Goal, Strategy::Nearest, Strategy::Harmonic, Strategy::View];
+const STRATEGIES: [Strategy; 5] =
+    [Strategy::Goal, Strategy::Nearest, Strategy::Harmonic, Strategy::View, Strategy::Wall];
 
 /// Rounding of a distance.
 const ROUNDING: f64 = 1e-9;
@@ -201,7 +202,7 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
 fn explorations_say_what_is_true() {
     let worlds: Option<u64> = std::env::var("CPLAN_WORLDS").ok().map(|n| n.parse().expect("a number of worlds"));
     let mut endings = std::collections::BTreeMap::<&str, usize>::new();
-    let mut lengths = [Vec::new(), Vec::new()];
+    let mut lengths = [const { Vec::new() }; 3];
     for kind in KINDS {
         for seed in seeds(worlds.unwrap_or(4)) {
             let Some(problem) = world(kind, seed) else { continue };
@@ -220,7 +221,7 @@ fn explorations_say_what_is_true() {
     }
     if worlds.is_some() {
         println!("{endings:?}");
-        for (name, lengths) in ["harmonic", "view"].iter().zip(&mut lengths) {
+        for (name, lengths) in ["harmonic", "view", "wall"].iter().zip(&mut lengths) {
             lengths.sort_by(f64::total_cmp);
             let shorter = lengths.iter().filter(|&&ratio| ratio <= 1.0).count();
             println!("{name} over nearest: {shorter} of {} no longer; {lengths:.2?}", lengths.len());

@@ -42,7 +42,7 @@ fn the_goal_is_reached_and_what_is_played_is_free() {
 fn rooms_are_explored_and_the_map_is_a_world() {
     let place = Place::new();
     let files = "--map rooms.yaml --picture rooms.html --picture rooms.svg --quiet";
-    for strategy in ["view", "nearest", "harmonic"] {
+    for strategy in ["view", "nearest", "harmonic", "wall"] {
         let options = format!("{COARSE} --strategy {strategy} --json");
         let done = explore(&place, &rooms(), &options);
         let result = json(&done.stdout);
@@ -101,7 +101,7 @@ fn nothing_is_left_by_a_head_that_stands_above_the_unknown() {
         "[start]\njoints = [0.2, 0.2]\n[sensor]\non = \"tip\"\nrays = 90\nfield_of_view = \"360deg\"\nrange = 0.04\nstep = 0.05\n\
          cell = 0.01\n[[obstacle]]\npolygon = [[0.65, 0.3], [0.7, 0.3], [0.7, 0.5], [0.65, 0.5]]\nheight = [0.0, 0.01]\n",
     );
-    for strategy in ["view", "nearest", "harmonic"] {
+    for strategy in ["view", "nearest", "harmonic", "wall"] {
         let run = |options: &str| {
             let options = format!("--grid 12 --strategy {strategy} --json {options}");
             json(&place.run(&["explore", &robot, "above.toml"], &options).stdout)
@@ -143,7 +143,7 @@ fn what_cannot_be_reached_is_proven() {
 #[test]
 fn on_a_coarse_grid_it_ends() {
     let place = Place::new();
-    for strategy in ["view", "nearest", "harmonic"] {
+    for strategy in ["view", "nearest", "harmonic", "wall"] {
         for grid in ["9", "13x8"] {
             let done = explore(&place, &rooms(), &format!("--grid {grid} --strategy {strategy}"));
             assert!([0, 4].contains(&done.code), "{}{}", done.stdout, done.stderr);
