@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_dead_end_is_left_again_and_a_closed_step_is_none() {
         let grid = drawn(&["...", "##."], [limited(); 2]);
-        let there_and_back = [[2, 0], [2, 1], [1, 1], [0, 1], [1, 1], [2, 1]];
+        let there_and_back = [[1, 1], [0, 1], [1, 1], [2, 1], [2, 0], [2, 1]];
         assert_eq!(followed(&grid, &Closed::new(), [2, 1], 6), there_and_back);
         // Steps between (1, 1) and (0, 1).
         let closed = Closed::from([[3, 1], [1, 3]]);
