@@ -29,7 +29,8 @@ impl Disc {
 
     /// Whether the centre of a cell lies in it.
     fn holds(&self, row: usize, column: usize) -> bool {
-        (row as f64 - self.center[0]).hypot(column as f64 - self.center[1]) < self.radius
+        let away = [row as f64 - self.center[0], column as f64 - self.center[1]];
+        self.radius > 0.0 && away[0].powi(2) + away[1].powi(2) < self.radius.powi(2)
     }
 }
 

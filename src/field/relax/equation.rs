@@ -137,9 +137,10 @@ pub fn around(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
     let nearest = |cell: usize| {
         let at = [(cell / columns) as f64, (cell % columns) as f64];
-        let distance = |i: &Influence| (at[0] - i.center[0]).hypot(at[1] - i.center[1]);
-        let nearest = influences.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        (distance(nearest) < nearest.radius).then_some(nearest.drift)
+        // Squares: roots would take longer than all else here.
+        let square = |i: &Influence| (at[0] - i.center[0]).powi(2) + (at[1] - i.center[1]).powi(2);
+        let nearest = influences.iter().min_by(|a, b| square(a).total_cmp(&square(b)))?;
+        (nearest.radius > 0.0 && square(nearest) < nearest.radius.powi(2)).then_some(nearest.drift)
     };
     (0..domain.kinds().len()).map(|cell| nearest(cell).unwrap_or_default()).collect()
 }
