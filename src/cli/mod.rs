@@ -30,14 +30,17 @@ mod serve;
 mod sinks;
 mod variant;
 mod verify;
+mod words;
 
 pub use memory::MemoryMeter;
+pub use words::read_words;
 
 use args::{Cli, Command};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use error_json::ErrorJson;
 use failure::Failure;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 /// Exit code: a path was found, and it is certified; or the job is done.
@@ -58,11 +61,18 @@ const UNKNOWN: u8 = 4;
 /// process's memory, if anything does.
 #[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
-    let in_json = std::env::args_os().any(|argument| argument == "--json");
-    let mut cli = match Cli::grammar().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli,
-        Err(error) => return unread(&error, in_json),
-    };
+    run_with(std::env::args_os().collect(), meter).into()
+}
+
+/// The same with these arguments, the program's name first; its exit code.
+#[must_use]
+pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
+    let in_json = arguments.iter().any(|argument| argument == "--json");
+    let mut cli =
+        match Cli::grammar().try_get_matches_from(arguments).and_then(|matches| Cli::from_arg_matches(&matches)) {
+            Ok(cli) => cli,
+            Err(error) => return unread(&error, in_json),
+        };
     let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
         (Some(Command::Check(args)), _) => check::run(args),
@@ -85,14 +95,14 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
             return unread(&error, in_json);
         }
     };
-    ExitCode::from(done.unwrap_or_else(|failure: Failure| {
+    done.unwrap_or_else(|failure: Failure| {
         if in_json && !failure.is_reported() {
             // A stream that is closed cannot be told so.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());
         }
         sinks::say(&format!("error: {failure}"));
         failure.exit_code()
-    }))
+    })
 }
 
 /// Shows what planners can be told.
@@ -104,13 +114,13 @@ fn planners() -> Result<u8, Failure> {
 }
 
 /// Says what is wrong with the command line, or shows what it asks to be shown: a help or the version.
-fn unread(error: &clap::Error, in_json: bool) -> ExitCode {
+fn unread(error: &clap::Error, in_json: bool) -> u8 {
     if in_json && error.use_stderr() {
         let _ = sinks::print(&ErrorJson::of_usage(error).text());
     }
     // As `exit` has it: a stream that is closed is nobody's concern.
     let _ = error.print();
-    u8::try_from(error.exit_code()).map_or(ExitCode::from(USAGE), ExitCode::from)
+    u8::try_from(error.exit_code()).unwrap_or(USAGE)
 }
 
 #[cfg(test)]

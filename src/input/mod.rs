@@ -70,9 +70,10 @@ pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite
 pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint};
+use world::RobotTable;
 pub use world::World;
 
-use crate::model::{AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
+use crate::model::{Arm, AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -131,6 +132,26 @@ pub fn load_scene(urdf: &Path, world: &Path) -> Result<LoadedScene, InputError> 
 /// [`InputError`] for everything that is wrong with the texts themselves.
 pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError> {
     among(world::read(world)?, urdf)
+}
+
+/// The same for an arm that is made in code, whose two joints are all that moves.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with the world; a `[robot]` table, which is about a URDF; an arm whose numbers make no sense.
+pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
+    let world = world::read(world)?;
+    let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
+    if world.robot != RobotTable::default() {
+        let message = "[robot] says how a URDF is read, and this arm is made in code".into();
+        return Err(refused(message, "leave the table out").into());
+    }
+    for pair in &world.in_degrees {
+        pair.check(&world.source, &arm.joints)?;
+    }
+    let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
+    let scene = Scene::new(arm, world.at_first())
+        .map_err(|error| refused(error.to_string(), "make the arm of numbers that are finite, and sizes above 0"))?;
+    Ok(LoadedScene { scene, world, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
 impl LoadedScene {

@@ -2,6 +2,7 @@
 
 use super::error::{Diagnostic, InputError};
 use super::identity::note_read;
+use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -17,8 +18,8 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The text of an input, read from a file or made by the program.
-#[derive(Debug, Clone)]
+/// The text of an input, read from a file or made by the program. As data it is the text with its name: nothing is read again.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
     /// The file, or the name of a text that is none.
     pub(super) path: PathBuf,
@@ -26,6 +27,7 @@ pub struct Source {
     /// Whether there is such a file, beside which others may lie.
     is_file: bool,
     /// The position of every [`MILE`]th byte, once it is asked for.
+    #[serde(skip)]
     milestones: OnceLock<Vec<Position>>,
 }
 

@@ -19,10 +19,11 @@
 #![forbid(unsafe_code)]
 
 use std::cell::RefCell;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// Why work was stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -40,6 +41,34 @@ pub enum Interrupted {
 pub struct Interrupt {
     flag: Arc<AtomicBool>,
     deadline: Option<Instant>,
+    question: Option<Arc<Question>>,
+}
+
+/// Whether work is to stop.
+type Stops = Box<dyn Fn() -> bool + Send + Sync>;
+
+/// What is asked now and then.
+struct Question {
+    every: Duration,
+    begun: Instant,
+    /// Nanoseconds from then to when it is asked next.
+    next: AtomicU64,
+    stops: AssertUnwindSafe<Stops>,
+}
+
+impl fmt::Debug for Question {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Question").field("every", &self.every).finish_non_exhaustive()
+    }
+}
+
+impl Question {
+    /// Whether it is time to ask, and by whom: of several threads one is told so.
+    fn is_due(&self) -> bool {
+        let (now, next) = (self.begun.elapsed().as_nanos() as u64, self.next.load(Ordering::Relaxed));
+        let after = now + self.every.as_nanos() as u64;
+        now >= next && self.next.compare_exchange(next, after, Ordering::Relaxed, Ordering::Relaxed).is_ok()
+    }
 }
 
 /// What [`checkpoint`] unwinds with: the depth of the interrupt that is set, so that only its own [`Interrupt::run`]
@@ -65,6 +94,15 @@ impl Interrupt {
     #[must_use]
     pub fn by(self, deadline: Instant) -> Self {
         Self { deadline: Some(deadline), ..self }
+    }
+
+    /// This handle, under which work asks every so often whether it is to stop, on its own thread, at a checkpoint: for hosts whose
+    /// signals are seen by that thread alone. What is asked may itself do work under interrupts.
+    #[must_use]
+    pub fn asking(self, every: Duration, stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
+        let next = AtomicU64::new(every.as_nanos() as u64);
+        let question = Question { every, begun: Instant::now(), next, stops: AssertUnwindSafe(Box::new(stops)) };
+        Self { question: Some(Arc::new(question)), ..self }
     }
 
     /// Stops the work that runs under any handle to this interrupt, now and later.
@@ -108,16 +146,23 @@ impl Interrupt {
 }
 
 /// A place where work may stop: returns unless an interrupt that the thread works under is set. Some nanoseconds; some tens
-/// with a deadline. Outside of [`Interrupt::run`] it does nothing.
+/// with a deadline or a question. Outside of [`Interrupt::run`] it does nothing.
 #[inline]
 pub fn checkpoint() {
-    let set = ACTIVE.with_borrow(|active| {
+    let (set, asked) = ACTIVE.with_borrow(|active| {
         let why = |(depth, interrupt): (usize, &Interrupt)| Some(Unwinding { depth, why: interrupt.why()? });
-        (1..).zip(active).find_map(why)
+        let is_due = |interrupt: &&Interrupt| interrupt.question.as_ref().is_some_and(|question| question.is_due());
+        ((1..).zip(active).find_map(why), active.iter().find(is_due).cloned())
     });
     if let Some(unwinding) = set {
         // Not a panic: no message, no hook.
         resume_unwind(Box::new(unwinding));
+    }
+    if let Some(interrupt) =
+        asked.filter(|interrupt| interrupt.question.as_ref().is_some_and(|question| (question.stops.0)()))
+    {
+        interrupt.set();
+        checkpoint();
     }
 }
 
@@ -168,6 +213,25 @@ mod tests {
         let inner = Interrupt::new();
         let result = outer.run(|| inner.run(|| counted_to(3, |_| outer.set())));
         assert_eq!(result, Err(Interrupted::Set), "the outer one ends both");
+    }
+
+    #[test]
+    fn who_asks_is_told_to_stop_and_may_work_meanwhile() {
+        let asked = Arc::new(AtomicU64::new(0));
+        let count = asked.clone();
+        let interrupt = Interrupt::new().asking(Duration::from_millis(1), move || {
+            assert_eq!(Interrupt::new().run(|| counted_to(3, |_| ())), Ok(3));
+            count.fetch_add(1, Ordering::Relaxed) == 4
+        });
+        let endless = || {
+            loop {
+                checkpoint();
+            }
+        };
+        assert_eq!(interrupt.run(endless), Err::<(), _>(Interrupted::Set));
+        assert_eq!(asked.load(Ordering::Relaxed), 5);
+        let patient = Interrupt::new().asking(Duration::from_secs(1000), || true);
+        assert_eq!(patient.run(|| counted_to(3, |_| ())), Ok(3));
     }
 
     #[test]

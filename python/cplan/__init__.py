@@ -1,0 +1,53 @@
+"""Plans motions of planar two-joint arms in configuration space.
+
+Three answers: a path whose whole continuous motion is certified free of collision (`Found`), a proof that there is none (`Infeasible`), or
+`Unknown` at the resolution that was tried.
+
+>>> import cplan
+>>> arm = cplan.Arm.rr([1.0, 0.8], width=0.06)
+>>> world = cplan.World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.2], goal=[-1.0, -0.2])
+>>> match cplan.plan(arm, world):
+...     case cplan.Found(path, trajectory):
+...         print(path.shape[1], trajectory.position[-1])
+2 [-1.  -0.2]
+
+Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip.
+"""
+
+from cplan._cplan import (
+    Arm,
+    Found,
+    Infeasible,
+    InputError,
+    Options,
+    Plan,
+    PolygonTest,
+    Problem,
+    Trajectory,
+    Unknown,
+    World,
+    __version__,
+    minkowski_difference,
+    penetration_depth,
+    polygon_test,
+)
+from cplan.planning import plan
+
+__all__ = [
+    "Arm",
+    "Found",
+    "Infeasible",
+    "InputError",
+    "Options",
+    "Plan",
+    "PolygonTest",
+    "Problem",
+    "Trajectory",
+    "Unknown",
+    "World",
+    "__version__",
+    "minkowski_difference",
+    "penetration_depth",
+    "plan",
+    "polygon_test",
+]

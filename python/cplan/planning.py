@@ -1,0 +1,69 @@
+"""From an arm and a world to an answer."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from cplan._cplan import Arm, Found, Infeasible, Options, Problem, Unknown, World
+from cplan._cplan import plan as _plan
+
+
+def options(**given: Any) -> Options | None:
+    """Options of the program's command line by their names: `cells=80`, `tip_speed=0.5`, `goal=(0.3, -1.0)`, `backward=True`.
+
+    `cplan help planners` tells of each. None where nothing is given.
+
+    >>> options(planner="wavefront", cells=(80, 40), start=(0.5, -0.25))
+    <cplan.Options: --planner=wavefront --cells=80x40 --start=0.5,-0.25>
+    """
+    words = [word for name, value in given.items() for word in _words(name, value)]
+    return Options(words) if words else None
+
+
+def _words(name: str, value: Any) -> list[str]:
+    option = "--" + name.replace("_", "-")
+    if value is None or value is False:
+        return []
+    if value is True:
+        return [option]
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        separator = "x" if name in ("cells", "grid") else ","
+        value = separator.join("none" if entry is None else str(entry) for entry in value)
+    return [f"{option}={value}"]
+
+
+def plan(
+    arm: Arm | Problem,
+    world: World | None = None,
+    *,
+    planner: str = "shortest",
+    start: Sequence[float] | str | None = None,
+    goal: Sequence[float] | str | None = None,
+    goal_tip: Sequence[float] | None = None,
+    clearance: float | None = None,
+    progress: Callable[[str], object] | None = None,
+    **more: Any,
+) -> Found | Infeasible | Unknown:
+    """Plans: a certified motion, a proof that there is none, or neither within the effort.
+
+    An arm in a world, or a `Problem` of both. `start`, `goal` (joint values), `goal_tip` (a place for the tip, metres) and `clearance`
+    (metres) stand in place of the world's. All other options are those of the program, by name: see `options`. `progress` hears of
+    long work, in lines of text.
+
+    Other threads run meanwhile; Ctrl-C ends it.
+
+    Raises `InputError` for everything that is wrong with arm, world, start and goal, `ValueError` for options that make no sense.
+    """
+    overrides = {"start": start, "goal": goal, "goal_tip": goal_tip, "clearance": clearance}
+    named = {} if planner == "shortest" else {"planner": planner}
+    asked = options(**named, **overrides, **more)
+    if isinstance(arm, Problem):
+        if world is not None or any(value is not None for value in overrides.values()):
+            raise ValueError("a problem has its world, start, goal and clearance already")
+        problem = arm
+    elif world is None:
+        raise TypeError("plan() needs a world beside the arm")
+    else:
+        problem = Problem(arm, world, asked)
+    return _plan(problem, asked, progress)

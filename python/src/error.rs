@@ -1,0 +1,37 @@
+//! What is wrong with input, as an exception.
+
+use cplan::input;
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+create_exception!(
+    cplan,
+    InputError,
+    PyValueError,
+    "Input that cannot be used. Its text names file, line and cure of everything that is wrong; `diagnostics` has them one by one: \
+     dictionaries with `file`, `line`, `column`, `message` and `help` (line and column None where they are not known)."
+);
+
+/// As Python raises it.
+pub fn raised(py: Python<'_>, error: &input::InputError) -> PyErr {
+    let raised = InputError::new_err(error.to_string());
+    let diagnostics = error.diagnostics().iter().map(|diagnostic| {
+        let entry = pyo3::types::PyDict::new(py);
+        entry.set_item("file", &diagnostic.origin)?;
+        entry.set_item("line", diagnostic.position.map(|at| at.line))?;
+        entry.set_item("column", diagnostic.position.map(|at| at.column))?;
+        entry.set_item("message", &diagnostic.message)?;
+        entry.set_item("help", &diagnostic.help)?;
+        Ok(entry)
+    });
+    match diagnostics.collect::<PyResult<Vec<_>>>().and_then(|all| raised.value(py).setattr("diagnostics", all)) {
+        Ok(()) => raised,
+        Err(other) => other,
+    }
+}
+
+/// A value that makes no sense.
+pub fn refused(why: impl ToString) -> PyErr {
+    PyValueError::new_err(why.to_string())
+}

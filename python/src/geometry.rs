@@ -1,0 +1,74 @@
+//! Predicates of convex polygons on arrays.
+
+use crate::error::refused;
+use cplan::geometry::{self, Convex, Point};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+/// A convex polygon of corners, shape (n, 2), counter-clockwise; a point or a segment has one or two.
+fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> {
+    let corners = corners.as_array();
+    if corners.ncols() != 2 {
+        return Err(refused(format!("{name}: expected shape (n, 2), not {:?}", corners.shape())));
+    }
+    let points = corners.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect();
+    Convex::new(points, 0.0).map_err(|error| refused(format!("{name}: {error}")))
+}
+
+/// Points as an array of shape (n, 2), which nobody changes.
+pub fn array(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Py<PyArray2<f64>>> {
+    let count = rows.len();
+    let array = PyArray1::from_vec(py, rows.into_flattened()).reshape([count, 2])?;
+    array.readwrite().make_nonwriteable();
+    Ok(array.unbind())
+}
+
+/// Penetration depth of two convex polygons, metres: by how much one has to be moved so that they only touch; negative
+/// is the distance between them.
+///
+/// Corners are arrays of shape (n, 2), counter-clockwise.
+#[pyfunction]
+pub fn penetration_depth(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f64>) -> PyResult<f64> {
+    Ok(geometry::penetration_depth(&polygon("a", &a)?, &polygon("b", &b)?))
+}
+
+/// What the polygon penetration test finds.
+#[pyclass(frozen, get_all, module = "cplan")]
+pub struct PolygonTest {
+    /// Whether the polygons have a point in common: exact, touching counts.
+    meet: bool,
+    /// Numbers of the corners of a in b.
+    a_inside: Vec<usize>,
+    /// Numbers of the corners of b in a.
+    b_inside: Vec<usize>,
+    /// Sides of a and of b that cross properly.
+    crossings: Vec<(usize, usize)>,
+}
+
+/// Corners of each convex polygon in the other, and sides that cross. Exact.
+///
+/// Corners are arrays of shape (n, 2), counter-clockwise.
+#[pyfunction]
+pub fn polygon_test(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f64>) -> PyResult<PolygonTest> {
+    let test = geometry::polygon_test(&polygon("a", &a)?, &polygon("b", &b)?);
+    let corners = |inside: &[geometry::CornerInside]| inside.iter().map(|corner| corner.corner).collect();
+    Ok(PolygonTest {
+        meet: test.meet,
+        a_inside: corners(&test.a_inside),
+        b_inside: corners(&test.b_inside),
+        crossings: test.crossings,
+    })
+}
+
+/// Minkowski difference: the translations of `b` that make it meet `a`, its C-obstacle, as corners of shape (n, 2), counter-clockwise.
+///
+/// Both are convex, counter-clockwise, of shape (n, 2).
+#[pyfunction]
+pub fn minkowski_difference(
+    py: Python<'_>,
+    a: PyReadonlyArray2<'_, f64>,
+    b: PyReadonlyArray2<'_, f64>,
+) -> PyResult<Py<PyArray2<f64>>> {
+    let difference = polygon("a", &a)?.minkowski_difference(&polygon("b", &b)?);
+    array(py, difference.core().iter().map(|p| [p.x, p.y]).collect())
+}

@@ -1,0 +1,283 @@
+//! The answer to a problem.
+
+use crate::error::refused;
+use crate::geometry::array;
+use crate::problem::{Options, Problem};
+use crate::signals::interruptible;
+use cplan::Status;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::path::PathBuf;
+
+/// An answer with all that the program prints, writes and draws of it: Found, Infeasible or Unknown. Frozen; pickled it is problem, options
+/// and result, and unpickling plans again and compares.
+#[pyclass(frozen, subclass, module = "cplan")]
+pub struct Plan {
+    plan: cplan::Plan,
+    trajectory: Option<Py<Trajectory>>,
+    path: Option<Py<PyArray2<f64>>>,
+}
+
+/// A motion that is certified free of collision, all of it.
+#[pyclass(frozen, extends = Plan, module = "cplan")]
+pub struct Found;
+
+/// A proof that there is no motion.
+#[pyclass(frozen, extends = Plan, module = "cplan")]
+pub struct Infeasible;
+
+/// Neither is known at the resolution that was tried.
+#[pyclass(frozen, extends = Plan, module = "cplan")]
+pub struct Unknown;
+
+/// A motion in time. Arrays are read-only: n samples, two joints, base to tip.
+#[pyclass(frozen, module = "cplan")]
+pub struct Trajectory {
+    time: Py<PyArray1<f64>>,
+    position: Py<PyArray2<f64>>,
+    velocity: Py<PyArray2<f64>>,
+    acceleration: Py<PyArray2<f64>>,
+    joints: [String; 2],
+    units: [&'static str; 2],
+}
+
+impl Trajectory {
+    fn new(py: Python<'_>, report: &cplan::engine::Report) -> PyResult<Option<Self>> {
+        let Some(motion) = report.trajectory.clone() else { return Ok(None) };
+        let time = PyArray1::from_vec(py, motion.time);
+        time.readwrite().make_nonwriteable();
+        Ok(Some(Self {
+            time: time.unbind(),
+            position: array(py, motion.position)?,
+            velocity: array(py, motion.velocity)?,
+            acceleration: array(py, motion.acceleration)?,
+            joints: report.joints.clone(),
+            units: report.units,
+        }))
+    }
+}
+
+#[pymethods]
+impl Trajectory {
+    /// Seconds from the start, shape (n,).
+    #[getter]
+    fn time(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
+        self.time.clone_ref(py)
+    }
+
+    /// Joint values, shape (n, 2), radians or metres.
+    #[getter]
+    fn position(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        self.position.clone_ref(py)
+    }
+
+    /// Joint velocities, shape (n, 2), rad/s or m/s.
+    #[getter]
+    fn velocity(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        self.velocity.clone_ref(py)
+    }
+
+    /// Joint accelerations at the beginning of each interval, shape (n, 2), rad/s2 or m/s2.
+    #[getter]
+    fn acceleration(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
+        self.acceleration.clone_ref(py)
+    }
+
+    /// Names of the joints, base to tip.
+    #[getter]
+    fn joints(&self) -> [String; 2] {
+        self.joints.clone()
+    }
+
+    /// Units of the joints' values: rad or m.
+    #[getter]
+    fn units(&self) -> [&'static str; 2] {
+        self.units
+    }
+
+    fn __len__(&self, py: Python<'_>) -> usize {
+        self.time.bind(py).len().unwrap_or(0)
+    }
+}
+
+/// A plan as the class of its outcome.
+fn outcome(py: Python<'_>, plan: cplan::Plan) -> PyResult<Py<PyAny>> {
+    let report = plan.report();
+    let trajectory = Trajectory::new(py, report)?.map(|trajectory| Py::new(py, trajectory)).transpose()?;
+    let path = report.path.clone().map(|path| array(py, path)).transpose()?;
+    let status = plan.status();
+    let base = PyClassInitializer::from(Plan { plan, trajectory, path });
+    Ok(match status {
+        Status::Found => Py::new(py, base.add_subclass(Found))?.into_any(),
+        Status::Infeasible => Py::new(py, base.add_subclass(Infeasible))?.into_any(),
+        Status::Unknown => Py::new(py, base.add_subclass(Unknown))?.into_any(),
+    })
+}
+
+/// Plans. `progress` hears of long work, in lines of text.
+#[pyfunction]
+#[pyo3(signature = (problem, options = None, progress = None))]
+pub fn plan(
+    py: Python<'_>,
+    problem: &Problem,
+    options: Option<&Options>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Py<PyAny>> {
+    let options = options.map_or_else(cplan::Options::default, |options| options.options);
+    let mut failed = None;
+    let mut say = |text: &str| {
+        if let Some(progress) = &progress {
+            let said = Python::attach(|py| progress.call1(py, (text,)).map(|_| ()));
+            failed = failed.take().or(said.err());
+        }
+    };
+    let made = interruptible(py, || cplan::engine::plan_with(&problem.problem, &options, &mut say))?;
+    match failed {
+        Some(error) => Err(error),
+        None => outcome(py, made.map_err(refused)?),
+    }
+}
+
+/// A plan from what it was pickled as: it is planned again, and refused if the result differs.
+#[pyfunction]
+pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
+    let plan = interruptible(py, || serde_json::from_slice::<cplan::Plan>(data))?;
+    outcome(py, plan.map_err(refused)?)
+}
+
+#[pymethods]
+impl Plan {
+    /// Which of the three answers it is: found, infeasible or unknown.
+    #[getter]
+    fn status(&self) -> &'static str {
+        self.plan.status().name()
+    }
+
+    /// Name of the planner.
+    #[getter]
+    fn planner(&self) -> &str {
+        &self.plan.report().planner
+    }
+
+    /// Why there is no motion, or why none is known.
+    #[getter]
+    fn reason(&self) -> Option<&str> {
+        self.plan.report().reason.as_deref()
+    }
+
+    /// What the user should know of the problem, line by line.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.plan.problem().notes().to_vec()
+    }
+
+    /// In some ten lines, for people.
+    fn summary(&self) -> String {
+        self.plan.summary()
+    }
+
+    /// The result as a JSON object.
+    fn to_json(&self) -> String {
+        self.plan.to_json()
+    }
+
+    /// Workspace and configuration space side by side.
+    fn svg(&self, py: Python<'_>) -> String {
+        py.detach(|| self.plan.svg())
+    }
+
+    /// A page in which the arm can be moved.
+    fn html(&self, py: Python<'_>) -> String {
+        py.detach(|| self.plan.html())
+    }
+
+    /// Writes the plan as the file's ending says: .json, .csv, .yaml, .mcap, .svg, .png, .html.
+    fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        py.detach(|| self.plan.save(path)).map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))
+    }
+
+    /// As a notebook shows it.
+    fn _repr_html_(&self, py: Python<'_>) -> String {
+        let page = self.html(py).replace('&', "&amp;").replace('"', "&quot;");
+        format!("<iframe srcdoc=\"{page}\" style=\"width: 100%; height: 640px; border: 0\"></iframe>")
+    }
+
+    fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
+        let name = slf.get_type().qualname()?;
+        let summary = slf.get().plan.summary();
+        Ok(format!("<cplan.{name}: {}>", summary.lines().take(2).collect::<Vec<_>>().join("; ")))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let data = serde_json::to_vec(&slf.get().plan).map_err(refused)?;
+        let restored = slf.py().import("cplan._cplan")?.getattr("restored")?;
+        Ok((restored, (PyBytes::new(slf.py(), &data),)))
+    }
+}
+
+#[pymethods]
+impl Found {
+    #[classattr]
+    fn __match_args__() -> (&'static str, &'static str) {
+        ("path", "trajectory")
+    }
+
+    /// Waypoints, shape (n, 2), straight segments between them; read-only.
+    #[getter]
+    fn path(slf: PyRef<'_, Self>) -> Option<Py<PyArray2<f64>>> {
+        slf.as_super().path.as_ref().map(|path| path.clone_ref(slf.py()))
+    }
+
+    /// The whole motion in time.
+    #[getter]
+    fn trajectory(slf: PyRef<'_, Self>) -> Option<Py<Trajectory>> {
+        slf.as_super().trajectory.as_ref().map(|trajectory| trajectory.clone_ref(slf.py()))
+    }
+
+    /// Euclidean length of the path in joint space; of a task None.
+    #[getter]
+    fn length(slf: PyRef<'_, Self>) -> Option<f64> {
+        slf.as_super().plan.report().length
+    }
+
+    /// Of the whole motion, seconds.
+    #[getter]
+    fn duration(slf: PyRef<'_, Self>) -> Option<f64> {
+        slf.as_super().plan.report().duration
+    }
+
+    /// Proven lower bound on the distance between arm and obstacles all the time, metres; None where nothing can be hit.
+    #[getter]
+    fn clearance(slf: PyRef<'_, Self>) -> Option<f64> {
+        slf.as_super().plan.report().clearance
+    }
+
+    /// No path is shorter than this: proven. None of planners that do not tell.
+    #[getter]
+    fn lower_bound(slf: PyRef<'_, Self>) -> Option<f64> {
+        slf.as_super().plan.report().optimum.as_ref().map(|optimum| optimum.lower_bound)
+    }
+
+    /// By which share the path may be longer than the shortest, at most.
+    #[getter]
+    fn gap(slf: PyRef<'_, Self>) -> Option<f64> {
+        slf.as_super().plan.report().optimum.as_ref().and_then(|optimum| optimum.gap)
+    }
+}
+
+#[pymethods]
+impl Infeasible {
+    #[classattr]
+    fn __match_args__() -> (&'static str,) {
+        ("reason",)
+    }
+}
+
+#[pymethods]
+impl Unknown {
+    #[classattr]
+    fn __match_args__() -> (&'static str,) {
+        ("reason",)
+    }
+}

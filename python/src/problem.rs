@@ -1,0 +1,217 @@
+//! What is asked: an arm, a world, a problem, options.
+
+use crate::error::{raised, refused};
+use cplan::Joint;
+use cplan::input::{Overrides, Source, scene_from, scene_of};
+use pyo3::PyClass;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// A planar two-joint arm: a robot in URDF, or one that is made in code.
+///
+/// Lengths are metres, angles radians. A URDF is checked where it stands in a world, which says what it leaves open.
+#[pyclass(frozen, module = "cplan", eq)]
+#[derive(Clone, PartialEq)]
+pub struct Arm(What);
+
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
+enum What {
+    Urdf(Source),
+    Made(Box<cplan::Arm>),
+}
+
+#[pymethods]
+impl Arm {
+    /// Reads a URDF file.
+    #[staticmethod]
+    fn from_urdf(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        Source::read(&path).map(|source| Self(What::Urdf(source))).map_err(|error| raised(py, &error))
+    }
+
+    /// Takes a URDF text. `name` is for messages.
+    #[staticmethod]
+    #[pyo3(signature = (text, name = "arm.urdf"))]
+    fn from_text(text: String, name: &str) -> Self {
+        Self(What::Urdf(Source::in_memory(name, text)))
+    }
+
+    /// Two bars of these lengths and this width with round ends, metres, on joints "joint 1" and "joint 2" that turn without end, or within
+    /// `limits` ((lower, upper) of each, radians); at 1 rad/s, or `velocity`, which they reach in 0.25 s, or with `acceleration`.
+    #[staticmethod]
+    #[pyo3(signature = (lengths, width, *, limits = None, velocity = None, acceleration = None))]
+    fn rr(
+        lengths: [f64; 2],
+        width: f64,
+        limits: Option<[(f64, f64); 2]>,
+        velocity: Option<[f64; 2]>,
+        acceleration: Option<[f64; 2]>,
+    ) -> PyResult<Self> {
+        let mut arm = cplan::Arm::rr(lengths, width).map_err(refused)?;
+        for (k, joint) in arm.joints.iter_mut().enumerate() {
+            if let Some((lower, upper)) = limits.map(|limits| limits[k]) {
+                *joint = Joint::turning(&joint.name, lower, upper);
+            }
+            let speed = velocity.map_or(joint.velocity, |velocity| velocity[k]);
+            let rise = acceleration.map_or(joint.acceleration * speed / joint.velocity, |acceleration| acceleration[k]);
+            *joint = joint.clone().at_most(speed, rise);
+        }
+        Ok(Self(What::Made(Box::new(arm))))
+    }
+
+    /// The text of the URDF; None of an arm that is made in code.
+    #[getter]
+    fn urdf(&self) -> Option<&str> {
+        if let What::Urdf(source) = &self.0 { Some(source.text()) } else { None }
+    }
+
+    fn __repr__(&self) -> String {
+        match &self.0 {
+            What::Urdf(source) => format!("<cplan.Arm: URDF of {} characters>", source.text().len()),
+            What::Made(arm) => format!("<cplan.Arm: {} with a reach of {} m>", arm.kind(), arm.reach()),
+        }
+    }
+
+    /// An arm from what it was pickled as.
+    #[staticmethod]
+    fn restored(data: &str) -> PyResult<Self> {
+        serde_json::from_str(data).map(Self).map_err(refused)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        pickled(slf, &slf.get().0)
+    }
+}
+
+/// A polygonal workspace, with start and goal or steps: the text of a world file (TOML).
+#[pyclass(frozen, module = "cplan", eq)]
+#[derive(PartialEq)]
+pub struct World {
+    source: Source,
+}
+
+#[pymethods]
+impl World {
+    /// Reads a world file (TOML).
+    #[staticmethod]
+    fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        Source::read(&path).map(|source| Self { source }).map_err(|error| raised(py, &error))
+    }
+
+    /// Takes the text of a world file. `name` is for messages.
+    #[staticmethod]
+    #[pyo3(signature = (text, name = "world.toml"))]
+    fn from_text(text: String, name: &str) -> Self {
+        Self { source: Source::in_memory(name, text) }
+    }
+
+    /// Obstacles, one after the other, and the other keys of a world file by name.
+    #[new]
+    #[pyo3(signature = (*obstacles, **keys))]
+    fn new(py: Python<'_>, obstacles: &Bound<'_, PyTuple>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let json = py.import("cplan._world")?.call_method1("document", (obstacles, keys))?;
+        let keys: serde_json::Value = serde_json::from_str(json.extract::<&str>()?).map_err(refused)?;
+        let text = toml::to_string(&keys).map_err(refused)?;
+        Ok(Self { source: Source::in_memory("World(...)", text) })
+    }
+
+    /// The text of the world file.
+    #[getter]
+    fn toml(&self) -> &str {
+        self.source.text()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<cplan.World: TOML of {} lines>", self.source.text().lines().count())
+    }
+
+    /// A world from what it was pickled as.
+    #[staticmethod]
+    fn restored(data: &str) -> PyResult<Self> {
+        serde_json::from_str(data).map(|source| Self { source }).map_err(refused)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        pickled(slf, &slf.get().source)
+    }
+}
+
+/// How to make a thing again that has a static method `restored`: files are not read again.
+fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+    let data = serde_json::to_string(data).map_err(refused)?;
+    Ok((thing.get_type().getattr("restored")?, (data,)))
+}
+
+/// How to plan, and what stands in place of the world's start, goal and clearance: words of the program's command line.
+#[pyclass(frozen, module = "cplan", eq)]
+#[derive(PartialEq)]
+pub struct Options {
+    words: Vec<String>,
+    pub options: cplan::Options,
+    overrides: Overrides,
+}
+
+#[pymethods]
+impl Options {
+    /// Reads words such as `--planner=harmonic`.
+    #[new]
+    fn new(words: Vec<String>) -> PyResult<Self> {
+        if words.is_empty() {
+            return Ok(Self { words, options: cplan::Options::default(), overrides: Overrides::default() });
+        }
+        let (options, overrides) = cplan::cli::read_words(&words).map_err(refused)?;
+        Ok(Self { words, options, overrides })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<cplan.Options: {}>", self.words.join(" "))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<String>,))> {
+        Ok((slf.get_type().into_any(), (slf.get().words.clone(),)))
+    }
+}
+
+/// An arm in its world, read and checked, with what it is to do.
+#[pyclass(frozen, module = "cplan")]
+pub struct Problem {
+    pub problem: cplan::Problem,
+}
+
+#[pymethods]
+impl Problem {
+    /// Raises InputError for everything that is wrong with arm, world, start and goal.
+    #[new]
+    #[pyo3(signature = (arm, world, options = None))]
+    fn new(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<Self> {
+        let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
+        let problem = py.detach(|| {
+            let world = world.source.clone();
+            let scene = match &arm.0 {
+                What::Urdf(source) => scene_from(source.clone(), world),
+                What::Made(arm) => scene_of(*arm.clone(), world),
+            };
+            cplan::Problem::of_scene(scene?, &overrides)
+        });
+        problem.map(|problem| Self { problem }).map_err(|error| raised(py, &error))
+    }
+
+    /// What the user should know of how the files were read, line by line.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.problem.robot().warnings.iter().chain(self.problem.notes()).cloned().collect()
+    }
+
+    /// Names of the two joints, base to tip.
+    #[getter]
+    fn joints(&self) -> [String; 2] {
+        self.problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone())
+    }
+
+    /// Kind of the arm: RR, PP, RP or PR.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.problem.scene().arm().kind()
+    }
+}
