@@ -140,7 +140,7 @@ impl World {
 /// How to make a thing again that has a static method `restored`: files are not read again.
 fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyResult<(Bound<'py, PyAny>, (String,))> {
     let data = serde_json::to_string(data).map_err(refused)?;
-    Ok((thing.get_type().getattr("restored")?, (data,)))
+    Ok((thing.as_any().get_type().getattr("restored")?, (data,)))
 }
 
 /// How to plan, and what stands in place of the world's start, goal and clearance: words of the program's command line.
