@@ -27,6 +27,10 @@ fuzz:
 gpu:
     .ci/gpu
 
+# The Python package: wheel, tests, stubs
+python:
+    .ci/python
+
 # Licences, bans and duplicates of dependencies (needs cargo-deny)
 deny:
     cargo deny --locked check

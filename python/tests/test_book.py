@@ -1,0 +1,24 @@
+"""The examples of the book's page print what it says."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PAGE = (ROOT / "docs/python.md").read_text()
+EXAMPLES = re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", PAGE, re.DOTALL)
+
+
+def test_there_are_examples() -> None:
+    assert len(EXAMPLES) == PAGE.count("```python") >= 3
+
+
+@pytest.mark.parametrize("code, said", EXAMPLES)
+def test_an_example_prints_what_the_page_says(code: str, said: str) -> None:
+    if "shapely" in code:
+        pytest.importorskip("shapely")
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=ROOT)
+    assert (done.returncode, done.stdout) == (0, said), done.stderr
