@@ -10,6 +10,7 @@ use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::motion::MotionArgs;
 use super::planner_args::{PlannerArgs, PlannerWords};
+use super::print_args::PrintArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
 use crate::engine::Method;
@@ -182,15 +183,11 @@ pub struct PlanArgs {
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Print the result as JSON, and nothing else, on stdout.
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub print: PrintArgs,
     /// Put the time that each stage took into the JSON; without it the same input gives the same bytes.
     #[arg(long)]
     pub timings: bool,
-    /// No summary, no progress.
-    #[arg(long)]
-    pub quiet: bool,
     // Last, because its headings are for all that follows.
     #[command(flatten)]
     pub options: PlannerArgs,
@@ -330,10 +327,6 @@ pub struct VerifyArgs {
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Print the findings as JSON, and nothing else, on stdout.
-    #[arg(long)]
-    pub json: bool,
-    /// No summary.
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub print: PrintArgs,
 }

@@ -97,8 +97,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
         }
     }
     if args.json {
-        let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        sinks::print_json(&(json + "\n"))?;
+        sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {
         sinks::tell(&text(&loaded, q, &findings))?;
     }

@@ -4,6 +4,7 @@ use super::DONE;
 use super::args::{Files, QueryArgs};
 use super::failure::Failure;
 use super::field_args::{LimitsName, OrderName, direction, finite, positive};
+use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
 use crate::field::{Difference, Direction, Equation, Measure, Stopping};
@@ -11,7 +12,7 @@ use crate::input;
 use crate::motion::{Format, check_writable, write_whole_set};
 use crate::output::title_of;
 use crate::planner::EquationChoice;
-use crate::report::{Convergence, Setup, convergence};
+use crate::report::{Setup, convergence};
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -64,12 +65,8 @@ pub struct ConvergeArgs {
     /// Draw charts of errors and sweeps: .svg, .png or .html (with the tables). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Print all that was measured as JSON, and nothing else, on stdout.
-    #[arg(long)]
-    pub json: bool,
-    /// No tables, no progress.
-    #[arg(long)]
-    pub quiet: bool,
+    #[command(flatten)]
+    pub print: PrintArgs,
 }
 
 /// Stopping rules.
@@ -121,15 +118,12 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let posed = FieldProblem::new(motion, args.cells as usize, args.limits.into())
         .map_err(|reason| Failure::Option(format!("{reason}\n  cure: more --cells")))?;
     let setup = args.setup(title_of(problem.scene()), &posed).map_err(Failure::Option)?;
-    let say = |text: &str| {
-        if !args.quiet {
-            sinks::say(&format!("{text} ..."));
-        }
-    };
-    let measured = convergence(&setup, &mut { say }).map_err(|error| Failure::Option(error.to_string()))?;
+    let measured = convergence(&setup, &mut |text| args.print.say(&format!("{text} ...")))
+        .map_err(|error| Failure::Option(error.to_string()))?;
+    let json = || sinks::pretty(&measured.to_json());
     let mut written = Vec::new();
     for (is_csv, path) in &outputs {
-        let text = if *is_csv { measured.to_csv() } else { json(&measured)? };
+        let text = if *is_csv { measured.to_csv() } else { json()? };
         written.push((path.clone(), text.into_bytes()));
     }
     for sink in &pictures {
@@ -138,11 +132,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
         }
     }
     write_whole_set(&written)?;
-    if args.json {
-        sinks::print_json(&json(&measured)?)?;
-    } else if !args.quiet {
-        sinks::tell(&measured.to_text())?;
-    }
+    args.print.tell(json, || measured.to_text())?;
     Ok(DONE)
 }
 
@@ -193,9 +183,4 @@ fn outputs(paths: &[PathBuf]) -> Result<Vec<(bool, PathBuf)>, Failure> {
     let outputs: Vec<_> = paths.iter().map(of).collect::<Result<_, _>>()?;
     outputs.iter().try_for_each(|output| check_writable(&output.1))?;
     Ok(outputs)
-}
-
-fn json(measured: &Convergence) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(&measured.to_json()).map_err(|e| Failure::Option(e.to_string()))?;
-    Ok(text + "\n")
 }

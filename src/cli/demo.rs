@@ -56,7 +56,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
             Source::in_memory("built-in scara_cell.toml", WORLD),
         )
     })?;
-    if code == DONE && !args.plan.quiet && !args.plan.json {
+    if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
         sinks::tell(&next(&picture))?;
     }
     Ok(code)

@@ -3,6 +3,7 @@
 use super::args::{Files, QueryArgs};
 use super::failure::Failure;
 use super::planner_args::PlannerArgs;
+use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
@@ -66,15 +67,11 @@ pub struct ExploreArgs {
     /// Draw the world and the whole way: .svg or .png; or .html, a page that plays what is known and seen. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
-    /// Print the exploration as JSON, and nothing else, on stdout.
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub print: PrintArgs,
     /// Say how long decisions took; without it the same input gives the same output.
     #[arg(long)]
     pub timings: bool,
-    /// No summary, no progress.
-    #[arg(long)]
-    pub quiet: bool,
     // Last, because its headings are for all that follows.
     #[command(flatten)]
     pub options: PlannerArgs,
@@ -119,11 +116,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     world.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     let settings = args.settings(world.goals.is_some())?;
     sinks::spare_inputs(files())?;
-    let mut say = |text: &str| {
-        if !args.quiet {
-            sinks::say(&format!("{text} ..."));
-        }
-    };
+    let mut say = |text: &str| args.print.say(&format!("{text} ..."));
     let done = explore(&world.scene, &world.sensor, world.start, world.goals.as_ref(), &settings, &mut say)
         .map_err(|error| args.refused(&error))?;
     let joints = world.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
@@ -157,11 +150,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
         files.push((description.clone(), map_description(&done.survey, &name).into_bytes()));
     }
     write_whole_set(&files)?;
-    if args.json {
-        sinks::print_json(&json())?;
-    } else if !args.quiet {
-        sinks::tell(&summary(&world, &done, args.timings))?;
-    }
+    args.print.tell(|| Ok(json()), || summary(&world, &done, args.timings))?;
     Ok(match done.ending {
         Ending::Reached | Ending::Explored { .. } => DONE,
         Ending::Unreachable(_) => INFEASIBLE,

@@ -50,8 +50,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     if args.json {
         let diagnostics = inspection.errors.iter().flat_map(|e| e.diagnostics()).map(entry).collect();
         let json = Json { plannable: inspection.is_plannable(), inspection: &inspection, diagnostics };
-        let json = serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))?;
-        sinks::print_json(&(json + "\n"))?;
+        sinks::print_json(&sinks::pretty(&json)?)?;
     } else {
         sinks::tell(&text(&inspection))?;
     }

@@ -21,6 +21,7 @@ mod motion;
 mod names;
 mod plan;
 mod planner_args;
+mod print_args;
 mod recheck;
 mod roadmap_args;
 mod result_files;

@@ -37,21 +37,12 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
     let files = ResultFiles::new(&sinks, args.per_step, steps)?;
-    let say = |text: &str| {
-        if !args.quiet {
-            sinks::say(text);
-        }
-    };
-    problem.robot().warnings.iter().for_each(|w| say(&format!("warning: {w}")));
-    let plan = plan_with(&problem, &options, &mut |text| say(text))?;
+    problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
+    let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
     let written = written(&plan, &sinks, &files)?;
     let after = [("write", begun.elapsed())];
-    if args.json {
-        sinks::print_json(&plan.to_json())?;
-    } else if !args.quiet {
-        sinks::tell(&plan.summary_with(&written, &after))?;
-    }
+    args.print.tell(|| Ok(plan.to_json()), || plan.summary_with(&written, &after))?;
     Ok(match plan.status() {
         Status::Found => DONE,
         Status::Infeasible => INFEASIBLE,

@@ -6,6 +6,7 @@ use crate::input::{FileIdentity, read_from};
 use crate::motion::{Format, check_writable, write_whole};
 use crate::output::PictureFormat;
 use crate::text::{plain, plain_json};
+use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -99,6 +100,15 @@ pub fn say(text: &str) {
 /// I/O.
 pub fn tell(text: &str) -> Result<(), Failure> {
     print(&plain(text))
+}
+
+/// JSON that people read, too, with a line feed at its end.
+///
+/// # Errors
+/// What has no form in JSON.
+pub fn pretty(value: &impl Serialize) -> Result<String, Failure> {
+    let json = serde_json::to_string_pretty(value).map_err(|error| Failure::Option(error.to_string()))?;
+    Ok(json + "\n")
 }
 
 /// Prints JSON on stdout, in which names do nothing to a terminal, either.

@@ -151,10 +151,7 @@ impl Results<'_> {
         Ok(match format {
             ReportFormat::Markdown => single.map_or_else(|| study.to_markdown(), Comparison::to_markdown),
             ReportFormat::Csv => single.map_or_else(|| study.to_csv(), Comparison::to_csv),
-            ReportFormat::Json => {
-                let json = single.map_or_else(|| study.to_json(), Comparison::to_json);
-                serde_json::to_string_pretty(&json).map_err(|e| Failure::Option(e.to_string()))? + "\n"
-            }
+            ReportFormat::Json => sinks::pretty(&single.map_or_else(|| study.to_json(), Comparison::to_json))?,
             ReportFormat::Html => {
                 let overlays = drawings::overlays(self.cases, study, self.done);
                 let pictures = drawings::pictures(self.cases, study, self.done);

@@ -25,9 +25,7 @@ use findings::{Findings, Verdict};
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&[], &args.picture)?;
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?.keeping(args.clearance)?;
-    if !args.quiet {
-        loaded.robot.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
-    }
+    loaded.robot.warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let LoadedRecording { mut recording, steps, claims, notes: read } =
         input::load_recording(&args.trajectory, &loaded)?;
     let mut notes = [loaded.world.notes.clone(), read].concat();
@@ -46,12 +44,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             draw(&scene, &recording, &findings, *format, path)?;
         }
     }
-    if args.json {
-        let json = serde_json::to_string_pretty(&findings).map_err(|e| Failure::Option(e.to_string()))?;
-        sinks::print_json(&(json + "\n"))?;
-    } else if !args.quiet {
-        sinks::tell(&text::summary(scene.arm(), &recording, &findings))?;
-    }
+    args.print.tell(|| sinks::pretty(&findings), || text::summary(scene.arm(), &recording, &findings))?;
     Ok(match findings.verdict {
         Verdict::Free => DONE,
         Verdict::Undecided => UNKNOWN,
