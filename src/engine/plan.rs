@@ -6,7 +6,7 @@ use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::result::Report;
 use super::task::{FailedStep, MessageError, TaskAnswer, plan as plan_task};
-use super::{Answer, GridSpace, percent, solve};
+use super::{Answer, GridSpace, Kind, percent, solve};
 use crate::check::CheckedProof;
 use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
 use crate::motion::{SearchUsed, TimingError, Trajectory};
@@ -64,18 +64,10 @@ pub enum Refutation<'a> {
 pub struct Plan {
     problem: Problem,
     options: Options,
-    made: Made,
+    /// What was made, and of what. The problem is asked with the options' own limits.
+    made: Kind<Box<MotionPlan>, TaskPlan>,
     report: Report,
     clock: Clock,
-}
-
-/// What was made, and of what. The problem is asked with the options' own limits.
-#[derive(Debug, Clone)]
-pub(crate) enum Made {
-    /// A single motion.
-    Motion(Box<MotionPlan>),
-    /// A sequence of them.
-    Task(Box<TaskPlan>),
 }
 
 /// What became of a task.
@@ -110,17 +102,17 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
             let (made, mut report) = MotionPlan::timed(motion, answer, options)?;
             report.name_joints(&named(problem, options), options.accelerations)?;
             clock.stage("trajectory");
-            (Made::Motion(Box::new(made)), report)
+            (Kind::Motion(Box::new(made)), report)
         }
-        Asked::Task(asked) => {
-            let mut task = asked.0.clone();
+        Asked::Task((task, _)) => {
+            let mut task = task.clone();
             options.override_limits(&mut task.arm.joints);
             let answer = plan_task(&task, options, progress);
             clock.stage("plan");
             let mut report = Report::of_task(options.planner.method().name(), &task, &answer);
             report.name_all(&named(problem, options), &task, &answer, options.accelerations)?;
             clock.stage("report");
-            (Made::Task(Box::new(TaskPlan { task, answer })), report)
+            (Kind::Task(TaskPlan { task, answer }), report)
         }
     };
     report.search = SearchUsed::of(&options.planner);
@@ -214,24 +206,24 @@ impl Plan {
     /// Verdict, bound, path and trace of a single motion.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionPlan> {
-        if let Made::Motion(plan) = &self.made { Some(plan) } else { None }
+        self.made.motion().map(Box::as_ref)
     }
 
     /// Steps and their motions, of a task.
     #[must_use]
     pub fn task(&self) -> Option<&TaskPlan> {
-        if let Made::Task(plan) = &self.made { Some(plan) } else { None }
+        self.made.task()
     }
 
-    pub(crate) fn made(&self) -> &Made {
+    pub(crate) fn made(&self) -> &Kind<Box<MotionPlan>, TaskPlan> {
         &self.made
     }
 
     /// The arm, with the limits asked for.
     pub(crate) fn arm(&self) -> &Arm {
         match &self.made {
-            Made::Motion(plan) => plan.problem.scene().arm(),
-            Made::Task(plan) => &plan.task.arm,
+            Kind::Motion(plan) => plan.problem.scene().arm(),
+            Kind::Task(plan) => &plan.task.arm,
         }
     }
 

@@ -1,5 +1,6 @@
 //! What is asked: a motion, or a sequence of steps, of a robot in a world.
 
+use super::Kind;
 use crate::input::{self, InputError, Loaded, LoadedScene, LoadedTask, Overrides, RobotReport};
 use crate::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
 use crate::space::{Configuration, GoalSet};
@@ -30,14 +31,8 @@ pub enum ProblemError {
     Ends(#[from] MotionProblemError),
 }
 
-/// What is to be done.
-#[derive(Debug)]
-pub(crate) enum Asked {
-    /// A single motion.
-    Motion(Box<MotionProblem>),
-    /// The steps of a task. The arm, empty-handed, among obstacles and objects where they lie at first, is for pictures.
-    Task(Box<(Task, Scene)>),
-}
+/// What is to be done. With a task comes the arm, empty-handed, among obstacles and objects where they lie at first: for pictures.
+pub(crate) type Asked = Kind<MotionProblem, (Task, Scene)>;
 
 impl Problem {
     /// Reads a robot (URDF) and a world (TOML).
@@ -103,20 +98,20 @@ impl Problem {
     pub fn scene(&self) -> &Scene {
         match &*self.what {
             Asked::Motion(motion) => motion.scene(),
-            Asked::Task(asked) => &asked.1,
+            Asked::Task((_, scene)) => scene,
         }
     }
 
     /// The motion, if it is a single one.
     #[must_use]
     pub fn motion(&self) -> Option<&MotionProblem> {
-        if let Asked::Motion(motion) = &*self.what { Some(motion) } else { None }
+        self.what.motion()
     }
 
     /// The task, if it is one.
     #[must_use]
     pub fn task(&self) -> Option<&Task> {
-        if let Asked::Task(asked) = &*self.what { Some(&asked.0) } else { None }
+        self.what.task().map(|(task, _)| task)
     }
 
     /// How the robot was read.
@@ -138,13 +133,13 @@ impl Problem {
 
 impl From<Loaded> for Problem {
     fn from(Loaded { problem, robot, notes }: Loaded) -> Self {
-        Self::read(Asked::Motion(Box::new(problem)), robot, notes)
+        Self::read(Asked::Motion(problem), robot, notes)
     }
 }
 
 impl From<LoadedTask> for Problem {
     fn from(LoadedTask { task, scene, robot, notes }: LoadedTask) -> Self {
-        Self::read(Asked::Task(Box::new((task, scene))), robot, notes)
+        Self::read(Asked::Task((task, scene)), robot, notes)
     }
 }
 
@@ -153,6 +148,6 @@ impl From<MotionProblem> for Problem {
     fn from(motion: MotionProblem) -> Self {
         let names = motion.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::planned(&names), ..RobotReport::default() };
-        Self::read(Asked::Motion(Box::new(motion)), robot, Vec::new())
+        Self::read(Asked::Motion(motion), robot, Vec::new())
     }
 }

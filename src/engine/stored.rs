@@ -6,6 +6,7 @@
 //! A plan is a problem, options and the result. Only `check` certifies, so nothing that a file states is believed: reading plans
 //! again and compares. The same input gives the same output, so a difference is a change of the file, or another version's answer.
 
+use super::Kind;
 use super::options::Options;
 use super::plan::{Plan, plan};
 use super::problem::{Asked, Problem};
@@ -24,27 +25,11 @@ struct ProblemRecord<W> {
     notes: Vec<String>,
 }
 
-/// What is to be done, as it is written.
-#[derive(Serialize)]
-#[serde(rename_all = "snake_case")]
-enum Written<'a> {
-    Motion(&'a MotionProblem),
-    Task(&'a Task),
-}
-
-/// The same as it is read.
-#[derive(Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Read {
-    Motion(Box<MotionProblem>),
-    Task(Box<Task>),
-}
-
 impl Serialize for Problem {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let asked = match self.asked() {
-            Asked::Motion(motion) => Written::Motion(motion),
-            Asked::Task(asked) => Written::Task(&asked.0),
+            Asked::Motion(motion) => Kind::Motion(motion),
+            Asked::Task((task, _)) => Kind::Task(task),
         };
         ProblemRecord { asked, robot: self.robot().clone(), notes: self.notes().to_vec() }.serialize(serializer)
     }
@@ -52,20 +37,21 @@ impl Serialize for Problem {
 
 impl<'de> Deserialize<'de> for Problem {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let ProblemRecord { asked, robot, notes } = ProblemRecord::<Read>::deserialize(deserializer)?;
+        let ProblemRecord { asked, robot, notes } =
+            ProblemRecord::<Kind<MotionProblem, Task>>::deserialize(deserializer)?;
         if !are_joints(&robot.joints) {
             return Err(D::Error::custom(
                 "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
             ));
         }
         let asked = match asked {
-            Read::Motion(motion) => Asked::Motion(motion),
-            Read::Task(task) => {
+            Kind::Motion(motion) => Asked::Motion(motion),
+            Kind::Task(task) => {
                 let scene: Result<Scene, TaskError> = task.check();
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));
                 }
-                Asked::Task(Box::new((*task, scene.map_err(D::Error::custom)?)))
+                Asked::Task((task, scene.map_err(D::Error::custom)?))
             }
         };
         Ok(Self::read(asked, robot, notes))

@@ -2,7 +2,7 @@
 
 use crate::cspace::{CObstacle, c_obstacles};
 use crate::draw::{self, DrawError, Picture, TaskPicture, View};
-use crate::engine::{Made, MotionPlan, Plan, TaskPlan, Verdict};
+use crate::engine::{Kind, MotionPlan, Plan, TaskPlan, Verdict};
 use crate::model::{Scene, Status};
 use crate::text::counted;
 use std::path::Path;
@@ -89,10 +89,7 @@ impl Plan {
     /// What pictures and pages of it show.
     #[must_use]
     pub fn view(&self) -> View {
-        match self.made() {
-            Made::Motion(plan) => self.view_among(&contours(plan.problem.scene())),
-            Made::Task(_) => self.view_among(&[]),
-        }
+        self.view_with(contours)
     }
 
     /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
@@ -107,12 +104,12 @@ impl Plan {
         draw::page(&self.view())
     }
 
-    /// The same where the contours of the C-obstacles of a single motion are known.
+    /// The same where somebody knows the contours of the C-obstacles of single motions.
     #[must_use]
-    pub(crate) fn view_among(&self, contours: &[CObstacle]) -> View {
+    pub(crate) fn view_with(&self, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
         match self.made() {
-            Made::Motion(plan) => self.motion_view(plan, contours),
-            Made::Task(plan) => View::of_task(&self.task_picture(plan)),
+            Kind::Motion(plan) => self.motion_view(plan, &contours(plan.problem.scene())),
+            Kind::Task(plan) => View::of_task(&self.task_picture(plan)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The summary for people.
 
 use super::{motion_summary, task_summary};
-use crate::engine::{Made, Options, Plan};
+use crate::engine::{Kind, Options, Plan};
 use crate::model::{Arm, Joint};
 use crate::space::{Configuration, JointRange, Segment};
 use crate::text::Columns;
@@ -74,8 +74,8 @@ impl Plan {
 
     fn told(&self) -> Told {
         match self.made() {
-            Made::Motion(plan) => motion_summary::told(self, plan),
-            Made::Task(plan) => task_summary::told(self, plan),
+            Kind::Motion(plan) => motion_summary::told(self, plan),
+            Kind::Task(plan) => task_summary::told(self, plan),
         }
     }
 }

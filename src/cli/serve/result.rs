@@ -77,16 +77,16 @@ fn drawn(view: &View) -> Option<Box<RawValue>> {
 pub fn in_full(problem: &Problem, options: &Options, contours: &Contours) -> Result<AnswerReply, String> {
     let plan = plan(problem, options).map_err(|error| error.to_string())?;
     let report = plan.report();
-    let (view, figures) = if let Some(MotionPlan { problem, answer, .. }) = plan.motion() {
-        let figures = Figures {
+    let view = plan.view_with(|scene| contours.of(scene));
+    let figures = if let Some(MotionPlan { answer, .. }) = plan.motion() {
+        Figures {
             length: answer.bound.map(|bound| bound.upper).or(report.length),
             lower_bound: answer.bound.map(|bound| bound.lower),
             ..Figures::of_size(answer.run.size)
-        };
-        (plan.view_among(&contours.of(problem.scene())), figures)
+        }
     } else {
         let motions = report.task.as_ref().map_or(0, |task| task.motions);
-        (plan.view_among(&[]), Figures::of_size(format!("{motions} motions planned")))
+        Figures::of_size(format!("{motions} motions planned"))
     };
     let figures =
         Figures { clearance: report.clearance, closest: report.closest.clone(), duration: report.duration, ..figures };
