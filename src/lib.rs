@@ -59,6 +59,10 @@ pub mod draw;
 pub mod report;
 pub mod output;
 #[cfg(feature = "program")]
+mod grammar;
+#[cfg(feature = "serve")]
+mod serve;
+#[cfg(feature = "program")]
 pub mod cli;
 pub use cplan_interrupt as interrupt;
 pub use engine::{Criterion, NamedJoints, Options, Plan, PlanError, Planner, Problem, ProblemError, Refutation, plan};

@@ -8,14 +8,12 @@ use super::explore::ExploreArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
-use super::motion::MotionArgs;
-use super::planner_args::{PlannerArgs, PlannerWords};
 use super::print_args::PrintArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
 use crate::engine::Method;
+use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in};
 use crate::input::{JointValues, Overrides, TipPoint};
-use crate::motion::SHORTEST_INTERVAL;
 use clap::{Args, CommandFactory, Parser, Subcommand, ValueHint};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -142,18 +140,6 @@ impl QueryArgs {
     pub fn overrides(&self) -> Overrides {
         Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }
     }
-}
-
-pub(super) fn number_in(text: &str, allowed: impl Fn(f64) -> bool, range: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if allowed(value) => Ok(value),
-        _ => Err(format!("must be a number {range}")),
-    }
-}
-
-pub(super) fn seconds(text: &str) -> Result<f64, String> {
-    let range = format!("of seconds, finite and at least {SHORTEST_INTERVAL}");
-    number_in(text, |x| x.is_finite() && x >= SHORTEST_INTERVAL, &range)
 }
 
 fn clearance(text: &str) -> Result<f64, String> {

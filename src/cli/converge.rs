@@ -3,11 +3,11 @@
 use super::DONE;
 use super::args::{Files, QueryArgs};
 use super::failure::Failure;
-use super::field_args::{LimitsName, OrderName, direction, finite, positive};
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::engine::{FieldProblem, Problem};
 use crate::field::{Difference, Direction, Equation, Measure, Stopping};
+use crate::grammar::{LimitsName, OrderName, direction, finite, positive};
 use crate::input;
 use crate::motion::{Format, check_writable, write_whole_set};
 use crate::output::title_of;

@@ -2,13 +2,13 @@
 
 use super::args::{Files, QueryArgs};
 use super::failure::Failure;
-use super::planner_args::PlannerArgs;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
 use crate::draw::{self, Picture, View};
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{Ending, Exploration, ExploreError, Settings, Strategy, explore, map_description, map_picture};
+use crate::grammar::{PlannerArgs, positive};
 use crate::input::{self, Explorable, OccupancyMap};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, check_writable, csv, ros_yaml, write_whole_set};
@@ -50,7 +50,7 @@ pub struct ExploreArgs {
     #[arg(long, value_name = "N|AxB", default_value = "96")]
     pub grid: CellCounts,
     /// The world is known within this distance of the arm at first, metres; by default two cells of the map.
-    #[arg(long, value_name = "METRES", value_parser = super::field_args::positive)]
+    #[arg(long, value_name = "METRES", value_parser = positive)]
     pub surveyed: Option<f64>,
     /// What is known already: the map (FILE.yaml) that an earlier exploration of this world wrote with --map.
     #[arg(long, value_name = "FILE.yaml", value_hint = ValueHint::FilePath)]

@@ -1,7 +1,7 @@
 //! A planner with options of its own, as one word of `compare`'s command line.
 
-use super::planner_args::{EffortArgs, PlannerArgs, PlannerWords};
 use crate::engine::Planner;
+use crate::grammar::{EffortArgs, PlannerArgs, PlannerWords};
 use crate::model::Preference;
 use clap::Parser;
 

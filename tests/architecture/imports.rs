@@ -11,7 +11,7 @@ const EVERYWHERE: [&str; 2] = ["cplan_interrupt", "text"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 21] = [
+const MAY_IMPORT: [(&str, &[&str]); 23] = [
     (EVERYWHERE[0], &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),
@@ -32,11 +32,16 @@ const MAY_IMPORT: [(&str, &[&str]); 21] = [
     ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
+    ("grammar", &["model", "field", "planner", "motion", "engine"]),
+    (
+        "serve",
+        &["geometry", "space", "model", "input", "cspace", "field", "planner", "engine", "draw", "output", "grammar"],
+    ),
     (
         "cli",
         &[
             "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
-            "explore", "draw", "report", "output",
+            "explore", "draw", "report", "output", "grammar", "serve",
         ],
     ),
 ];

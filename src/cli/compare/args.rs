@@ -1,10 +1,9 @@
 //! Arguments of `compare`.
 
 use crate::cli::args::QueryArgs;
-use crate::cli::motion::MotionArgs;
-use crate::cli::planner_args::EffortArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
+use crate::grammar::{EffortArgs, MotionArgs};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 

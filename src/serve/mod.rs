@@ -1,4 +1,4 @@
-//! `cplan serve`: a page on this machine in which obstacles, start and goal are moved, and the plan follows.
+//! The live page: one on this machine in which obstacles, start and goal are moved, and the plan follows.
 //!
 //! ```text
 //! page (assets) <-- http --> browser
@@ -40,15 +40,12 @@ mod protocol;
 mod result;
 mod socket;
 
-use super::failure::Failure;
-use super::{DONE, demo, sinks};
-use crate::input::{LoadedScene, Source, scene_from};
-use clap::Args;
+pub use options::Options;
+
+use crate::input::{LoadedScene, Source};
 use document::Document;
-use options::Options;
 use std::collections::BTreeSet;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
-use std::path::PathBuf;
+use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::time::Duration;
 use tokio::sync::Semaphore;
@@ -56,45 +53,8 @@ use tokio::sync::Semaphore;
 /// Pages that may be open at a time: each has a thread that plans.
 const MOST_PAGES: usize = 8;
 
-/// Arguments of `serve`.
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  cplan serve
-  cplan serve robots/planar_2r.urdf workspaces/shelf.toml
-  cplan serve robots/planar_2r.urdf workspaces/shelf.toml --with \"harmonic --cells 128\" --port 0
-
-The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page.
-
-Exit codes: 0 it was told to end, 1 bad input, or an address that is not to be had, 2 wrong command line.")]
-pub struct ServeArgs {
-    /// The arm; without files a built-in SCARA cell.
-    #[arg(value_name = "URDF", requires = "world")]
-    pub urdf: Option<PathBuf>,
-    /// The workspace, TOML.
-    #[arg(value_name = "WORLD")]
-    pub world: Option<PathBuf>,
-    /// Planner and options to begin with, such as "harmonic --field oriented --epsilon 0.5 --direction 0,-1".
-    #[arg(long, value_name = "PLANNER OPTIONS", default_value = "shortest")]
-    pub with: String,
-    /// Port of the page; 0 takes any that is free.
-    #[arg(long, value_name = "N", default_value_t = 7878)]
-    pub port: u16,
-    /// Address of this machine to listen at. Any other than the default lets other machines use the page.
-    #[arg(long, value_name = "ADDRESS", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
-    pub bind: IpAddr,
-    /// Time after which a plan is given up, seconds.
-    #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = time_limit, allow_hyphen_values = true)]
-    pub time_limit: Duration,
-}
-
-fn time_limit(text: &str) -> Result<Duration, String> {
-    let seconds = super::args::number_in(text, |x| (0.01..=3600.0).contains(&x), "of seconds, from 0.01 to 3600")?;
-    Ok(Duration::from_secs_f64(seconds))
-}
-
 /// What all pages share.
-struct Host {
+pub struct Host {
     /// Where it listens.
     address: SocketAddr,
     /// Room for pages.
@@ -113,6 +73,29 @@ struct Host {
 }
 
 impl Host {
+    /// A world to begin with, planned in as `options` say, for at most `time` a plan. None if it is no TOML.
+    pub fn new(
+        address: SocketAddr,
+        urdf: Source,
+        world: Source,
+        scene: LoadedScene,
+        options: String,
+        time: Duration,
+    ) -> Option<Self> {
+        let document = Document::parse(world.text())?;
+        Some(Self {
+            address,
+            sessions: Arc::new(Semaphore::new(MOST_PAGES)),
+            files: document.files(),
+            urdf,
+            world,
+            document,
+            scene,
+            options,
+            time,
+        })
+    }
+
     /// Reads a world from a page.
     ///
     /// # Errors
@@ -132,50 +115,13 @@ impl Host {
     }
 }
 
-/// Serves until it is told to stop.
+/// Serves until it is told to stop. Plans that are under way end with the process.
 ///
 /// # Errors
-/// Bad input, and an address that is not to be had.
-pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
-    Options::parse(&args.with).map_err(|error| Failure::Usage(format!("--with: {error}")))?;
-    let (urdf, world) = match (&args.urdf, &args.world) {
-        (Some(urdf), Some(world)) => (Source::read(urdf)?, Source::read(world)?),
-        _ => (
-            Source::in_memory("built-in scara.urdf", demo::ROBOT),
-            Source::in_memory("built-in scara_cell.toml", demo::WORLD),
-        ),
-    };
-    let scene = scene_from(urdf.clone(), world.clone())?;
-    let document = Document::parse(world.text()).ok_or_else(|| Failure::Option("the world is no TOML".into()))?;
-    let listener = TcpListener::bind((args.bind, args.port)).and_then(|listener| {
-        listener.set_nonblocking(true)?;
-        Ok((listener.local_addr()?, listener))
-    });
-    let (address, listener) = listener.map_err(|error| {
-        let wanted = SocketAddr::new(args.bind, args.port);
-        Failure::Option(format!("cannot listen at {wanted}: {error}\n  cure: --port 0 takes any port that is free"))
-    })?;
-    for warning in &scene.robot.warnings {
-        sinks::say(&format!("warning: {warning}"));
-    }
-    if !args.bind.is_loopback() {
-        sinks::say("warning: other machines can open this page, and have this one plan for them: there is no password");
-    }
-    let host = Host {
-        address,
-        sessions: Arc::new(Semaphore::new(MOST_PAGES)),
-        files: document.files(),
-        urdf,
-        world,
-        document,
-        scene,
-        options: args.with.clone(),
-        time: args.time_limit,
-    };
-    sinks::print(&format!("http://{address}/\n"))?;
-    sinks::say("open it in a browser; Ctrl-C ends");
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
-    let runtime = runtime.map_err(|error| Failure::Option(format!("cannot wait for connections: {error}")))?;
+/// A machine without what it takes to wait for connections.
+pub fn run(listener: TcpListener, host: Host) -> std::io::Result<()> {
+    listener.set_nonblocking(true)?;
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
     let served = runtime.block_on(async {
         let listener = tokio::net::TcpListener::from_std(listener)?;
         tokio::select! {
@@ -183,10 +129,8 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
             stopped = told_to_stop() => stopped,
         }
     });
-    // Plans that are under way end with the process.
     runtime.shutdown_background();
-    served.map_err(|error| Failure::Option(format!("cannot serve: {error}")))?;
-    Ok(DONE)
+    served
 }
 
 /// Waits for Ctrl-C, or to be asked to end.

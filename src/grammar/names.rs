@@ -1,4 +1,4 @@
-//! Planners, paths and searches by name on the command line, so that help and shells can list them.
+//! Planners, paths and searches by name, so that help and shells can list them.
 
 use crate::engine::{GridSpace, Method};
 use crate::planner::{GridSearch, PathKind};

@@ -1,6 +1,6 @@
-//! How to drive along a path, on the command line.
+//! How to drive along a path.
 
-use super::args::{number_in, seconds};
+use super::number::{number_in, seconds};
 use crate::motion::Drive;
 use clap::Args;
 

@@ -1,6 +1,6 @@
-//! The command line's words for roadmaps.
+//! Words for roadmaps.
 
-use super::planner_args::whole;
+use super::planner::whole;
 use crate::engine::{Method, NEAREST, Planner, SAMPLES};
 use crate::planner::{GridSearch, Prm, RoadmapSearch, SearchOrder};
 use clap::Args;

@@ -1,6 +1,6 @@
-//! The command line's words for fields.
+//! Words for fields.
 
-use super::args::number_in;
+use super::number::{finite, positive};
 use crate::engine::Method;
 use crate::field::{
     Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
@@ -332,20 +332,16 @@ fn listed(fields: &[FieldName]) -> String {
     }
 }
 
-pub(super) fn finite(text: &str) -> Result<f64, String> {
-    number_in(text, f64::is_finite, "that is finite")
-}
-
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x > 0.0, "of more than 0")
-}
-
 /// Numbers that commas separate.
 fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
 
-pub(super) fn direction(text: &str) -> Result<Direction, String> {
+/// A direction in joint space.
+///
+/// # Errors
+/// Not two numbers, or both 0.
+pub fn direction(text: &str) -> Result<Direction, String> {
     let vector = match numbers(text)[..] {
         [a, b] => Direction::of([a, b]),
         _ => None,

@@ -1,8 +1,7 @@
 //! Planner and options of the page, in the grammar of the command line.
 
-use crate::cli::motion::MotionArgs;
-use crate::cli::planner_args::PlannerArgs;
 use crate::engine::{self, Method};
+use crate::grammar::{MotionArgs, PlannerArgs};
 use crate::model::Scene;
 use clap::{Command, CommandFactory, Parser};
 

@@ -1,8 +1,8 @@
-//! A planner and its options: one grammar for the main job, `compare --with` and the live page.
+//! A planner and its options.
 
-use super::args::number_in;
-use super::field_args::FieldArgs;
-use super::roadmap_args::RoadmapArgs;
+use super::field::FieldArgs;
+use super::number::number_in;
+use super::roadmap::RoadmapArgs;
 use crate::engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use crate::field::Neighborhood;
 use crate::model::Preference;
