@@ -46,7 +46,8 @@ impl<'de> Deserialize<'de> for Problem {
         }
         let asked = match asked {
             Kind::Motion(motion) => Asked::Motion(motion),
-            Kind::Task(task) => {
+            Kind::Task(mut task) => {
+                task.hold_shapes();
                 let scene: Result<Scene, TaskError> = task.check();
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
                     return Err(D::Error::custom("the robot's stroke is not the task's"));

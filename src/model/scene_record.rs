@@ -29,7 +29,8 @@ impl TryFrom<SceneRecord> for Scene {
     type Error = SceneError;
 
     fn try_from(record: SceneRecord) -> Result<Self, SceneError> {
-        let SceneRecord { arm, workspace, payload, allowed_contacts } = record;
+        let SceneRecord { arm, mut workspace, payload, allowed_contacts } = record;
+        workspace.hold_shapes();
         Self::handling(arm, workspace, payload, &allowed_contacts)
     }
 }

@@ -147,6 +147,12 @@ impl Task {
         workspace
     }
 
+    /// Holds the shapes of obstacles and objects to what is judged: for what is read as data.
+    pub(crate) fn hold_shapes(&mut self) {
+        self.workspace.hold_shapes();
+        self.objects.iter_mut().for_each(|object| object.shape.hold_to(&object.pieces));
+    }
+
     /// All steps, those of a group in any order in the order of the file.
     pub fn steps(&self) -> impl Iterator<Item = &Step> {
         self.items.iter().flat_map(|item| match item {

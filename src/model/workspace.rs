@@ -1,6 +1,7 @@
 //! Obstacles in the plane.
 
 use super::Preference;
+use super::scene_error::are_small;
 use crate::geometry::{Convex, ConvexError, Point, PolygonError, Pose, SimplePolygon};
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +65,30 @@ impl Shape {
             Shape::Pieces => Shape::Pieces,
         }
     }
+
+    /// Leaves the shape if it consists of just these pieces; else they are the shape, for pictures are to show what is judged.
+    pub(super) fn hold_to(&mut self, pieces: &[Convex]) {
+        let own = match self {
+            // Predicates would overflow on others, of which no pieces are taken.
+            Shape::Polygon(corners) if are_small(corners.iter().flat_map(|p| [p.x, p.y])) => {
+                SimplePolygon::new(corners.clone()).map(|polygon| polygon.convex_pieces()).ok()
+            }
+            Shape::Circle { center, radius } => Convex::disc(*center, *radius).map(|disc| vec![disc]).ok(),
+            Shape::Polyline(points) => walls(points).ok(),
+            Shape::Polygon(_) | Shape::Pieces => None,
+        };
+        if own.is_none_or(|own| own != pieces) {
+            *self = Shape::Pieces;
+        }
+    }
+}
+
+/// The pieces of a thin wall.
+fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
+    match points {
+        [] | [_] => Ok(vec![Convex::new(points.to_vec(), 0.0)?]),
+        _ => points.windows(2).map(|ends| Convex::segment(ends[0], ends[1])).collect(),
+    }
 }
 
 /// Something the arm must not touch.
@@ -121,10 +146,7 @@ impl Obstacle {
     /// No point at all, and numbers that are not finite.
     pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexError> {
         let points = points(through);
-        let pieces = match points[..] {
-            [] | [_] => vec![Convex::new(points.clone(), 0.0)?],
-            _ => points.windows(2).map(|ends| Convex::segment(ends[0], ends[1])).collect::<Result<_, _>>()?,
-        };
+        let pieces = walls(&points)?;
         Ok(Self { name: name.into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL })
     }
 }
@@ -139,5 +161,10 @@ impl Workspace {
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }
+    }
+
+    /// Holds the shapes to what is judged: for what is read as data.
+    pub(super) fn hold_shapes(&mut self) {
+        self.obstacles.iter_mut().for_each(|obstacle| obstacle.shape.hold_to(&obstacle.pieces));
     }
 }

@@ -173,6 +173,26 @@ fn what_no_constructor_makes_is_no_problem() {
 }
 
 #[test]
+fn what_is_drawn_is_what_is_judged() {
+    let disc = json!({"circle": {"center": [-1.0, 1.0], "radius": 0.1}});
+    let far = json!({"polygon": [[0.0, 0.0], [1e200, -1e200], [1e300, 1e250], [0.0, 1e180]]});
+    for (name, shape, other) in [
+        ("shelf", "/asked/motion/scene/workspace/obstacles/0", &disc),
+        ("shelf", "/asked/motion/scene/workspace/obstacles/0", &far),
+        ("table_mission", "/asked/task/workspace/obstacles/0", &disc),
+        ("table_mission", "/asked/task/objects/0", &disc),
+    ] {
+        let problem = world(name);
+        let mut told = value(&problem);
+        *told.pointer_mut(&format!("{shape}/shape")).unwrap() = other.clone();
+        let read: Problem = serde_json::from_value(told).unwrap();
+        let [honest, read] = [value(&problem), value(&read)].map(|data| data.pointer(shape).unwrap().clone());
+        assert_eq!(read["shape"], json!("pieces"), "{name}");
+        assert!(honest["shape"] != read["shape"] && honest["pieces"] == read["pieces"], "{name}");
+    }
+}
+
+#[test]
 fn what_no_world_says_is_no_task() {
     let mission = world("table_mission");
     let valid = value(&mission);
