@@ -4,7 +4,7 @@ use super::args::{Files, PlanArgs};
 use super::failure::Failure;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
-use super::{DONE, INFEASIBLE, UNKNOWN};
+use super::{DONE, INFEASIBLE, UNKNOWN, words};
 use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, InputError, LoadedScene};
 use crate::model::Status;
@@ -24,7 +24,8 @@ pub fn run(files: &Files, args: &PlanArgs) -> Result<u8, Failure> {
 /// Bad input and I/O.
 pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputError>) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&args.output, &args.picture)?;
-    let options = args.options()?;
+    let options = words::options(args.planner, &args.options, &args.motion, &args.message)?;
+    let options = Options { timings: args.timings, ..options };
     let begun = Instant::now();
     let loaded = load()?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
@@ -64,25 +65,4 @@ fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<Strin
         }
     }
     Ok(written)
-}
-
-impl PlanArgs {
-    /// What is asked for.
-    ///
-    /// # Errors
-    /// Options that contradict each other or the planner, and a GPU that is not there.
-    fn options(&self) -> Result<Options, Failure> {
-        let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
-        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
-        Ok(Options {
-            planner,
-            levels: self.options.levels(),
-            drive: self.motion.drive(),
-            jerk: self.motion.jerk(),
-            joints: self.message.joints.into(),
-            accelerations: self.message.accelerations,
-            timings: self.timings,
-            ..Options::default()
-        })
-    }
 }

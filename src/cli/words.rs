@@ -1,10 +1,10 @@
 //! What the main job can be told, for callers that are no shell.
 
 use super::args::QueryArgs;
+use super::failure::Failure;
 use super::message_args::MessageArgs;
-use super::motion::MotionArgs;
-use super::planner_args::PlannerArgs;
 use crate::engine::{Method, Options};
+use crate::grammar::{MotionArgs, PlannerArgs};
 use crate::input::Overrides;
 use clap::Parser;
 
@@ -34,16 +34,30 @@ pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
         let said = text.split("\n\nUsage").next().unwrap_or_default();
         said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()
     })?;
-    let planner = words.options.planner(words.planner)?;
-    words.options.missing().map_or(Ok(()), Err)?;
-    let options = Options {
+    let Words { planner, query, motion, message, options } = words;
+    let options = self::options(planner, &options, &motion, &message).map_err(|failure| failure.to_string())?;
+    Ok((options, query.overrides()))
+}
+
+/// What is asked for.
+///
+/// # Errors
+/// Options that contradict each other or the planner, and a GPU that is not there.
+pub(super) fn options(
+    planner: Method,
+    options: &PlannerArgs,
+    motion: &MotionArgs,
+    message: &MessageArgs,
+) -> Result<Options, Failure> {
+    let planner = options.planner(planner).map_err(Failure::Usage)?;
+    options.missing().map_or(Ok(()), |missing| Err(Failure::Option(missing)))?;
+    Ok(Options {
         planner,
-        levels: words.options.levels(),
-        drive: words.motion.drive(),
-        jerk: words.motion.jerk(),
-        joints: words.message.joints.into(),
-        accelerations: words.message.accelerations,
+        levels: options.levels(),
+        drive: motion.drive(),
+        jerk: motion.jerk(),
+        joints: message.joints.into(),
+        accelerations: message.accelerations,
         ..Options::default()
-    };
-    Ok((options, words.query.overrides()))
+    })
 }
