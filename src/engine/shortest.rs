@@ -15,8 +15,7 @@ use super::{Answer, Method, Options, Stages, Verdict};
 use crate::check::{CertifiedPath, certify};
 use crate::model::MotionProblem;
 use crate::planner::{Size, Trace};
-use crate::search::{Motions, short_motion};
-use crate::space::Path;
+use crate::search::{Motions, Proposed, Refused, short_motion};
 use std::time::{Duration, Instant};
 
 /// What paths keep from obstacles beyond the clearance, as shares of the arm's reach and of the gap, one after the other.
@@ -137,13 +136,18 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         }
         let kept = (share * gap).min(MOST_KEPT) * scene.arm().reach();
         let mut tries = 0;
-        let judge = |way: Path, slices: &[f64]| {
+        let judge = |Proposed { path: way, slices, is_shortest }: Proposed| {
+            let length = metric.length(&way);
+            let certificate = || certify(scene, way.clone(), motions.clearance).map_err(Refused::By);
             // As a rule the first way is good, and then only the one with fewer corners needs a certificate.
             tries += 1;
-            let certified = if tries > 1 { Some(certify(scene, way.clone(), motions.clearance)?) } else { None };
-            bounding.bound(metric.length(&way), slices);
-            let fewer = fewer_corners(scene, &way, metric, bounding.room(metric.length(&way)));
-            fewer.or(certified).map_or_else(|| certify(scene, way, motions.clearance), Ok)
+            let certified = if tries > 1 { Some(certificate()?) } else { None };
+            bounding.bound(length, &slices);
+            if !is_shortest && !bounding.is_close(length) {
+                return Err(Refused::TooLong);
+            }
+            let fewer = fewer_corners(scene, &way, metric, bounding.room(length));
+            fewer.or(certified).map_or_else(certificate, Ok)
         };
         let Some(found) = short_motion(&motions, kept, upper, judge) else { continue };
         let length = metric.length(found.path.path());

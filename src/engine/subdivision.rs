@@ -7,9 +7,9 @@ use crate::check::CertifiedPath;
 use crate::check::{Rejection, certify};
 use crate::geometry::Point;
 use crate::model::MotionProblem;
-use crate::planner::{PathKind, Portal, Proposal, Run, Size, Trace, funnel_path, nearest_end};
+use crate::planner::{PathKind, Proposal, Run, Size, Trace};
 use crate::search::{Channel, Connectivity, Exploration, Occupancy, explore};
-use crate::space::{Configuration, Path};
+use crate::space::{Configuration, Path, Portal, funnel_path, nearest_end};
 use std::time::Instant;
 
 /// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within

@@ -30,7 +30,6 @@ mod channel;
 mod decomposition;
 mod field_choice;
 mod field_planner;
-mod funnel;
 mod grid_path;
 mod harmonic;
 mod mesh;
@@ -49,7 +48,6 @@ mod wavefront;
 
 pub use field_choice::{EquationChoice, FieldChoice, FieldPlanner};
 pub use field_planner::field_domain;
-pub use funnel::{Portal, funnel_path, nearest_end};
 pub use harmonic::Harmonic;
 pub use path_kind::PathKind;
 pub use prm::{Prm, PrmMap};

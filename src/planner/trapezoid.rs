@@ -1,17 +1,17 @@
 //! Paths by exact cell decomposition: trapezoids, a channel, a funnel path.
 //!
-//! `decomposition` makes the cells, `channel` finds some that lead to the goal, `funnel` pulls the string taut.
+//! `decomposition` makes the cells, `channel` finds some that lead to the goal, [`crate::space::funnel_path`] pulls the string taut.
 
 use super::channel::{Adjacency, Channel};
 use super::decomposition::{CellPortal, Decomposition};
-use super::funnel::{Portal, Turn, nearest_end, turns};
 use super::roadmap::RoadmapSearch;
 use super::terminals::Terminals;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::planar::Boundary;
 use crate::geometry::{Orientation, Point, orientation};
-use crate::space::{Configuration, Measure, Metric, Path, Segment};
+use crate::space::funnel::{Turn, turns};
+use crate::space::{Configuration, Measure, Metric, Path, Portal, Segment, nearest_end};
 use std::ops::Range;
 use std::sync::Arc;
 

@@ -1,6 +1,5 @@
 //! Paths by triangles of free space: from the middle of a side to that of another.
 
-use super::funnel::{Portal, funnel_path, nearest_end};
 use super::mesh::Mesh;
 use super::roadmap::{Roadmap, RoadmapSearch};
 use super::terminals::Terminals;
@@ -8,7 +7,7 @@ use super::{NONE, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 use crate::cspace::Regions;
 use crate::geometry::Point;
 use crate::geometry::planar::Boundary;
-use crate::space::{Configuration, Measure, Metric, Path, Segment};
+use crate::space::{Configuration, Measure, Metric, Path, Portal, Segment, funnel_path, nearest_end};
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 

@@ -41,5 +41,5 @@ mod slim;
 
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
-pub use optimum::{Motions, ShortMotion, claimed_length, least_length, short_motion};
+pub use optimum::{Motions, Proposed, Refused, ShortMotion, claimed_length, least_length, short_motion};
 pub use slabs::slab_connectivity;

@@ -6,12 +6,13 @@ mod portals;
 mod jumps;
 mod refine;
 mod search;
+mod sleeve;
 mod strips;
 
 use crate::check::{CertifiedPath, LengthClaim, Rejection, Vicinity};
 use crate::geometry::{Ordered, Point};
 use crate::model::{Pair, Scene};
-use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology};
+use crate::space::{Configuration, GoalSet, Measure, Metric, Path, Segment, Topology, funnel_path};
 use closed::MOST_PAIRS;
 use refine::{Allowed, Fine, passed};
 use search::{Search, Way};
@@ -118,27 +119,30 @@ fn bounded<'a>(motions: &Motions<'a>, limit: f64, gap: f64, slices: &[f64]) -> (
     (ways.rounded(best.min(limit)), ways)
 }
 
-/// About the shortest of the `motions`, shorter than `limit`, certified by `judge`, which gets a path, or one that is made of it,
-/// and the values of joint 1 at all slices, near each other where it leads past something. It keeps more than the clearance,
-/// by `kept` metres less what strips leave open, most of that; and is longer than the shortest by what that costs.
+/// About the shortest of the `motions`, shorter than `limit`, certified by `judge`, which gets a [`Proposed`] path, and may certify
+/// one that is made of it. It keeps more than the clearance, by `kept` metres less what strips leave open, most of that; and is
+/// longer than the shortest by what that costs.
 ///
 /// It is the shortest way of [`least_length`] among obstacles that are grown by `kept`: strips are cut where it leads deeper
-/// into these than by most of that, and where the judge says so. None if that does not get there, as where a passage
-/// is narrower than `kept` leaves it.
+/// into these than by most of that, and where the judge says so. Among finer strips the way is pulled taut through the portals
+/// that it passes, which takes a small part of the time of a search; where the judge takes such a way for too long, all later ones are
+/// searched for. None if that does not get there, as where a passage is narrower than `kept` leaves it.
 #[must_use]
 pub fn short_motion(
     motions: &Motions,
     kept: f64,
     limit: f64,
-    mut judge: impl FnMut(Path, &[f64]) -> Result<CertifiedPath, Rejection>,
+    mut judge: impl FnMut(Proposed) -> Result<CertifiedPath, Refused>,
 ) -> Option<ShortMotion> {
     let Motions { scene, start, clearance, .. } = *motions;
     let mut ways = Ways::new(Motions { clearance: clearance + kept, ..*motions }, limit, &[]);
-    let (mut before, mut refused) = (0.0, 0);
+    let (mut before, mut refused, mut last, mut is_pulled) = (0.0, 0, Vec::new(), true);
     let deepest = if scene.pairs().len() <= FEW_PAIRS { DEEPEST } else { DEEPEST_AMONG_MANY };
     let allowed = Allowed::Depth(deepest * kept);
     for _ in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
-        let (length, corners) = ways.shortest();
+        let taut = is_pulled.then(|| ways.taut(&last)).flatten();
+        let is_shortest = taut.is_none();
+        let (length, corners) = taut.unwrap_or_else(|| ways.shortest());
         if corners.is_empty() {
             return None;
         }
@@ -146,12 +150,18 @@ pub fn short_motion(
         let is_settled = length - before <= SETTLED * length;
         before = length;
         if !is_settled && ways.refine(&corners, allowed) {
+            last = corners;
             continue;
         }
-        let nearest = match judge(ways.path(start, &corners), &ways.strips.slices()) {
+        let proposed = Proposed { path: ways.path(start, &corners), slices: ways.strips.slices(), is_shortest };
+        let nearest = match judge(proposed) {
             Ok(path) => return Some(ShortMotion { path, free: ways.passed(start, &corners) }),
-            Err(Rejection::TooClose(nearest) | Rejection::Undecided(nearest)) => nearest.at,
-            Err(Rejection::OutOfLimits { .. }) => return None,
+            Err(Refused::TooLong) => {
+                (before, is_pulled) = (0.0, false);
+                continue;
+            }
+            Err(Refused::By(Rejection::TooClose(nearest) | Rejection::Undecided(nearest))) => nearest.at,
+            Err(Refused::By(Rejection::OutOfLimits { .. })) => return None,
         };
         refused += 1;
         let is_finer =
@@ -159,8 +169,29 @@ pub fn short_motion(
         if !is_finer || refused * scene.pairs().len() > MOST_REFUSED {
             return None;
         }
+        last = corners;
     }
     None
+}
+
+/// A path that a certificate is asked for.
+#[derive(Debug, Clone)]
+pub struct Proposed {
+    /// The path itself.
+    pub path: Path,
+    /// The values of joint 1 at all slices, near each other where the path leads past something.
+    pub slices: Vec<f64>,
+    /// Whether no other one among these slices is shorter; if not, none that passes the same portals is.
+    pub is_shortest: bool,
+}
+
+/// Why a proposed path is not taken.
+#[derive(Debug, Clone)]
+pub enum Refused {
+    /// It has no certificate.
+    By(Rejection),
+    /// There may be a shorter one; not of a path that is the shortest.
+    TooLong,
 }
 
 /// A motion that is about the shortest.
@@ -226,6 +257,16 @@ impl<'a> Ways<'a> {
                 Way::NoneBelow(_) => self.near = (2.0 * self.near).min(self.limit),
             }
         }
+    }
+
+    /// The shortest way through the portals that another one passes, and its length; none if it is as long as the limit, or not known.
+    fn taut(&mut self, corners: &[Point]) -> Option<(f64, Vec<Point>)> {
+        let (&start, &goal) = (corners.first()?, corners.last()?);
+        // Of other goals the nearest may be another one.
+        let sleeve = self.goals.iter().all(Segment::is_point).then(|| self.strips.sleeve(corners)).flatten()?;
+        let corners = funnel_path(start, goal, &sleeve);
+        let length = corners.windows(2).map(|ends| self.measure.norm(ends[1] - ends[0])).sum();
+        (length < self.limit).then_some((length, corners))
     }
 
     /// Halves strips in which a way passes what is closed by more than allowed; whether there were any that can be.

@@ -262,6 +262,16 @@ impl<'a> Strips<'a> {
 
     /// What is not closed about a value of joint 2 at a slice, within the domain or half a turn to either side.
     pub fn free_about(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
+        self.nearest_free(slice, q2, |portal| portal.lower - ABOUT <= q2 && q2 <= portal.upper + ABOUT)
+    }
+
+    /// The same of those stretches for which a condition holds that is nearest to the value.
+    pub fn nearest_free(
+        &mut self,
+        slice: i64,
+        q2: f64,
+        mut condition: impl FnMut(&Portal) -> bool,
+    ) -> Option<[f64; 2]> {
         let axis = self.topology.ranges[1];
         if !self.is_inner(slice) {
             return None;
@@ -270,8 +280,9 @@ impl<'a> Strips<'a> {
         let (bottom, top) = if axis.is_circle() { (q2 - PI, q2 + PI) } else { axis.domain() };
         let portals =
             self.portals(slice).iter().flat_map(|portal| [-1.0, 0.0, 1.0].map(|by| portal.turned(by + turns / TAU)));
-        let about = |portal: &Portal| portal.lower - ABOUT <= q2 && q2 <= portal.upper + ABOUT;
-        portals.into_iter().find(about).map(|portal| [portal.lower.max(bottom), portal.upper.min(top)])
+        let off = |portal: &Portal| f64::max(portal.lower - q2, q2 - portal.upper).max(0.0);
+        let nearest = portals.filter(|portal| condition(portal)).min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.map(|portal| [portal.lower.max(bottom), portal.upper.min(top)])
     }
 
     /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the

@@ -1,7 +1,8 @@
 //! Shortest way through a sequence of portals.
 
+use super::{Measure, Metric, Segment};
 use crate::geometry::{Orientation, Point, orientation};
-use crate::space::{Measure, Metric, Segment};
+use std::collections::VecDeque;
 
 /// A portal as seen by one who passes it: its ends to the left and to the right hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,9 +16,8 @@ pub struct Portal {
 /// The shortest polyline from `start` to `goal` that crosses all portals in order: the path that the funnel algorithm pulls taut.
 ///
 /// Consecutive portals must lie on the border of a common convex cell; start and goal in the first and the last one.
-/// The *funnel* algorithm (Lee, Preparata 1984) in its scanning form: the funnel is kept as its apex and one point
-/// a side, and after a turn the scan resumes at the new apex. Linear when turns are found soon after they are passed,
-/// quadratic at worst. Turns are decided exactly, so every piece passes its portals in exact arithmetic.
+/// The *funnel* algorithm (Lee, Preparata 1984), linear. Turns are decided exactly, so every piece passes its portals in exact
+/// arithmetic.
 #[must_use]
 pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
     let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
@@ -63,71 +63,83 @@ const SECTIONS: usize = 30;
 const SETTLED: f64 = 1e-12;
 
 /// Where the funnel path turns, in order, start and goal left out.
-pub(super) fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
-    let mut path = Vec::new();
-    let mut funnel = Funnel { apex: start, left: None, right: None };
-    let mut at = 0;
-    while at <= portals.len() {
-        let portal = portals.get(at).copied().unwrap_or(Portal { left: goal, right: goal });
-        match funnel.narrow(at, portal) {
-            Some(turn) => {
-                path.push(turn);
-                funnel = Funnel { apex: turn.at, left: None, right: None };
-                at = turn.portal + 1;
-            }
-            None => at += 1,
-        }
+pub(crate) fn turns(start: Point, goal: Point, portals: &[Portal]) -> Vec<Turn> {
+    let mut funnel = Funnel { apex: start, chains: Default::default(), path: Vec::new() };
+    for (portal, ends) in portals.iter().enumerate() {
+        funnel.narrow(portal, *ends);
     }
+    if goal != funnel.apex {
+        funnel.add(RIGHT, Turn { at: goal, portal: portals.len() });
+    }
+    let Funnel { chains: [to_goal, _], mut path, .. } = funnel;
+    path.extend(to_goal.into_iter().filter(|turn| turn.portal < portals.len()));
     path
 }
 
 /// An end of a portal that bounds the funnel, and at which the string may turn.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Turn {
+pub(crate) struct Turn {
     pub at: Point,
     /// Which portal.
     pub portal: usize,
 }
 
-/// Directions from the apex that cross all portals since: from `right` counter-clockwise to `left`.
+const RIGHT: usize = 0;
+const LEFT: usize = 1;
+
+/// The shortest ways from the apex to both ends of a portal: chains that turn outwards.
 struct Funnel {
     apex: Point,
-    left: Option<Turn>,
-    right: Option<Turn>,
+    chains: [VecDeque<Turn>; 2],
+    /// Where the string turns until the apex, and there.
+    path: Vec<Turn>,
 }
 
 impl Funnel {
-    /// Narrows the funnel to the portal, or returns the point at which the string must turn to reach it.
-    fn narrow(&mut self, portal: usize, Portal { left, right }: Portal) -> Option<Turn> {
+    /// Narrows the funnel to the next portal.
+    fn narrow(&mut self, portal: usize, Portal { left, right }: Portal) {
+        if left != self.apex && right != self.apex {
+            self.add(RIGHT, Turn { at: right, portal });
+            self.add(LEFT, Turn { at: left, portal });
+        }
         if left == self.apex || right == self.apex {
             // Passed at the apex itself, in any direction.
-            (self.left, self.right) = (None, None);
-            return None;
+            self.chains.iter_mut().for_each(VecDeque::clear);
         }
-        if !self.turns(self.right, right, Orientation::Clockwise) {
-            if self.turns(self.left, right, Orientation::CounterClockwise) {
-                return self.left;
-            }
-            self.right = Some(Turn { at: right, portal });
-        }
-        if !self.turns(self.left, left, Orientation::CounterClockwise) {
-            if self.turns(self.right, left, Orientation::Clockwise) {
-                return self.right;
-            }
-            self.left = Some(Turn { at: left, portal });
-        }
-        None
     }
 
-    /// Whether `point` lies strictly to that side of the ray from the apex through a bound.
-    fn turns(&self, bound: Option<Turn>, point: Point, side: Orientation) -> bool {
-        bound.is_some_and(|bound| orientation(self.apex, bound.at, point) == side)
+    /// Makes a point the end of a chain. Where it is beyond the other chain, the string turns at that.
+    fn add(&mut self, side: usize, turn: Turn) {
+        let [inwards, outwards] = match side {
+            RIGHT => [Orientation::CounterClockwise, Orientation::Clockwise],
+            _ => [Orientation::Clockwise, Orientation::CounterClockwise],
+        };
+        let own = &mut self.chains[side];
+        while let Some(last) = own.back() {
+            let before = own.iter().nth_back(1).map_or(self.apex, |before| before.at);
+            if orientation(before, last.at, turn.at) == outwards {
+                break;
+            }
+            own.pop_back();
+        }
+        if own.is_empty() {
+            let other = &mut self.chains[1 - side];
+            while let Some(&first) = other.front()
+                && orientation(self.apex, first.at, turn.at) == inwards
+            {
+                other.pop_front();
+                self.apex = first.at;
+                self.path.push(first);
+            }
+        }
+        self.chains[side].push_back(turn);
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn portal(left: (f64, f64), right: (f64, f64)) -> Portal {
         Portal { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
@@ -178,5 +190,48 @@ mod tests {
         let along = [portal((1.0, 1.0), (1.0, 0.0)), portal((2.0, 1.0), (2.0, 0.0))];
         let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
         assert_eq!(path, points(&[(0.0, 0.0), (3.0, 0.0)]));
+    }
+
+    proptest! {
+        #![proptest_config(crate::random::cases(2000))]
+
+        /// Against the shortest of all ways from end to end of portals that pass those between. On a coarse lattice many ends are
+        /// in line.
+        #[test]
+        fn no_way_from_end_to_end_is_shorter(
+            ends in prop::collection::vec((-4..4i32, 0..4i32), 0..12), start in -4..4i32, goal in -4..4i32,
+        ) {
+            let gates: Vec<[Point; 2]> = std::iter::once([start; 2])
+                .chain(ends.iter().map(|&(lower, size)| [lower, lower + size]))
+                .chain([[goal; 2]])
+                .enumerate()
+                .map(|(x, gate)| gate.map(|y| Point::new(x as f64, f64::from(y))))
+                .collect();
+            let passes = |a: Point, b: Point| {
+                gates[a.x as usize..=b.x as usize].iter().all(|[lower, upper]| {
+                    let y = a.y + (b.y - a.y) * ((lower.x - a.x) / (b.x - a.x));
+                    (lower.y - 1e-9..=upper.y + 1e-9).contains(&y)
+                })
+            };
+            let mut least = vec![[f64::INFINITY; 2]; gates.len()];
+            least[0] = [0.0; 2];
+            for j in 1..gates.len() {
+                for (i, a) in (0..j).flat_map(|i| [(i, 0), (i, 1)]) {
+                    for b in 0..2 {
+                        let (from, to) = (gates[i][a], gates[j][b]);
+                        if passes(from, to) {
+                            least[j][b] = least[j][b].min(least[i][a] + (to - from).norm());
+                        }
+                    }
+                }
+            }
+            let last = gates.len() - 1;
+            let portals: Vec<Portal> =
+                gates[1..last].iter().map(|&[right, left]| Portal { left, right }).collect();
+            let path = funnel_path(gates[0][0], gates[last][0], &portals);
+            let length: f64 = path.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+            prop_assert!((length - least[last][0]).abs() < 1e-9, "{length}, not {}: {path:?}", least[last][0]);
+            prop_assert!(path.windows(2).all(|ends| passes(ends[0], ends[1])), "{path:?}");
+        }
     }
 }
