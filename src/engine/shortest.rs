@@ -121,7 +121,8 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     let (scene, planner) = (problem.scene(), options.planner);
     let (metric, gap) = (planner.metric(scene.arm()), planner.gap().unwrap_or(CLOSE));
     let motions = motions(problem, metric);
-    let mut bounding = Bounding { motions, gap, is_asked: options.bounded, lower: 0.0, took: Duration::ZERO };
+    let mut bounding =
+        Bounding { motions, gap, is_asked: options.bounded, lower: 0.0, beside: 0.0, took: Duration::ZERO };
     let clock = Instant::now();
     let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
     if path.path().waypoints().len() == 2 {
@@ -186,15 +187,18 @@ struct Bounding<'a> {
     is_asked: bool,
     /// No motion is shorter.
     lower: f64,
+    /// The length of the way that it was last looked for beside.
+    beside: f64,
     /// Time that it took.
     took: Duration,
 }
 
 impl Bounding<'_> {
-    /// Looks for a bound beside a way of length `upper`, unless it is known to be close.
+    /// Looks for a bound beside a way of length `upper`, unless it is known to be close, or was looked for.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
-        if self.is_asked && !self.is_close(upper) {
+        if self.is_asked && upper != self.beside && !self.is_close(upper) {
             let clock = Instant::now();
+            self.beside = upper;
             self.lower = self.lower.max(lower_bound(&self.motions, upper, PART * self.gap, slices));
             self.took += clock.elapsed();
         }

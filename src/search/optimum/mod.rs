@@ -29,6 +29,9 @@ const COORDINATES: f64 = 1024.0 * f64::EPSILON;
 /// Times that strips are halved at most.
 const ROUNDS: usize = 64;
 
+/// The first ways are searched for: among wide strips they often lead where there is none.
+const SEARCHED: usize = 2;
+
 /// Searches for a motion at most: most of them answer a certificate that was refused.
 const TRIES: usize = 128;
 
@@ -139,8 +142,8 @@ pub fn short_motion(
     let (mut before, mut refused, mut last, mut is_pulled) = (0.0, 0, Vec::new(), true);
     let deepest = if scene.pairs().len() <= FEW_PAIRS { DEEPEST } else { DEEPEST_AMONG_MANY };
     let allowed = Allowed::Depth(deepest * kept);
-    for _ in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
-        let taut = is_pulled.then(|| ways.taut(&last)).flatten();
+    for round in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
+        let taut = (is_pulled && round >= SEARCHED).then(|| ways.taut(&last)).flatten();
         let is_shortest = taut.is_none();
         let (length, corners) = taut.unwrap_or_else(|| ways.shortest());
         if corners.is_empty() {
