@@ -134,7 +134,7 @@ impl Corner {
         let left = 1.0 - self.reserve();
         let span = |i: usize| {
             let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
-            let mut rows = Vec::with_capacity(16);
+            let mut bounds = Bounds::default();
             for k in 0..2 {
                 let (acceleration, velocity) = (left * limits.acceleration[k], (left * limits.velocity[k]).powi(2));
                 let [p, q] = ends.map(|end| end[k]);
@@ -142,17 +142,17 @@ impl Corner {
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
                 for row in [[bend[k] - at_first, at_first], [-at_second, bend[k] + at_second]] {
                     let row = row.map(|c| c / acceleration);
-                    rows.extend([row, row.map(|c| -c)]);
+                    bounds.extend([row, row.map(|c| -c)]);
                 }
                 let bernstein =
                     [[p * p, 0.0], [2.0 * p * q / 3.0, p * p / 3.0], [q * q / 3.0, 2.0 * p * q / 3.0], [0.0, q * q]];
-                rows.extend(bernstein.map(|row| row.map(|c| c / velocity)));
+                bounds.extend(bernstein.map(|row| row.map(|c| c / velocity)));
             }
             if let Some(tip) = limits.tip {
                 let squared = (left * tip.allowed(&self.part(i))).powi(2);
-                rows.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
+                bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
             }
-            Bounds::new(rows)
+            bounds
         };
         (0..self.spans).map(span).collect()
     }
@@ -198,24 +198,51 @@ impl Corner {
     }
 }
 
+/// Rows of a span with `z1` at the most: seven a joint, one of the tip.
+const MOST_LINES: usize = 15;
+
 /// Squared speeds `z0`, `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for each row `[a, b]`. A
 /// convex set that holds a neighbourhood of 0 in the quadrant.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
-    rows: Vec<[f64; 2]>,
+    /// The greatest `z0` by rows without `z1`.
+    most: f64,
+    /// Of each other row the `z1` at 0 and how it changes with `z0`: from the front those that bound it from above, from the back those
+    /// that bound it from below.
+    lines: [[f64; 2]; MOST_LINES],
+    above: usize,
+    below: usize,
 }
 
 /// Rounding of a coefficient or of a squared speed, relative to the others: far above the one of doubles, far below
 /// [`RESERVE`].
 const ROUNDING: f64 = 1e-12;
 
-impl Bounds {
-    fn new(mut rows: Vec<[f64; 2]>) -> Self {
-        // A second coefficient that is nothing but rounding would make of the rounding of the first anything.
-        rows.iter_mut().filter(|[a, b]| b.abs() <= ROUNDING * a.abs()).for_each(|row| row[1] = 0.0);
-        Self { rows }
+impl Default for Bounds {
+    fn default() -> Self {
+        Self { most: f64::MAX, lines: [[0.0; 2]; MOST_LINES], above: 0, below: 0 }
     }
+}
 
+impl Extend<[f64; 2]> for Bounds {
+    fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
+        for [a, b] in rows {
+            let line = [1.0 / b, -a / b];
+            // A second coefficient that is nothing but rounding would make of the rounding of the first anything.
+            if b.abs() <= ROUNDING * a.abs() {
+                self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
+            } else if b > 0.0 {
+                self.lines[self.above] = line;
+                self.above += 1;
+            } else {
+                self.below += 1;
+                self.lines[MOST_LINES - self.below] = line;
+            }
+        }
+    }
+}
+
+impl Bounds {
     /// The greatest `z1` up to `most` for a `z0` that has one.
     pub(super) fn onward(&self, z0: f64, most: f64) -> f64 {
         self.upper(z0, most).0.max(0.0)
@@ -227,9 +254,8 @@ impl Bounds {
     /// 0. Newton's method from above ends at its root, after no more steps than there are pairs of rows. What is returned is
     /// smaller by more than the rounding, so that [`Bounds::onward`] finds room.
     pub(super) fn back(&self, most: f64) -> f64 {
-        let alone = self.rows.iter().filter(|[a, b]| *a > 0.0 && *b == 0.0);
-        let mut z0 = alone.map(|[a, _]| 1.0 / a).fold(f64::MAX, f64::min);
-        for _ in 0..self.rows.len() * self.rows.len() {
+        let mut z0 = self.most;
+        for _ in 0..MOST_LINES * MOST_LINES {
             let (upper, lower) = (self.upper(z0, most), self.lower(z0));
             let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
             let next = z0 - room / slope;
@@ -244,14 +270,14 @@ impl Bounds {
 
     /// The greatest `z1` for a `z0`, and how it changes with `z0`.
     fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
-        let rows = self.rows.iter().filter(|[_, b]| *b > 0.0).map(|[a, b]| ((1.0 - a * z0) / b, -a / b));
-        rows.fold((most, 0.0), |best, row| if row.0 < best.0 { row } else { best })
+        let lines = self.lines[..self.above].iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
     }
 
     /// The least `z1` for a `z0`, and how it changes with `z0`.
     fn lower(&self, z0: f64) -> (f64, f64) {
-        let rows = self.rows.iter().filter(|[_, b]| *b < 0.0).map(|[a, b]| ((1.0 - a * z0) / b, -a / b));
-        rows.fold((0.0, 0.0), |best, row| if row.0 > best.0 { row } else { best })
+        let lines = self.lines[MOST_LINES - self.below..].iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
+        lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
     }
 }
 
@@ -271,7 +297,8 @@ mod tests {
         ) {
             let mut rows = rows;
             rows.extend([[1.0 / caps.0, 0.0], [0.0, 1.0 / caps.1]]);
-            let bounds = Bounds::new(rows.clone());
+            let mut bounds = Bounds::default();
+            bounds.extend(rows.iter().copied());
             // All lines as a z0 + b z1 = c.
             let mut lines: Vec<[f64; 3]> = rows.iter().map(|[a, b]| [*a, *b, 1.0]).collect();
             lines.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, most]]);
