@@ -170,21 +170,34 @@ impl Explorer<'_> {
         (reach, (!frontier.is_empty()).then_some(Target::Any(frontier)))
     }
 
-    /// The one of most [`worth`], of several the nearest. What was counted before is a bound: only those that may be best are counted anew, and
-    /// none is looked for farther away than where nothing could be.
+    /// Of the configurations that show all that the nearest frontier configuration does the one of most [`worth`], of several the nearest: so
+    /// nothing is left behind that one would have to come back for.
+    ///
+    /// What was counted before is a bound: only those that may be best are counted anew, and none is looked for farther away than where
+    /// nothing could be.
     fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<usize>) {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
+        let (arm, grid) = (scene.arm(), &known.grid);
+        let mut wanted = Vec::new();
         let mut best: Option<(f64, usize)> = None;
-        let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell, length| {
-            let is_better =
-                |seen: u32| seen > 0 && best.is_none_or(|(most, _)| worth(seen, length, sensor.step) > most);
-            if is_better(frontier.most(cell)) {
-                let seen = frontier.gain(survey, sensor, scene.arm(), &known.grid, cell);
-                if is_better(seen) {
-                    best = Some((worth(seen, length, sensor.step), cell));
+        let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, length| {
+            let worth = |seen: u32| worth(seen, length, sensor.step);
+            let Some((most, _)) = best else {
+                if frontier.contains(survey, sensor, arm, grid, cell) {
+                    wanted = survey.shown_first(sensor, arm, grid.center(cell));
+                    best = Some((worth(frontier.gain(survey, sensor, arm, grid, cell)), cell));
+                }
+                return false;
+            };
+            let may_be_best =
+                worth(frontier.most(cell)) > most && survey.are_near(sensor, arm, grid.center(cell), &wanted);
+            if may_be_best {
+                let worth = worth(frontier.gain(survey, sensor, arm, grid, cell));
+                if worth > most && frontier.counted_all(&wanted) {
+                    best = Some((worth, cell));
                 }
             }
-            best.is_some_and(|(most, _)| worth(frontier.most_of_all(), length, sensor.step) <= most)
+            worth(frontier.most_of_all()) <= most
         });
         (reach, best.map(|(_, cell)| cell))
     }
@@ -230,8 +243,8 @@ impl Explorer<'_> {
         }
     }
 
-    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to the one of most [`worth`]; if there is none,
-    /// to the goal within what is known.
+    /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to the best view; if there is none, to the goal
+    /// within what is known.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &[usize]) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {

@@ -95,6 +95,12 @@ impl Frontier {
         self.configurations[cell].most
     }
 
+    /// Whether all of some cells of the map are among those that were counted last.
+    #[must_use]
+    pub fn counted_all(&self, cells: &[usize]) -> bool {
+        cells.iter().all(|&cell| self.counted[cell] == self.count)
+    }
+
     /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than
     /// is, and the configuration is not asked again.
     pub fn give_up(&mut self, cell: usize) {

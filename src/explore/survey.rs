@@ -239,6 +239,29 @@ impl Survey {
         })
     }
 
+    /// The unknown cells that rays of a reading at `q` come to first, in ascending order.
+    #[must_use]
+    pub fn shown_first(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> Vec<usize> {
+        let mut cells: Vec<usize> = self.first_unknown(sensor, arm, q).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        cells
+    }
+
+    /// Whether some cells are all within the range of a reading at `q`.
+    #[must_use]
+    pub fn are_near(&self, sensor: &Sensor, arm: &Arm, q: Configuration, cells: &[usize]) -> bool {
+        let (from, _) = sensor.pose(arm, q.into());
+        let local = (from.coords - self.origin()) / self.known.resolution;
+        let [width, height] = self.known.size;
+        // To the middles of cells, which rays need not cross.
+        let range = sensor.range / self.known.resolution + std::f64::consts::FRAC_1_SQRT_2;
+        cells.iter().all(|cell| {
+            let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
+            (middle - local).norm_squared() <= range.powi(2)
+        })
+    }
+
     /// The unknown cells that the rays of a reading at `q` cross before what is known to be there; some more than once.
     pub fn visible_unknown(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> impl Iterator<Item = usize> {
         let open = |&cell: &usize| self.known.cells[cell] != Occupancy::Occupied;
