@@ -173,11 +173,15 @@ impl Explorer<'_> {
     /// Of the configurations that show all that the nearest frontier configuration does the one of most [`worth`], of several the nearest: so
     /// nothing is left behind that one would have to come back for.
     ///
-    /// What was counted before is a bound: only those that may be best are counted anew, and none is looked for farther away than where
-    /// nothing could be.
+    /// None is looked for farther away than where nothing could be better; and the farther away the fewer are asked, down to those that are as
+    /// far apart as readings.
     fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<usize>) {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let (arm, grid) = (scene.arm(), &known.grid);
+        let is_asked = |cell: usize, length: f64| {
+            let every = grid.step().map(|step| ((length / 4.0).min(sensor.step) / step).max(1.0) as usize);
+            [cell / grid.cells[1], cell % grid.cells[1]].iter().zip(every).all(|(at, every)| at % every == 0)
+        };
         let mut wanted = Vec::new();
         let mut best: Option<(f64, usize)> = None;
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, length| {
@@ -189,11 +193,10 @@ impl Explorer<'_> {
                 }
                 return false;
             };
-            let may_be_best =
-                worth(frontier.most(cell)) > most && survey.are_near(sensor, arm, grid.center(cell), &wanted);
-            if may_be_best {
+            let may_be_best = is_asked(cell, length) && worth(frontier.most(cell)) > most;
+            if may_be_best && survey.shows_all(sensor, arm, grid.center(cell), &wanted) {
                 let worth = worth(frontier.gain(survey, sensor, arm, grid, cell));
-                if worth > most && frontier.counted_all(&wanted) {
+                if worth > most {
                     best = Some((worth, cell));
                 }
             }

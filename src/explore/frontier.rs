@@ -59,10 +59,8 @@ impl Frontier {
     pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> bool {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
-            let q = grid.center(cell);
             // Rays that come to nothing new now never will.
-            let is_near = self.edges.as_ref().is_none_or(|edges| survey.may_see(sensor, arm, q, edges));
-            prospect.witness = if is_near { survey.promise(sensor, arm, q) } else { None };
+            prospect.witness = survey.promise(sensor, arm, grid.center(cell), self.edges.as_deref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
             }
@@ -84,7 +82,7 @@ impl Frontier {
 
     /// How many cells would be seen for the first time from a cell of the grid if nothing unknown were in the way.
     pub fn gain(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid, cell: usize) -> u32 {
-        if self.contains(survey, sensor, arm, grid, cell) {
+        if self.configurations[cell].most > 0 {
             self.count += 1;
             let mut gain = 0;
             for seen in survey.visible_unknown(sensor, arm, grid.center(cell)) {
@@ -93,12 +91,6 @@ impl Frontier {
             self.configurations[cell].most = gain;
         }
         self.configurations[cell].most
-    }
-
-    /// Whether all of some cells of the map are among those that were counted last.
-    #[must_use]
-    pub fn counted_all(&self, cells: &[usize]) -> bool {
-        cells.iter().all(|&cell| self.counted[cell] == self.count)
     }
 
     /// Takes note that a reading was taken there and showed nothing: where distances are wrong by chance more may seem to be seen than

@@ -38,6 +38,9 @@ impl Reach {
         let free = FreeCells::new(grid);
         let count = grid.blocked.len();
         let mut reach = Self { start, costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
+        let (sides, columns) = (grid.step(), grid.cells[1]);
+        let across = sides[0].hypot(sides[1]);
+        let is_in_row = |a: usize, b: usize| a / columns == b / columns;
         let mut open = OpenList::default();
         for &cell in joined {
             reach.costs[cell] = grid.topology.distance(start, grid.center(cell));
@@ -52,9 +55,8 @@ impl Reach {
             if is_enough(cell, cost) {
                 break;
             }
-            let here = grid.center(cell);
             for step in free.moves(cell, Neighborhood::Eight) {
-                let cost = cost + grid.topology.distance(here, grid.center(step.to));
+                let cost = cost + if step.is_diagonal { across } else { sides[usize::from(is_in_row(cell, step.to))] };
                 if cost < reach.costs[step.to] && !closed.contains(&[cell, step.to]) {
                     reach.costs[step.to] = cost;
                     reach.before[step.to] = cell as u32;

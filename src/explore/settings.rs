@@ -15,8 +15,8 @@ pub enum Strategy {
     /// known to be free; where that shows nothing new, to where what is in its way can be seen, or as [`Strategy::View`].
     #[default]
     Goal,
-    /// To a frontier configuration that is near, and shows more than others that are about as near: a next best view (González-Baños,
-    /// Latombe 2002).
+    /// To a frontier configuration that shows all that the nearest one does, and more than others that are about as near: a next best view
+    /// (González-Baños, Latombe 2002) that leaves nothing behind.
     View,
     /// To the nearest frontier configuration (Yamauchi 1997).
     Nearest,

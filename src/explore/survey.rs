@@ -5,12 +5,16 @@ use crate::input::{Occupancy, OccupancyMap};
 use crate::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
 use crate::space::{Configuration, Draws};
 use nalgebra::{Isometry2, Vector2};
+use std::f64::consts::PI;
 
 /// Cells of the largest map.
 pub const MOST_CELLS: usize = 1 << 22;
 
 /// Margin of the map about what the arm can touch, in cells.
 const MARGIN: f64 = 2.0;
+
+/// Radius of a disc that holds a cell, in cells, with room for rounding.
+const AROUND_CELL: f64 = 0.75;
 
 /// A map that fills up with what a sensor sees. What was said of a cell once stays so.
 ///
@@ -143,10 +147,22 @@ impl Survey {
             from..((at(most + around) + 2.0).max(0.0) as usize).min(self.known.size[k])
         };
         let grown = Convex::trusted(shape.core().to_vec(), around);
+        // Beyond a side by more than a cell's radius: most cells about an oblique shape, decided quickly.
+        let core = shape.core().to_vec();
+        let margin = around + AROUND_CELL * cell;
+        let is_beyond = move |middle: Point| {
+            core.iter().zip(core.iter().cycle().skip(1)).any(|(a, b)| {
+                let side = b - a;
+                side.perp(&(middle - a)) < -margin * side.norm()
+            })
+        };
         let [columns, rows] = [range(0), range(1)];
         let cells = rows.flat_map(move |y| columns.clone().map(move |x| (x, y)));
         cells
-            .filter(move |&(x, y)| asked(self.index(x, y)) && shapes_meet(&self.square(x, y), &grown))
+            .filter(move |&(x, y)| {
+                let middle = Point::from(self.origin() + Vector::new(x as f64 + 0.5, y as f64 + 0.5) * cell);
+                asked(self.index(x, y)) && !is_beyond(middle) && shapes_meet(&self.square(x, y), &grown)
+            })
             .map(|(x, y)| self.index(x, y))
     }
 
@@ -225,10 +241,32 @@ impl Survey {
         })
     }
 
-    /// The first unknown cell that a reading at `q` would come to; none if it would show nothing new.
+    /// An unknown cell that a reading at `q` would come to; none if it would show nothing new. Rays come first to one of the
+    /// [`Survey::edges`], where these are given: only those that may are looked along.
     #[must_use]
-    pub fn promise(&self, sensor: &Sensor, arm: &Arm, q: Configuration) -> Option<usize> {
-        self.first_unknown(sensor, arm, q).next()
+    pub fn promise(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: Option<&[Vec<usize>]>) -> Option<usize> {
+        let (from, ahead) = sensor.pose(arm, q.into());
+        let edges = edges.filter(|_| !self.is_unknown_about(from));
+        let Some(edges) = edges else { return self.first_unknown(sensor, arm, q).next() };
+        let mut is_tried = vec![false; sensor.rays];
+        self.near(edges, from, sensor.range).find_map(|edge| {
+            let mut rays = self.rays_to(sensor, from, ahead, edge);
+            rays.find_map(|ray| {
+                let is_new = !std::mem::replace(&mut is_tried[ray], true);
+                let mut view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
+                let first = is_new.then(|| view.find(|&cell| self.known.cells[cell] != Occupancy::Free)).flatten();
+                first.filter(|&cell| self.is_unknown(cell))
+            })
+        })
+    }
+
+    /// The numbers of those rays that may cross a cell.
+    fn rays_to(&self, sensor: &Sensor, from: Point, ahead: f64, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let [width, height] = self.known.size;
+        let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
+        let way = middle - (from.coords - self.origin()) / self.known.resolution;
+        let sine = AROUND_CELL / way.norm();
+        sensor.rays_about(ahead, way.y.atan2(way.x), if sine < 1.0 { sine.asin() } else { PI })
     }
 
     /// Of each ray of a reading at `q` the first cell that is not known to be free, if it is unknown.
@@ -248,17 +286,15 @@ impl Survey {
         cells
     }
 
-    /// Whether some cells are all within the range of a reading at `q`.
+    /// Whether the rays of a reading at `q` cross all of some cells before what is known to be there.
     #[must_use]
-    pub fn are_near(&self, sensor: &Sensor, arm: &Arm, q: Configuration, cells: &[usize]) -> bool {
-        let (from, _) = sensor.pose(arm, q.into());
-        let local = (from.coords - self.origin()) / self.known.resolution;
-        let [width, height] = self.known.size;
-        // To the middles of cells, which rays need not cross.
-        let range = sensor.range / self.known.resolution + std::f64::consts::FRAC_1_SQRT_2;
-        cells.iter().all(|cell| {
-            let middle = Vector::new((cell % width) as f64 + 0.5, (height - 1 - cell / width) as f64 + 0.5);
-            (middle - local).norm_squared() <= range.powi(2)
+    pub fn shows_all(&self, sensor: &Sensor, arm: &Arm, q: Configuration, cells: &[usize]) -> bool {
+        let (from, ahead) = sensor.pose(arm, q.into());
+        cells.iter().all(|&wanted| {
+            self.rays_to(sensor, from, ahead, wanted).any(|ray| {
+                let view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
+                view.take_while(|&cell| self.known.cells[cell] != Occupancy::Occupied).any(|cell| cell == wanted)
+            })
         })
     }
 
@@ -315,26 +351,27 @@ impl Survey {
         (0..height).map(|y| (0..width).filter(|&x| is_edge(x, y)).collect()).collect()
     }
 
-    /// Whether a reading at `q` may show anything new: there are [`Survey::edges`] within the sensor's range, or it stands in the unknown.
-    #[must_use]
-    pub fn may_see(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: &[Vec<usize>]) -> bool {
-        let (from, _) = sensor.pose(arm, q.into());
-        let local = (from.coords - self.origin()) / self.known.resolution;
+    /// Whether a point lies in a cell of which nothing is known.
+    fn is_unknown_about(&self, point: Point) -> bool {
+        let local = (point.coords - self.origin()) / self.known.resolution;
+        let is_inside = (0..2).all(|k| 0.0 <= local[k] && local[k] < self.known.size[k] as f64);
+        is_inside && self.is_unknown(self.index(local.x as usize, local.y as usize))
+    }
+
+    /// Those of the [`Survey::edges`] that are within a range of a point, and some more.
+    fn near<'a>(&self, edges: &'a [Vec<usize>], point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
+        let local = (point.coords - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;
-        let inside = |v: f64, size: usize| 0.0 <= v && v < size as f64;
-        let is_inside = inside(local.x, width) && inside(local.y, height);
-        if is_inside && self.is_unknown(self.index(local.x as usize, local.y as usize)) {
-            return true;
-        }
         let (x, y) = (local.x, height as f64 - local.y);
         // A cell more to each side: for its far side, and rounding.
-        let range = sensor.range / self.known.resolution + 2.0;
+        let range = range / self.known.resolution + 2.0;
         let rows = (y - range).max(0.0) as usize..((y + range).max(0.0) as usize).min(height);
-        rows.into_iter().any(|row| {
+        rows.flat_map(move |row| {
             let half = (range.powi(2) - (row as f64 + 0.5 - y).powi(2)).max(0.0).sqrt() + 1.0;
             let columns = &edges[row];
             let first = columns.partition_point(|&column| (column as f64) < x - half);
-            columns.get(first).is_some_and(|&column| column as f64 <= x + half)
+            let near = columns[first..].iter().take_while(move |&&column| column as f64 <= x + half);
+            near.map(move |column| row * width + column)
         })
     }
 

@@ -66,11 +66,32 @@ impl Sensor {
 
     /// The angles of its rays, from right to left.
     pub fn rays(&self, ahead: f64) -> impl Iterator<Item = f64> + use<> {
-        let Self { rays, field_of_view, .. } = *self;
-        // On a whole turn the last ray must not be the first once more.
-        let gaps = if field_of_view < TAU { rays.max(2) - 1 } else { rays };
-        let first = if rays == 1 { ahead } else { ahead - field_of_view / 2.0 };
-        (0..rays).map(move |k| first + field_of_view * (k as f64 / gaps as f64))
+        let sensor = *self;
+        (0..self.rays).map(move |k| sensor.ray(ahead, k))
+    }
+
+    /// The angle of ray `k`.
+    #[must_use]
+    pub fn ray(&self, ahead: f64, k: usize) -> f64 {
+        let first = if self.rays == 1 { ahead } else { ahead - self.field_of_view / 2.0 };
+        first + self.field_of_view * (k as f64 / self.gaps() as f64)
+    }
+
+    /// Gaps between rays, over the field of view: on a whole turn the last ray must not be the first once more.
+    fn gaps(&self) -> usize {
+        if self.field_of_view < TAU { self.rays.max(2) - 1 } else { self.rays }
+    }
+
+    /// The numbers of the rays that are no farther than an angle from a direction; some more than once if that is half a turn.
+    pub fn rays_about(&self, ahead: f64, direction: f64, angle: f64) -> impl Iterator<Item = usize> + use<> {
+        let (rays, gap) = (self.rays, self.field_of_view / self.gaps() as f64);
+        let from_first = (direction - self.ray(ahead, 0)).rem_euclid(TAU);
+        [-TAU, 0.0, TAU].into_iter().flat_map(move |turn| {
+            let middle = from_first + turn;
+            let from = ((middle - angle) / gap).ceil().max(0.0) as usize;
+            let to = ((middle + angle) / gap).floor() + 1.0;
+            from..(to.max(0.0) as usize).min(rays)
+        })
     }
 }
 
