@@ -117,4 +117,23 @@ mod tests {
         assert_eq!((at, ahead), (arm.base, 0.0));
         Ok(())
     }
+
+    #[test]
+    fn rays_about_a_direction_are_those_no_farther_from_it() -> Result<(), ConvexError> {
+        let usual = Sensor::usual(&Arm::rr([1.0, 0.5], 0.1)?);
+        for (rays, field_of_view) in [(1, 1.0), (7, PI), (97, TAU - 0.1), (180, TAU)] {
+            let sensor = Sensor { rays, field_of_view, ..usual };
+            for k in 0..500 {
+                let [ahead, direction] = [0.37, 0.91].map(|step| (f64::from(k) * step) % (3.0 * PI) - PI);
+                let angle = f64::from(k % 9) * 0.31 + 0.01;
+                let mut about: Vec<usize> = sensor.rays_about(ahead, direction, angle).collect();
+                about.sort_unstable();
+                about.dedup();
+                let apart = |ray: f64| (ray - direction).cos().clamp(-1.0, 1.0).acos();
+                let near = (0..rays).filter(|&ray| apart(sensor.ray(ahead, ray)) <= angle);
+                assert_eq!(about, near.collect::<Vec<_>>(), "{rays} rays ahead {ahead}, {angle} about {direction}");
+            }
+        }
+        Ok(())
+    }
 }
