@@ -32,7 +32,7 @@ const ROUNDS: usize = 64;
 /// The first ways are searched for: among wide strips they often lead where there is none.
 const SEARCHED: usize = 2;
 
-/// Searches for a motion at most: most of them answer a certificate that was refused.
+/// Ways at most, searched for or pulled taut: most of them answer a certificate that was refused.
 const TRIES: usize = 128;
 
 /// Pairs times searches at most, a second's worth or some.
@@ -142,9 +142,14 @@ pub fn short_motion(
     let (mut before, mut refused, mut last, mut is_pulled) = (0.0, 0, Vec::new(), true);
     let deepest = if scene.pairs().len() <= FEW_PAIRS { DEEPEST } else { DEEPEST_AMONG_MANY };
     let allowed = Allowed::Depth(deepest * kept);
-    for round in 0..TRIES.min(MOST_TRIED / ways.strips.pairs().len().max(1)) {
-        let taut = (is_pulled && round >= SEARCHED).then(|| ways.taut(&last)).flatten();
+    let (most, mut searched) = (MOST_TRIED / ways.strips.pairs().len().max(1), 0);
+    for _ in 0..TRIES {
+        let taut = (is_pulled && searched >= SEARCHED).then(|| ways.taut(&last)).flatten();
         let is_shortest = taut.is_none();
+        if is_shortest && searched == most {
+            return None;
+        }
+        searched += usize::from(is_shortest);
         let (length, corners) = taut.unwrap_or_else(|| ways.shortest());
         if corners.is_empty() {
             return None;
