@@ -37,8 +37,8 @@ pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
     /// Where to go next: to the goal, as far as the way is known (the default where there is a goal); to a place from which something new can
-    /// be seen: one that is near and shows much (view, the default elsewhere), the nearest, the first along the wall to the right; or up the
-    /// harmonic potential of all such places.
+    /// be seen: one that shows all that the nearest does, and more (view, the default elsewhere), the nearest, the first along the wall to
+    /// the right; or up the harmonic potential of all such places.
     #[arg(long, value_enum, value_name = "NAME")]
     pub strategy: Option<StrategyName>,
     /// What plans the optimistic paths, where strategy "goal" takes unknown space as free.

@@ -18,6 +18,9 @@ use std::collections::{BTreeSet, HashSet};
 /// Places ahead on an optimistic path whose unknown cells are looked for.
 const PLACES_AHEAD: usize = 8;
 
+/// Configurations that are looked at for a better view, some milliseconds' worth.
+const MOST_VIEWS: usize = 150;
+
 /// Cells along a wall that are gone past straight: as many as smooth its steps, not its corners.
 const BY_THE_WALL: usize = 4;
 
@@ -173,8 +176,8 @@ impl Explorer<'_> {
     /// Of the configurations that show all that the nearest frontier configuration does the one of most [`worth`], of several the nearest: so
     /// nothing is left behind that one would have to come back for.
     ///
-    /// None is looked for farther away than where nothing could be better; and the farther away the fewer are asked, down to those that are as
-    /// far apart as readings.
+    /// None is looked for farther away than where nothing could be better, nor beyond the nearest [`MOST_VIEWS`]; and the farther away the fewer
+    /// are asked, down to those that are as far apart as readings.
     fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<usize>) {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let (arm, grid) = (scene.arm(), &known.grid);
@@ -182,7 +185,7 @@ impl Explorer<'_> {
             let every = grid.step().map(|step| ((length / 4.0).min(sensor.step) / step).max(1.0) as usize);
             [cell / grid.cells[1], cell % grid.cells[1]].iter().zip(every).all(|(at, every)| at % every == 0)
         };
-        let mut wanted = Vec::new();
+        let (mut wanted, mut asked) = (Vec::new(), 0);
         let mut best: Option<(f64, usize)> = None;
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, length| {
             let worth = |seen: u32| worth(seen, length, sensor.step);
@@ -194,13 +197,14 @@ impl Explorer<'_> {
                 return false;
             };
             let may_be_best = is_asked(cell, length) && worth(frontier.most(cell)) > most;
+            asked += usize::from(may_be_best);
             if may_be_best && survey.shows_all(sensor, arm, grid.center(cell), &wanted) {
                 let worth = worth(frontier.gain(survey, sensor, arm, grid, cell));
                 if worth > most {
                     best = Some((worth, cell));
                 }
             }
-            worth(frontier.most_of_all()) <= most
+            worth(frontier.most_of_all()) <= most || asked == MOST_VIEWS
         });
         (reach, best.map(|(_, cell)| cell))
     }
@@ -313,8 +317,8 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
 
 /// What it is worth to go so far to see so many cells for the first time.
 ///
-/// The nearer the better, and of those that are about as near the one that shows more: twice as far must show 64 times as much. Whoever weighs
-/// what is seen more goes straight ahead, and comes back for what was left (found by trying: CPLAN_WORLDS of `planning exploring`).
+/// The nearer the better, and of those that are about as near the one that shows more: twice as far must show 64 times as much (found by
+/// trying: CPLAN_WORLDS of `planning exploring`).
 fn worth(seen: u32, length: f64, step: f64) -> f64 {
     f64::from(seen).powf(1.0 / 6.0) / (length + step / 2.0)
 }

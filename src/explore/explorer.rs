@@ -171,6 +171,7 @@ impl Explorer<'_> {
         let (arm, clearance) = (self.scene.arm(), self.scene.workspace().clearance);
         self.opened.push((self.readings.len(), self.known.update(&self.survey, arm, &fresh)));
         self.frontier.update(&self.survey);
+        self.frontier.ask_ahead(&self.survey, self.sensor, self.scene.arm(), &self.known.grid);
         if !fresh.is_empty() {
             self.solid = self.survey.scene(arm, clearance, false);
         }

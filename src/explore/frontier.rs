@@ -20,9 +20,14 @@ pub struct Frontier {
     /// When each cell of the map was counted last.
     counted: Vec<u32>,
     count: u32,
+    /// The configuration that is asked ahead next.
+    ahead: usize,
     /// How many configurations were given up, though something seemed to be seen from them.
     pub given_up: usize,
 }
+
+/// Configurations that are asked ahead at each decision: a fraction of a millisecond.
+const ASKED_AHEAD: usize = 256;
 
 /// What is known of a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +47,15 @@ impl Frontier {
         let around = sensor.range / survey.map().resolution + std::f64::consts::SQRT_2;
         let most = (std::f64::consts::PI * around.powi(2)).min(cells as f64).ceil() as u32;
         let configurations = vec![Prospect { witness: None, most }; configurations];
-        Self { configurations, edges: None, most_of_all: most, counted: vec![0; cells], count: 0, given_up: 0 }
+        Self {
+            configurations,
+            edges: None,
+            most_of_all: most,
+            counted: vec![0; cells],
+            count: 0,
+            ahead: 0,
+            given_up: 0,
+        }
     }
 
     /// Takes note of what the map knows now.
@@ -66,6 +79,23 @@ impl Frontier {
             }
         }
         prospect.most > 0
+    }
+
+    /// Asks some configurations whose answer is open, in turn, so that no decision has to ask them all: what shows nothing new never will.
+    pub fn ask_ahead(&mut self, survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) {
+        let mut asked = 0;
+        for _ in 0..self.configurations.len() {
+            let cell = self.ahead;
+            self.ahead = (cell + 1) % self.configurations.len();
+            let Prospect { witness, most } = self.configurations[cell];
+            if !grid.blocked[cell] && most > 0 && !witness.is_some_and(|witness| survey.is_unknown(witness)) {
+                self.contains(survey, sensor, arm, grid, cell);
+                asked += 1;
+                if asked == ASKED_AHEAD {
+                    break;
+                }
+            }
+        }
     }
 
     /// No more cells than these can be seen for the first time from a cell of the grid.

@@ -3,11 +3,10 @@
 use crate::check::certify;
 use crate::cspace::Grid;
 use crate::field::{FreeCells, Neighborhood};
-use crate::geometry::OpenList;
 use crate::interrupt::checkpoint;
 use crate::model::Scene;
 use crate::space::{Configuration, Path};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 
 /// Steps from a cell's middle to another's that are not free, though both ends are.
 pub type Closed = BTreeSet<[usize; 2]>;
@@ -21,6 +20,24 @@ pub struct Reach {
     before: Vec<u32>,
     /// In the order of their costs.
     pub cells: Vec<usize>,
+}
+
+/// What waits to be looked at, a queue for each length of a step and one for where all begins.
+///
+/// Costs come out in ascending order, and what is added to them is the same in a queue: so each is in order by itself, without a heap.
+#[derive(Debug, Default)]
+struct OpenQueues([VecDeque<(f64, usize)>; 4]);
+
+impl OpenQueues {
+    fn push(&mut self, queue: usize, cost: f64, cell: usize) {
+        self.0[queue].push_back((cost, cell));
+    }
+
+    fn pop(&mut self) -> Option<(f64, usize)> {
+        let first = |queue: &VecDeque<(f64, usize)>| queue.front().map_or(f64::INFINITY, |&(cost, _)| cost);
+        let next = self.0.iter_mut().min_by(|a, b| first(a).total_cmp(&first(b)));
+        next.and_then(VecDeque::pop_front)
+    }
 }
 
 /// No cell.
@@ -39,12 +56,14 @@ impl Reach {
         let count = grid.blocked.len();
         let mut reach = Self { start, costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
         let (sides, columns) = (grid.step(), grid.cells[1]);
-        let across = sides[0].hypot(sides[1]);
-        let is_in_row = |a: usize, b: usize| a / columns == b / columns;
-        let mut open = OpenList::default();
-        for &cell in joined {
-            reach.costs[cell] = grid.topology.distance(start, grid.center(cell));
-            open.push(reach.costs[cell], cell);
+        let lengths = [sides[0], sides[1], sides[0].hypot(sides[1])];
+        let mut open = OpenQueues::default();
+        let mut begin: Vec<(f64, usize)> =
+            joined.iter().map(|&cell| (grid.topology.distance(start, grid.center(cell)), cell)).collect();
+        begin.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (cost, cell) in begin {
+            reach.costs[cell] = cost;
+            open.push(lengths.len(), cost, cell);
         }
         while let Some((cost, cell)) = open.pop() {
             checkpoint();
@@ -56,11 +75,12 @@ impl Reach {
                 break;
             }
             for step in free.moves(cell, Neighborhood::Eight) {
-                let cost = cost + if step.is_diagonal { across } else { sides[usize::from(is_in_row(cell, step.to))] };
+                let kind = if step.is_diagonal { 2 } else { usize::from(cell / columns == step.to / columns) };
+                let cost = cost + lengths[kind];
                 if cost < reach.costs[step.to] && !closed.contains(&[cell, step.to]) {
                     reach.costs[step.to] = cost;
                     reach.before[step.to] = cell as u32;
-                    open.push(cost, step.to);
+                    open.push(kind, cost, step.to);
                 }
             }
         }

@@ -135,35 +135,43 @@ impl Survey {
     }
 
     /// The cells that a shape meets, grown by a margin, of those that are `asked` about.
+    ///
+    /// Row by row: beyond a side of the shape by more than a cell's radius are all cells before a column, or after one.
     fn touched(&self, shape: &Convex, margin: f64, asked: impl Fn(usize) -> bool) -> impl Iterator<Item = usize> {
         let cell = self.known.resolution;
-        let around = shape.radius() + margin;
+        let grown = Convex::trusted(shape.core().to_vec(), shape.radius() + margin);
+        let around = grown.radius() / cell + AROUND_CELL;
+        // In cells, from the middle of the first.
+        let core: Vec<Vector> =
+            shape.core().iter().map(|p| (p.coords - self.origin()) / cell - Vector::repeat(0.5)).collect();
         let range = |k: usize| {
-            let local = shape.core().iter().map(|p| p[k] - self.origin()[k]);
+            let local = core.iter().map(|p| p[k]);
             let (least, most) = local.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-            // A cell more to either side: rounding must not lose one.
-            let at = |value: f64| (value / cell).floor();
-            let from = (at(least - around) - 1.0).max(0.0) as usize;
-            from..((at(most + around) + 2.0).max(0.0) as usize).min(self.known.size[k])
-        };
-        let grown = Convex::trusted(shape.core().to_vec(), around);
-        // Beyond a side by more than a cell's radius: most cells about an oblique shape, decided quickly.
-        let core = shape.core().to_vec();
-        let margin = around + AROUND_CELL * cell;
-        let is_beyond = move |middle: Point| {
-            core.iter().zip(core.iter().cycle().skip(1)).any(|(a, b)| {
-                let side = b - a;
-                side.perp(&(middle - a)) < -margin * side.norm()
-            })
+            let [from, to] = [(least - around).ceil(), (most + around).floor() + 1.0].map(|at| at.max(0.0) as usize);
+            from..to.min(self.known.size[k])
         };
         let [columns, rows] = [range(0), range(1)];
-        let cells = rows.flat_map(move |y| columns.clone().map(move |x| (x, y)));
+        let sides = core.iter().zip(core.iter().cycle().skip(1)).map(|(&a, &b)| (a, b - a));
+        let sides: Vec<(f64, f64, f64)> =
+            sides.map(|(a, side)| (-side.y, side.x, side.perp(&a) - around * side.norm())).collect();
+        let cells = rows.flat_map(move |y| {
+            let (mut from, mut to) = (columns.start, columns.end);
+            for &(along, across, least) in &sides {
+                let least = least - across * y as f64;
+                if along > 0.0 {
+                    from = from.max((least / along).ceil().max(0.0) as usize);
+                } else if along < 0.0 {
+                    to = to.min(((least / along).floor() + 1.0).max(0.0) as usize);
+                } else if least > 0.0 {
+                    to = from;
+                }
+            }
+            (from..to.max(from)).map(move |x| (x, y))
+        });
         cells
-            .filter(move |&(x, y)| {
-                let middle = Point::from(self.origin() + Vector::new(x as f64 + 0.5, y as f64 + 0.5) * cell);
-                asked(self.index(x, y)) && !is_beyond(middle) && shapes_meet(&self.square(x, y), &grown)
-            })
-            .map(|(x, y)| self.index(x, y))
+            .map(|(x, y)| (self.index(x, y), x, y))
+            .filter(move |&(cell, x, y)| asked(cell) && shapes_meet(&self.square(x, y), &grown))
+            .map(|(cell, ..)| cell)
     }
 
     /// A cell as a shape, by column from the left and row from below.
