@@ -1,5 +1,6 @@
 """The program `cplan`."""
 
+import signal
 import sys
 
 from cplan._cplan import run
@@ -7,6 +8,8 @@ from cplan._cplan import run
 
 def main() -> int:
     """Runs the program with the arguments of the process; returns its exit code."""
+    # Python's own handler would wait for the program to end.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     return run(["cplan", *sys.argv[1:]])
 
 

@@ -36,7 +36,7 @@ def _geometry(given: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
         case "Feature":
             properties = given.get("properties") or {}
             taken = {key: properties[key] for key in ("name", "height") if key in properties}
-            for obstacle in _geometry(given["geometry"]):
+            for obstacle in _geometry(given["geometry"] or {"type": "GeometryCollection", "geometries": []}):
                 yield {**obstacle, **taken}
         case "FeatureCollection":
             for feature in given["features"]:

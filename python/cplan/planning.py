@@ -21,12 +21,12 @@ def options(**given: Any) -> Options | None:
 
 def _words(name: str, value: Any) -> list[str]:
     option = "--" + name.replace("_", "-")
+    if hasattr(value, "tolist"):
+        value = value.tolist()
     if value is None or value is False:
         return []
     if value is True:
         return [option]
-    if hasattr(value, "tolist"):
-        value = value.tolist()
     if isinstance(value, (list, tuple)):
         separator = "x" if name in ("cells", "grid") else ","
         value = separator.join("none" if entry is None else str(entry) for entry in value)

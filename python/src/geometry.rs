@@ -5,11 +5,18 @@ use cplan::geometry::{self, Convex, Point};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
+/// The largest coordinate, metres: that of arms and worlds.
+const LARGEST: f64 = 1e15;
+
 /// A convex polygon of corners, shape (n, 2), counter-clockwise; a point or a segment has one or two.
 fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> {
     let corners = corners.as_array();
     if corners.ncols() != 2 {
         return Err(refused(format!("{name}: expected shape (n, 2), not {:?}", corners.shape())));
+    }
+    // Products of larger coordinates overflow.
+    if corners.iter().any(|x| x.abs() > LARGEST) {
+        return Err(refused(format!("{name}: coordinates are at most {LARGEST:e}")));
     }
     let points = corners.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect();
     Convex::new(points, 0.0).map_err(|error| refused(format!("{name}: {error}")))

@@ -2,7 +2,7 @@
 
 use crate::error::refused;
 use crate::geometry::array;
-use crate::problem::{Options, Problem};
+use crate::problem::{Options, Problem, noted};
 use crate::signals::interruptible;
 use cplan::Status;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -125,24 +125,23 @@ pub fn plan(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
     let options = options.map_or_else(cplan::Options::default, |options| options.options);
-    let mut failed = None;
-    let mut say = |text: &str| {
-        if let Some(progress) = &progress {
-            let said = Python::attach(|py| progress.call1(py, (text,)).map(|_| ()));
-            failed = failed.take().or(said.err());
-        }
-    };
-    let made = interruptible(py, || cplan::engine::plan_with(&problem.problem, &options, &mut say))?;
-    match failed {
-        Some(error) => Err(error),
-        None => outcome(py, made.map_err(refused)?),
-    }
+    let made = interruptible(py, |raised| {
+        let mut say = |text: &str| {
+            if let Some(progress) = &progress
+                && let Err(error) = Python::attach(|py| progress.call1(py, (text,)))
+            {
+                raised.put(error);
+            }
+        };
+        cplan::engine::plan_with(&problem.problem, &options, &mut say)
+    })?;
+    outcome(py, made.map_err(refused)?)
 }
 
 /// A plan from what it was pickled as: it is planned again, and refused if the result differs.
 #[pyfunction]
 pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
-    let plan = interruptible(py, || serde_json::from_slice::<cplan::Plan>(data))?;
+    let plan = interruptible(py, |_| serde_json::from_slice::<cplan::Plan>(data))?;
     outcome(py, plan.map_err(refused)?)
 }
 
@@ -169,7 +168,7 @@ impl Plan {
     /// What the user should know of the problem, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.plan.problem().notes().to_vec()
+        noted(self.plan.problem())
     }
 
     /// In some ten lines, for people.
@@ -235,7 +234,7 @@ impl Found {
         slf.as_super().trajectory.as_ref().map(|trajectory| trajectory.clone_ref(slf.py()))
     }
 
-    /// Euclidean length of the path in joint space; of a task None.
+    /// Euclidean length of the path in joint space; of a task that of all its motions.
     #[getter]
     fn length(slf: PyRef<'_, Self>) -> Option<f64> {
         slf.as_super().plan.report().length

@@ -137,7 +137,7 @@ impl World {
     }
 }
 
-/// How to make a thing again that has a static method `restored`: files are not read again.
+/// How to make a thing again that has a static method `restored`. A text stays as it was read; files that it names are read when a problem is made.
 fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyResult<(Bound<'py, PyAny>, (String,))> {
     let data = serde_json::to_string(data).map_err(refused)?;
     Ok((thing.as_any().get_type().getattr("restored")?, (data,)))
@@ -200,7 +200,7 @@ impl Problem {
     /// What the user should know of how the files were read, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        self.problem.robot().warnings.iter().chain(self.problem.notes()).cloned().collect()
+        noted(&self.problem)
     }
 
     /// Names of the two joints, base to tip.
@@ -214,4 +214,19 @@ impl Problem {
     fn kind(&self) -> &'static str {
         self.problem.scene().arm().kind()
     }
+
+    /// A problem from what it was pickled as.
+    #[staticmethod]
+    fn restored(data: &str) -> PyResult<Self> {
+        serde_json::from_str(data).map(|problem| Self { problem }).map_err(refused)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        pickled(slf, &slf.get().problem)
+    }
+}
+
+/// What the user should know of how a problem was read, line by line.
+pub fn noted(problem: &cplan::Problem) -> Vec<String> {
+    problem.robot().warnings.iter().chain(problem.notes()).cloned().collect()
 }

@@ -1,9 +1,9 @@
 //! Ctrl-C, while Python waits for work.
 
-use cplan::interrupt::{Interrupt, Interrupted};
+use cplan::interrupt::Interrupt;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 /// How often work asks whether there was a signal.
@@ -12,19 +12,43 @@ const EVERY: Duration = Duration::from_millis(20);
 /// Does `work` while other threads of Python run. What a signal's handler raises, [`KeyboardInterrupt`] as a rule, ends it.
 ///
 /// Handlers run in Python's main thread, so work in another one is not ended by Ctrl-C.
-pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
-    let raised = Arc::new(Mutex::new(None));
-    let slot = raised.clone();
+///
+/// What `work` leaves in `raised` ends it, too, at the next checkpoint, and is raised.
+pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce(&Raised) -> T + Send) -> PyResult<T> {
+    let raised = Raised::default();
+    let here = raised.clone();
     let interrupt = Interrupt::new().asking(EVERY, move || {
-        let signal = Python::attach(|py| py.check_signals()).err();
-        let is_raised = signal.is_some();
-        if let (true, Ok(mut slot)) = (is_raised, slot.lock()) {
-            *slot = signal;
+        if let Err(signal) = Python::attach(|py| py.check_signals()) {
+            here.put(signal);
         }
-        is_raised
+        here.is_any()
     });
-    py.detach(|| interrupt.run(work)).map_err(|why: Interrupted| {
-        let signal = raised.lock().ok().and_then(|mut slot| slot.take());
-        signal.unwrap_or_else(|| PyKeyboardInterrupt::new_err(why.to_string()))
-    })
+    let done = py.detach(|| interrupt.run(|| work(&raised)));
+    match (raised.take(), done) {
+        (Some(error), _) => Err(error),
+        (None, done) => done.map_err(|why| PyKeyboardInterrupt::new_err(why.to_string())),
+    }
+}
+
+/// The first exception that came up.
+#[derive(Clone, Default)]
+pub struct Raised(Arc<Mutex<Option<PyErr>>>);
+
+impl Raised {
+    /// Keeps an exception, if it is the first.
+    pub fn put(&self, error: PyErr) {
+        self.slot().get_or_insert(error);
+    }
+
+    fn is_any(&self) -> bool {
+        self.slot().is_some()
+    }
+
+    fn take(&self) -> Option<PyErr> {
+        self.slot().take()
+    }
+
+    fn slot(&self) -> MutexGuard<'_, Option<PyErr>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }

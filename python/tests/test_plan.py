@@ -104,8 +104,10 @@ def test_geometries_are_obstacles() -> None:
 def test_everything_is_pickled() -> None:
     arm, world = shelf()
     made = cplan.Arm.rr([1.0, 0.8], 0.06)
-    for thing in (arm, world, made):
+    for thing in (arm, world, made, cplan.Options(["--planner=first"])):
         assert pickle.loads(pickle.dumps(thing)) == thing
+    problem = pickle.loads(pickle.dumps(cplan.Problem(arm, world)))
+    assert cplan.plan(problem).to_json() == cplan.plan(arm, world).to_json()
     plan = cplan.plan(arm, world)
     again = pickle.loads(pickle.dumps(plan))
     assert type(again) is cplan.Found and again.to_json() == plan.to_json()
@@ -130,7 +132,7 @@ def test_what_is_wrong_is_named_with_its_cure() -> None:
 
 def test_pictures_and_files(tmp_path: Path) -> None:
     plan = cplan.plan(*shelf())
-    for name in ("plan.json", "plan.csv", "plan.yaml", "plan.svg", "plan.html"):
+    for name in ("plan.json", "plan.csv", "plan.yaml", "plan.mcap", "plan.svg", "plan.png", "plan.html"):
         plan.save(tmp_path / name)
         assert (tmp_path / name).stat().st_size > 100
     assert (tmp_path / "plan.svg").read_text() == plan.svg()
@@ -186,6 +188,34 @@ def test_progress_is_heard_and_what_it_raises_too() -> None:
 
     with pytest.raises(RuntimeError, match="bound"):
         cplan.plan(*shelf(), planner="visibility", gap=1e-9, levels=1, progress=refuse)
+
+
+def test_what_progress_raises_ends_a_plan() -> None:
+    heard: list[str] = []
+
+    def refuse(line: str) -> None:
+        heard.append(line)
+        raise KeyboardInterrupt
+
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        cplan.plan(*slow(), planner="wavefront", cells=2048, levels=6, progress=refuse)
+    assert len(heard) <= 2 and time.monotonic() - begun < 30
+
+
+def test_control_c_ends_the_program() -> None:
+    gantry, rooms = ROOT / "robots/gantry.urdf", ROOT / "workspaces/explore/rooms.toml"
+    command = [sys.executable, "-m", "cplan", "explore", str(gantry), str(rooms), "--grid", "900", "--quiet"]
+    process = subprocess.Popen(command)
+    time.sleep(1.0)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=5) == -signal.SIGINT
+
+
+def test_warnings_about_the_robot_are_notes() -> None:
+    plan = cplan.plan(cplan.Arm.from_urdf(ROOT / "robots/mobile_robot.urdf"), cplan.World(start=[0, 0], goal=[1, 1]))
+    assert any("cannot collide" in note for note in plan.notes)
 
 
 def test_the_program_comes_with_the_package() -> None:

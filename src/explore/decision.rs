@@ -2,7 +2,7 @@
 
 use super::explorer::Explorer;
 use super::known::Known;
-use super::reach::{Reach, is_free, join, places, tightened};
+use super::reach::{Reach, free_about, is_free, join, places, tightened};
 use super::result::Ending;
 use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
@@ -50,6 +50,38 @@ impl Explorer<'_> {
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
+    /// Back to the last place where the arm was and from where it can go to something new, if nothing new can be seen from what it reaches
+    /// here: cells that no steps join may be joined by the way that it came. How many configurations it can reach from anywhere, if there is
+    /// no such place.
+    fn where_it_was(&mut self, reach: &Reach) -> Result<Decision, usize> {
+        let mut is_reached = vec![false; self.known.grid.blocked.len()];
+        reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
+        let mut back = vec![self.at];
+        for leg in (0..self.legs.len()).rev() {
+            checkpoint();
+            back.extend(self.legs[leg].curve.curve().path().waypoints().iter().rev().skip(1));
+            let place = back[back.len() - 1];
+            let near = free_about(&self.known.grid, place);
+            if near.iter().all(|&cell| is_reached[cell]) {
+                continue;
+            }
+            let mut joined = join(&self.solid, &self.known.grid, place);
+            joined.retain(|&cell| !is_reached[cell]);
+            let Self { survey, sensor, scene, known, frontier, .. } = self;
+            let mut is_worth = false;
+            let there = Reach::new(&known.grid, &known.closed, place, &joined, |cell, _| {
+                is_worth = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell);
+                is_worth
+            });
+            there.cells.iter().for_each(|&cell| is_reached[cell] = true);
+            if is_worth {
+                let path = certify(&self.solid, Path::new(back), self.solid.workspace().clearance);
+                return Ok(path.map_or_else(|_| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None)));
+            }
+        }
+        Err(is_reached.iter().filter(|&&reached| reached).count())
+    }
+
     fn too_coarse(&self) -> Ending {
         let [a, b] = self.settings.cells;
         Ending::Unknown(format!("no middle of {a} x {b} cells near ({}) is known to be free", shown(self.at)))
@@ -69,8 +101,9 @@ impl Explorer<'_> {
                 Strategy::Nearest | Strategy::Goal => self.nearest(joined),
             };
             let Some(target) = target else {
-                let configurations = reach.cells.len();
-                return Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up });
+                return self.where_it_was(&reach).unwrap_or_else(|configurations| {
+                    Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
+                });
             };
             let mut taut = usize::MAX;
             let way = match target {
@@ -173,8 +206,8 @@ impl Explorer<'_> {
         (reach, (!frontier.is_empty()).then_some(Target::Any(frontier)))
     }
 
-    /// Of the configurations that show all that the nearest frontier configuration does the one of most [`worth`], of several the nearest: so
-    /// nothing is left behind that one would have to come back for.
+    /// Of the configurations that show all that the nearest frontier configuration does, if nothing unknown is in the way, the one of most
+    /// [`worth`], of several the nearest: so little is left behind that one would have to come back for.
     ///
     /// None is looked for farther away than where nothing could be better, nor beyond the nearest [`MOST_VIEWS`]; and the farther away the fewer
     /// are asked, down to those that are as far apart as readings.
@@ -263,7 +296,9 @@ impl Explorer<'_> {
                 (reach, Some(cell)) => (reach, Some(cell)),
                 (_, None) => self.best_view(&joined),
             };
-            let Some(target) = target else { return self.within_known(goals) };
+            let Some(target) = target else {
+                return self.where_it_was(&reach).unwrap_or_else(|_| self.within_known(goals));
+            };
             if let Some(decision) = self.along(&reach, &reach.way(target), usize::MAX) {
                 return decision;
             }

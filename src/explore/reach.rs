@@ -110,6 +110,13 @@ impl Reach {
 
 /// The cells about a configuration whose middles it can go to straight, the nearest first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
+    let mut near = free_about(grid, q);
+    near.retain(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)));
+    near
+}
+
+/// The free cells about a configuration, the nearest first.
+pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
     let middle = grid.locate(q);
     let beside = std::iter::once(middle).chain(grid.neighbors(middle));
     let mut near: Vec<usize> = beside.flat_map(|cell| std::iter::once(cell).chain(grid.neighbors(cell))).collect();
@@ -120,7 +127,6 @@ pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
         let far = |cell: usize| grid.topology.distance(q, grid.center(cell));
         far(*a).total_cmp(&far(*b)).then(a.cmp(b))
     });
-    near.retain(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)));
     near
 }
 

@@ -16,7 +16,7 @@ pub enum Strategy {
     #[default]
     Goal,
     /// To a frontier configuration that shows all that the nearest one does, and more than others that are about as near: a next best view
-    /// (González-Baños, Latombe 2002) that leaves nothing behind.
+    /// (González-Baños, Latombe 2002) that leaves little behind.
     View,
     /// To the nearest frontier configuration (Yamauchi 1997).
     Nearest,

@@ -193,3 +193,23 @@ fn what_makes_no_exploration_is_refused() {
         place.run(&["explore", &robot, "world.toml"], COARSE).refused(1, &[why]);
     }
 }
+
+/// No steps of the grid join the cells that the arm comes to with those about its start; the way that it came does.
+#[test]
+fn what_the_arm_can_go_back_to_is_explored_too() {
+    let place = Place::new();
+    let circles =
+        [(0.6548, -0.4113, 0.0295), (-0.1933, -0.8136, 0.0637), (-0.9593, -0.1962, 0.0298), (0.0598, -0.5253, 0.0797)];
+    let obstacles =
+        circles.map(|(x, y, radius)| format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\n"));
+    let sensor = "[sensor]\nrays = 1\nfield_of_view = 0.02\nrange = 0.7\nstep = 0.03\ncell = 0.04\n";
+    place.write("world.toml", format!("[start]\njoints = [0.3, 0.3]\n{sensor}{}", obstacles.concat()));
+    let files = [shipped("robots/planar_2r.urdf"), "world.toml".into()];
+    for strategy in ["nearest", "view", "wall"] {
+        let options = format!("--grid 64 --surveyed 0.3 --strategy {strategy} --json");
+        let first = json(&explore(&place, &files, &format!("{options} --map known.yaml")).stdout);
+        assert_eq!(first["status"], "explored");
+        let again = json(&explore(&place, &files, &format!("{options} --known known.yaml")).stdout);
+        assert_eq!((&again["status"], again["length"].as_f64()), (&"explored".into(), Some(0.0)), "{strategy}");
+    }
+}
