@@ -6,7 +6,27 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import disjoint_base
 
-__all__: list[str]
+__all__ = [
+    "Arm",
+    "Found",
+    "Infeasible",
+    "InputError",
+    "Options",
+    "Plan",
+    "PolygonTest",
+    "Problem",
+    "Trajectory",
+    "Unknown",
+    "World",
+    "__version__",
+    "minkowski_difference",
+    "penetration_depth",
+    "plan",
+    "polygon_test",
+    "restored",
+    "run",
+]
+
 __version__: str
 
 class InputError(ValueError):

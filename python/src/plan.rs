@@ -127,7 +127,7 @@ pub fn plan(
     let options = options.map_or_else(cplan::Options::default, |options| options.options);
     let made = interruptible(py, |raised| {
         let mut say = |text: &str| {
-            if let Some(progress) = &progress
+            if let Some(progress) = progress.as_ref().filter(|_| !raised.is_any())
                 && let Err(error) = Python::attach(|py| progress.call1(py, (text,)))
             {
                 raised.put(error);

@@ -40,7 +40,8 @@ impl Raised {
         self.slot().get_or_insert(error);
     }
 
-    fn is_any(&self) -> bool {
+    /// Whether there is one.
+    pub fn is_any(&self) -> bool {
         self.slot().is_some()
     }
 
