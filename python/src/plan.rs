@@ -32,13 +32,19 @@ pub struct Infeasible;
 pub struct Unknown;
 
 /// A motion in time. Arrays are read-only: n samples, two joints, base to tip.
-#[pyclass(frozen, module = "cplan")]
+#[pyclass(frozen, get_all, module = "cplan")]
 pub struct Trajectory {
+    /// Seconds from the start, shape (n,).
     time: Py<PyArray1<f64>>,
+    /// Joint values, shape (n, 2), radians or metres.
     position: Py<PyArray2<f64>>,
+    /// Joint velocities, shape (n, 2), rad/s or m/s.
     velocity: Py<PyArray2<f64>>,
+    /// Joint accelerations at the beginning of each interval, shape (n, 2), rad/s2 or m/s2.
     acceleration: Py<PyArray2<f64>>,
+    /// Names of the joints, base to tip.
     joints: [String; 2],
+    /// Units of the joints' values: rad or m.
     units: [&'static str; 2],
 }
 
@@ -60,42 +66,6 @@ impl Trajectory {
 
 #[pymethods]
 impl Trajectory {
-    /// Seconds from the start, shape (n,).
-    #[getter]
-    fn time(&self, py: Python<'_>) -> Py<PyArray1<f64>> {
-        self.time.clone_ref(py)
-    }
-
-    /// Joint values, shape (n, 2), radians or metres.
-    #[getter]
-    fn position(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
-        self.position.clone_ref(py)
-    }
-
-    /// Joint velocities, shape (n, 2), rad/s or m/s.
-    #[getter]
-    fn velocity(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
-        self.velocity.clone_ref(py)
-    }
-
-    /// Joint accelerations at the beginning of each interval, shape (n, 2), rad/s2 or m/s2.
-    #[getter]
-    fn acceleration(&self, py: Python<'_>) -> Py<PyArray2<f64>> {
-        self.acceleration.clone_ref(py)
-    }
-
-    /// Names of the joints, base to tip.
-    #[getter]
-    fn joints(&self) -> [String; 2] {
-        self.joints.clone()
-    }
-
-    /// Units of the joints' values: rad or m.
-    #[getter]
-    fn units(&self) -> [&'static str; 2] {
-        self.units
-    }
-
     fn __len__(&self, py: Python<'_>) -> usize {
         self.time.bind(py).len().unwrap_or(0)
     }

@@ -16,6 +16,13 @@ def test_there_are_examples() -> None:
     assert len(EXAMPLES) == PAGE.count("```python") >= 3
 
 
+def test_the_readme_plans_the_shelf() -> None:
+    codes = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.DOTALL)
+    assert len(codes) == 1
+    done = subprocess.run([sys.executable, "-c", codes[0]], capture_output=True, text=True, cwd=ROOT)
+    assert (done.returncode, done.stdout) == (0, "found [ 1.55 -0.35]\n"), done.stderr
+
+
 @pytest.mark.parametrize("code, said", EXAMPLES)
 def test_an_example_prints_what_the_page_says(code: str, said: str) -> None:
     if "shapely" in code:

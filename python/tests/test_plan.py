@@ -160,6 +160,21 @@ def test_control_c_ends_a_plan() -> None:
     assert time.monotonic() - begun < 30
 
 
+def test_handlers_of_signals_run_while_a_plan_is_made() -> None:
+    """One that raises nothing is called long before the plan is there, which goes on."""
+    called: list[float] = []
+    before = signal.signal(signal.SIGALRM, lambda *_: called.append(time.monotonic()))
+    begun = time.monotonic()
+    signal.setitimer(signal.ITIMER_REAL, 0.05)
+    try:
+        cplan.plan(*slow(), **SLOW)
+        ended = time.monotonic()
+    finally:
+        signal.signal(signal.SIGALRM, before)
+    assert ended - begun > 0.5, "a problem that takes too little time to tell"
+    assert called and called[0] - begun < (ended - begun) / 2
+
+
 def test_other_threads_run_meanwhile() -> None:
     ticks = []
     done = threading.Event()

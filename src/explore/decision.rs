@@ -105,13 +105,10 @@ impl Explorer<'_> {
                     Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
                 });
             };
-            let mut taut = usize::MAX;
+            let most = if matches!(target, Target::End(_)) { BY_THE_WALL } else { usize::MAX };
             let way = match target {
                 Target::Cell(cell) => reach.way(cell),
-                Target::End(way) => {
-                    taut = BY_THE_WALL;
-                    way
-                }
+                Target::End(way) => way,
                 Target::Any(frontier) => {
                     let grid = &self.known.grid;
                     let ascent = joined.iter().find_map(|&from| uphill(grid, &frontier, from));
@@ -121,7 +118,7 @@ impl Explorer<'_> {
                     if is_closed { reach.way(ascent[ascent.len() - 1]) } else { ascent }
                 }
             };
-            if let Some(decision) = self.along(&reach, &way, taut) {
+            if let Some(decision) = self.along(&reach, &way, most) {
                 return decision;
             }
         }
