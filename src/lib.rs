@@ -57,6 +57,8 @@ pub mod engine;
 pub mod explore;
 pub mod draw;
 pub mod report;
+#[cfg(feature = "study")]
+pub mod study;
 pub mod output;
 #[cfg(feature = "program")]
 mod grammar;

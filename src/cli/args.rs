@@ -9,8 +9,11 @@ use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::print_args::PrintArgs;
+use super::reach::ReachArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
+#[cfg(feature = "study")]
+use super::study::StudyArgs;
 use crate::engine::Method;
 use crate::grammar::{MotionArgs, PlannerArgs, PlannerWords, number_in};
 use crate::input::{JointValues, Overrides, TipPoint};
@@ -34,6 +37,7 @@ Examples:
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
+  cplan study workspaces/studies/base.toml --output base.csv --output base.html
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
@@ -84,6 +88,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
     Inspect(InspectArgs),
+    /// Tell where the tip can get, with which IK solutions: certified, or proven out of reach.
+    Reach(ReachArgs),
     /// Check a proof that there is no path, or a bound on the shortest, with code that shares nothing with the search that made it.
     Recheck(RecheckArgs),
     /// Check a joint path or trajectory, whoever made it: the whole motion, not samples of it.
@@ -91,6 +97,9 @@ pub enum Command {
     /// Open a live page: move obstacles, start and goal in the browser, and the plan follows.
     #[cfg(feature = "serve")]
     Serve(ServeArgs),
+    /// Plan in many layouts: numbers of robot and world that differ, a row each, and the best.
+    #[cfg(feature = "study")]
+    Study(StudyArgs),
     /// Plan a built-in SCARA cell, with no files of yours: writes plan.json and plan.html.
     Demo(DemoArgs),
     /// Write a commented world and a robot to start from.
@@ -142,7 +151,7 @@ impl QueryArgs {
     }
 }
 
-fn clearance(text: &str) -> Result<f64, String> {
+pub(super) fn clearance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
 }
 

@@ -22,6 +22,10 @@ pub enum Failure {
     /// An output file.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// Rows of a study that cannot be kept.
+    #[cfg(feature = "study")]
+    #[error(transparent)]
+    Journal(#[from] crate::study::JournalError),
     /// A picture could not be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),

@@ -18,12 +18,16 @@ mod memory;
 mod message_args;
 mod plan;
 mod print_args;
+mod progress;
+mod reach;
 mod recheck;
 mod result_files;
 mod schema;
 #[cfg(feature = "serve")]
 mod serve;
 mod sinks;
+#[cfg(feature = "study")]
+mod study;
 mod variant;
 mod verify;
 mod words;
@@ -75,10 +79,13 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         (Some(Command::Converge(args)), _) => converge::run(args),
         (Some(Command::Explore(args)), _) => explore::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
+        (Some(Command::Reach(args)), _) => reach::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),
         (Some(Command::Verify(args)), _) => verify::run(args),
         #[cfg(feature = "serve")]
         (Some(Command::Serve(args)), _) => serve::run(args),
+        #[cfg(feature = "study")]
+        (Some(Command::Study(args)), _) => study::run(args),
         (Some(Command::Demo(args)), _) => demo::run(args),
         (Some(Command::Init(args)), _) => init::run(args),
         (Some(Command::Completions(args)), _) => completions::run(args),

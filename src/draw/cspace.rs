@@ -5,7 +5,7 @@ use super::color::{INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::shapes::DASH;
 use super::view::{ContourView, PanelView, View, WorldView};
-use super::{boxes, page, preferences, tags, trace};
+use super::{boxes, page, preferences, reach, tags, trace};
 
 /// The pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
@@ -31,6 +31,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     inside.extend(world.trace.iter().flat_map(|trace| trace::below(trace, chart)));
     inside.extend(c_obstacles(&worlds, chart));
     inside.extend(world.trace.iter().flat_map(|trace| trace::above(trace, chart)));
+    inside.extend(view.still.reach.iter().flat_map(|reach| reach::in_cspace(reach, chart)));
     inside.extend(preferences::in_cspace(&world.regions, chart));
     inside.push(boxes::proof(&world.proof, frame));
     inside.extend(page::lines(view.goal_lines.iter().map(|goals| (chart.outline(&goals.0), GOALS))));

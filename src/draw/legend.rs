@@ -3,7 +3,7 @@
 use super::color::{BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::view::{PathView, View};
-use super::{boxes, cspace, preferences, shapes, trace};
+use super::{boxes, cspace, preferences, reach, shapes, trace};
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
@@ -51,6 +51,7 @@ pub fn keys(view: &View) -> Vec<Key> {
     keys.extend(world.trace.as_ref().map_or_else(Vec::new, trace::keys));
     keys.extend(view.worlds.iter().any(|world| !world.proof.0.is_empty()).then(boxes::proof_key));
     keys.extend(preferences::keys(&world.regions));
+    keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     let lying = world.obstacles.iter().filter(|obstacle| obstacle.lies());
     if lying.clone().count() <= NAMED {

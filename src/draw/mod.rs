@@ -27,6 +27,7 @@ mod page;
 #[cfg(feature = "png")]
 mod png_writer;
 mod preferences;
+mod reach;
 mod shapes;
 mod steps;
 mod svg_writer;

@@ -5,7 +5,7 @@ use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
 use super::view::{ObstacleView, PathView, View, around};
-use super::{frames, page, preferences, shapes, tags};
+use super::{frames, page, preferences, reach, shapes, tags};
 use crate::geometry::{Convex, cross};
 use crate::model::{Arm, JointType, Plane};
 use crate::space::Configuration;
@@ -19,6 +19,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let first = view.first_world();
     let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
     let mut inside = ground(&frame, arm);
+    inside.extend(still.reach.as_ref().map(|reach| reach::in_workspace(reach, &frame)));
     inside.extend(first.obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
     inside.extend(preferences::in_workspace(&first.regions, &frame));

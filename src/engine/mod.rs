@@ -49,6 +49,7 @@ mod options;
 mod plan;
 mod planner_options;
 mod problem;
+mod reach;
 mod result;
 mod rungs;
 mod settle;
@@ -70,6 +71,7 @@ pub use options::{LEVELS, NamedJoints, Options};
 pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
 pub use planner_options::{CELLS, Criterion, FIRST_CELLS, MOST_MARGIN, NEAREST, Planner, SAMPLES};
 pub use problem::{Problem, ProblemError};
+pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
 pub use result::{Choice, Report, TaskFigures};
 pub use settle::decide;
 
@@ -91,6 +93,19 @@ impl Verdict {
     #[must_use]
     pub fn proof(&self) -> Option<&CheckedProof> {
         if let Verdict::Infeasible(proof) = self { Some(proof) } else { None }
+    }
+
+    /// Why there is no motion, if there is none.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Verdict::Found(_) => None,
+            Verdict::Infeasible(proof) => {
+                let boxes = proof.stuck().len();
+                Some(format!("proven: {boxes} boxes of colliding configurations separate start and goal"))
+            }
+            Verdict::Unknown(reason) => Some(reason.clone()),
+        }
     }
 }
 

@@ -41,8 +41,7 @@ impl MotionPlan {
                 report
             }
             Verdict::Infeasible(proof) => {
-                let boxes = proof.stuck().len();
-                let reason = format!("proven: {boxes} boxes of colliding configurations separate start and goal");
+                let reason = answer.verdict.reason().unwrap_or_default();
                 let mut report = Report::infeasible(planner, joints, reason);
                 report.proof = Some(proof.clone());
                 report

@@ -72,6 +72,7 @@ pub use trajectory::{LoadedRecording, load_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 use world::RobotTable;
 pub use world::World;
+pub(crate) use world::in_toml_words;
 
 use crate::model::{Arm, AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
 use serde::{Deserialize, Serialize};
@@ -101,6 +102,8 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// The world file.
     pub world: World,
+    /// The arm as it is without the place that the world gives it.
+    arm: Arm,
     /// How the robot was read.
     pub robot: RobotReport,
 }
@@ -141,17 +144,17 @@ pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError
 pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
-    if world.robot != RobotTable::default() {
+    if world.robot.unplaced() != RobotTable::default() {
         let message = "[robot] says how a URDF is read, and this arm is made in code".into();
-        return Err(refused(message, "leave the table out").into());
+        return Err(refused(message, "leave the table out, but for `at` and `angle`").into());
     }
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
     let joints = RobotJoints::planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
-    let scene = Scene::new(arm, world.at_first())
+    let scene = Scene::new(standing(&arm, &world), world.at_first())
         .map_err(|error| refused(error.to_string(), "make the arm of numbers that are finite, and sizes above 0"))?;
-    Ok(LoadedScene { scene, world, robot: RobotReport { joints, ..RobotReport::default() } })
+    Ok(LoadedScene { scene, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
 impl LoadedScene {
@@ -162,20 +165,20 @@ impl LoadedScene {
     }
 
     /// As [`scene_from`] for another text of the world, without reading the robot again where the world's `[robot]` table
-    /// says the same: for worlds that are edited.
+    /// says the same but for its place: for worlds that are edited.
     ///
     /// # Errors
     /// [`InputError`] for everything that is wrong with the texts themselves.
     pub fn edited(&self, urdf: &Source, world: Source) -> Result<Self, InputError> {
         let world = world::read(world)?;
-        if world.robot != self.world.robot {
+        if world.robot.unplaced() != self.world.robot.unplaced() {
             return among(world, urdf.clone());
         }
         for pair in &world.in_degrees {
             pair.check(&world.source, &self.scene.arm().joints)?;
         }
-        let scene = Scene::trusted(self.scene.arm().clone(), world.at_first());
-        Ok(Self { scene, world, robot: self.robot.clone() })
+        let scene = Scene::trusted(standing(&self.arm, &world), world.at_first());
+        Ok(Self { scene, world, arm: self.arm.clone(), robot: self.robot.clone() })
     }
 }
 
@@ -185,8 +188,13 @@ fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
-    let scene = Scene::trusted(arm, world.at_first());
-    Ok(LoadedScene { scene, world, robot })
+    let scene = Scene::trusted(standing(&arm, &world), world.at_first());
+    Ok(LoadedScene { scene, world, arm, robot })
+}
+
+/// The arm where the world puts it.
+fn standing(arm: &Arm, world: &World) -> Arm {
+    world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
 /// Examines a robot without stopping at the first thing that is wrong. Without a world file nothing is chosen, held or
@@ -207,8 +215,10 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
         inspection.errors.insert(0, error);
     }
     if world.is_some() && inspection.is_plannable() {
-        let loaded =
-            inspection.scene.clone().map(|scene| LoadedScene { scene, world: file, robot: RobotReport::default() });
+        let loaded = inspection.scene.clone().map(|scene| {
+            let arm = scene.arm().clone();
+            LoadedScene { scene, world: file, arm, robot: RobotReport::default() }
+        });
         let overrides = Overrides::default();
         let query = loaded.and_then(|l| match l.has_steps() {
             true => l.task(&overrides).err().map(|e| ("task", e)),

@@ -286,7 +286,7 @@ fn movable(
     let what = format!("object \"{name}\"");
     let (shape, pieces) = match (&given.polygon, &given.circle) {
         (Some(corners), None) => {
-            polygon(reader, corners, None, &what, "list the corners in order round the shape, each once")?
+            polygon(reader, corners, None, None, &what, "list the corners in order round the shape, each once")?
         }
         (None, Some(disc)) => circle(reader, disc, &what)?,
         (polygon, _) => {

@@ -3,9 +3,10 @@
 use super::error::{Diagnostic, InputError};
 use super::occupancy::OccupancyMap;
 use super::polygon::{Ring, polygon, polyline};
-use super::schema::{Corners, Positive, Rings, Two, UnknownAs};
+use super::quantity::Written;
+use super::schema::{AngleOrLength, Corners, Positive, Rings, Two, UnknownAs};
 use super::world::{Number, Numbers, Reader};
-use crate::geometry::Convex;
+use crate::geometry::{Convex, Pose};
 use crate::model::{Obstacle, Shape};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -41,6 +42,12 @@ pub(super) struct ObstacleTable {
     /// What cells of an image are that nobody has looked at; by default "solid".
     #[schemars(with = "Option<UnknownAs>")]
     unknown: Option<Spanned<String>>,
+    /// Where the origin of its own frame lies, in which its points are then given, m; by default that of the world.
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// How its frame is turned, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
     /// Its extent along the plane's normal, m: only parts of the arm at these heights can hit it; by default all heights.
     #[schemars(with = "Option<Two>")]
     height: Option<Numbers>,
@@ -74,11 +81,15 @@ impl ObstacleTable {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
+        let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
+        let place = place.as_ref();
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
-            (Some(corners), None, None, None) => polygon(reader, corners, obstacle.holes.as_ref(), &what, SIMPLE)?,
-            (None, Some(disc), None, None) => circle(reader, disc, &what)?,
-            (None, None, Some(points), None) => polyline(reader, points, &what)?,
-            (None, None, None, Some(file)) => image(reader, file, obstacle.unknown.as_ref(), &what)?,
+            (Some(corners), None, None, None) => {
+                polygon(reader, corners, obstacle.holes.as_ref(), place, &what, SIMPLE)?
+            }
+            (None, Some(disc), None, None) => moved(circle(reader, disc, &what)?, place),
+            (None, None, Some(points), None) => polyline(reader, points, place, &what)?,
+            (None, None, None, Some(file)) => moved(image(reader, file, obstacle.unknown.as_ref(), &what)?, place),
             (polygon, circle, polyline, image) => {
                 let given = [polygon.is_some(), circle.is_some(), polyline.is_some(), image.is_some()];
                 let count = given.iter().filter(|x| **x).count();
@@ -98,6 +109,13 @@ impl ObstacleTable {
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
         Ok(Obstacle { name, shape, pieces, heights })
+    }
+}
+
+fn moved((shape, pieces): (Shape, Vec<Convex>), place: Option<&Pose>) -> (Shape, Vec<Convex>) {
+    match place {
+        Some(place) => (shape.at(place), pieces.iter().map(|piece| piece.at(place)).collect()),
+        None => (shape, pieces),
     }
 }
 

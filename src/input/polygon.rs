@@ -2,7 +2,7 @@
 
 use super::error::Diagnostic;
 use super::world::{Number, Reader};
-use crate::geometry::{Convex, Point, Polygon, RingError, SimplePolygon};
+use crate::geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
 use crate::model::Shape;
 use serde::de::{SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -73,11 +73,12 @@ impl Coordinates {
     }
 }
 
-/// A polygon without crossings; `help` is for one that has some.
+/// A polygon without crossings, moved to its place; `help` is for one that has some.
 pub(super) fn polygon(
     reader: &Reader,
     given: &Ring,
     holes: Option<&Spanned<Vec<Ring>>>,
+    place: Option<&Pose>,
     what: &str,
     help: &str,
 ) -> Result<(Shape, Vec<Convex>), Diagnostic> {
@@ -87,7 +88,7 @@ pub(super) fn polygon(
     let name = |k: usize| if k == 0 { what.to_owned() } else { format!("{what}, hole {k}") };
     let mut corners: Vec<Vec<Point>> = Vec::with_capacity(rings.len());
     for (k, ring) in rings.iter().enumerate() {
-        corners.push(ring_of(reader, ring, &name(k))?);
+        corners.push(moved(ring_of(reader, ring, &name(k))?, place));
     }
     let outer = corners.remove(0);
     let has_holes = !corners.is_empty();
@@ -123,9 +124,14 @@ pub(super) fn simple_polygon(
     })
 }
 
-/// A thin wall.
-pub(super) fn polyline(reader: &Reader, given: &Ring, what: &str) -> Result<(Shape, Vec<Convex>), Diagnostic> {
-    let points = without_repeats(reader, points(reader, given, what)?, what);
+/// A thin wall, moved to its place.
+pub(super) fn polyline(
+    reader: &Reader,
+    given: &Ring,
+    place: Option<&Pose>,
+    what: &str,
+) -> Result<(Shape, Vec<Convex>), Diagnostic> {
+    let points = moved(without_repeats(reader, points(reader, given, what)?, what), place);
     if points.len() < 2 {
         let message =
             format!("{what}: a polyline needs at least two points in different places, it has {}", points.len());
@@ -133,6 +139,13 @@ pub(super) fn polyline(reader: &Reader, given: &Ring, what: &str) -> Result<(Sha
     }
     let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
     Ok((Shape::Polyline(points), pieces))
+}
+
+fn moved(mut points: Vec<Point>, place: Option<&Pose>) -> Vec<Point> {
+    if let Some(place) = place {
+        points.iter_mut().for_each(|point| *point = place * *point);
+    }
+    points
 }
 
 /// The corners of a ring, each once.

@@ -148,8 +148,13 @@ impl Source {
     }
 
     /// The path, for messages.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.path.display().to_string()
+    }
+
+    /// The file's name without its ending.
+    pub(crate) fn stem(&self) -> Option<String> {
+        self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
     /// Line and column of a byte offset. `O(1)` but for the first, which takes note of places on the way through the text.
@@ -170,12 +175,12 @@ impl Source {
     }
 
     /// A diagnostic of the file as a whole.
-    pub(super) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
+    pub(crate) fn diagnostic(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::new(self.name(), message)
     }
 
     /// A diagnostic at a range of bytes, with the source line and carets below it.
-    pub(super) fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
+    pub(crate) fn diagnostic_at(&self, range: Range<usize>, message: impl Into<String>) -> Diagnostic {
         let position = self.position(range.start);
         Diagnostic {
             position: Some(position),

@@ -63,7 +63,7 @@ impl LoadedScene {
         }
         let requirements = loaded.world.steps.iter().flat_map(|steps| &steps.requirements);
         InputError::check(requirements.filter_map(|r| loaded.unfulfilled(r, start)).collect())?;
-        let Self { scene, world, robot } = loaded;
+        let Self { scene, world, robot, .. } = loaded;
         let stroke = robot.joints.stroke.clone();
         if let Some(stroke) = &stroke {
             InputError::check(too_deep(stroke, &world).collect())?;

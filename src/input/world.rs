@@ -17,7 +17,7 @@ use super::stroke::StrokeTable;
 use super::table::Table;
 use super::world_map::{self, MapTable};
 use super::wrist::WristTable;
-use crate::geometry::Point;
+use crate::geometry::{Point, Pose, Vector};
 use crate::model::{Goal, Heights, Holding, Object, Workspace, Wrist};
 use crate::space::Configuration;
 use schemars::JsonSchema;
@@ -44,6 +44,8 @@ pub struct World {
     pub notes: Vec<String>,
     pub(super) source: Source,
     pub(super) robot: RobotTable,
+    /// Where the robot stands, if that is said.
+    pub(super) place: Option<Pose>,
     pub(super) start: Option<(Goal, Range<usize>)>,
     /// Joint values that are in degrees, where it is not yet known whether the joints turn.
     pub(super) in_degrees: Vec<JointPair>,
@@ -68,6 +70,7 @@ impl World {
             notes: Vec::new(),
             source: Source::in_memory("", ""),
             robot: RobotTable::default(),
+            place: None,
             start: None,
             in_degrees: Vec::new(),
             goal: None,
@@ -90,6 +93,12 @@ impl World {
 #[serde(deny_unknown_fields)]
 #[schemars(rename = "robot")]
 pub(super) struct RobotTable {
+    /// Where the robot stands: the place of its root frame's origin in the world, m; by default [0, 0].
+    #[schemars(with = "Option<Two>")]
+    at: Option<Numbers>,
+    /// How its root frame is turned, rad; by default 0.
+    #[schemars(with = "Option<AngleOrLength>")]
+    angle: Option<Written>,
     /// The two joints that move, in any order; needed only if the URDF has more than two that can.
     #[schemars(with = "Option<[String; 2]>")]
     pub joints: Option<Spanned<Vec<Spanned<String>>>>,
@@ -130,6 +139,11 @@ pub(super) struct RobotTable {
 }
 
 impl RobotTable {
+    /// The same of a robot that stands in the origin: what its URDF is read by.
+    pub fn unplaced(&self) -> Self {
+        Self { at: None, angle: None, ..self.clone() }
+    }
+
     /// The joint of the wrist, if it is named.
     pub fn wrist_joint(&self) -> Option<&Spanned<String>> {
         self.wrist.as_ref()?.joint.as_ref()
@@ -255,8 +269,13 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let held = payload.unwrap_or(Holding::Rigid);
     let (movables, names) = object::read(&reader, &file.object, &pallets, &obstacles, held)?;
     let steps = steps(&reader, &file, &pallets, &names, &movables, wrist.is_some())?;
-    let stem = source.path.file_stem().map_or_else(|| "world".to_owned(), |s| s.to_string_lossy().into_owned());
-    let notes = reader.taken.lines();
+    let stem = source.stem().unwrap_or_else(|| "world".to_owned());
+    let place = reader.pose(file.robot.at.as_ref(), file.robot.angle.as_ref(), "[robot]")?;
+    let mut notes = reader.taken.lines();
+    notes.extend(place.as_ref().map(|place| {
+        let (at, angle) = (place.translation.vector, place.rotation.angle());
+        format!("robot: its root frame stands at ({}, {}) m, turned by {angle} rad", at.x, at.y)
+    }));
     Ok(World {
         notes,
         workspace: Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences },
@@ -268,6 +287,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         steps,
         sensor,
         wrist,
+        place,
         robot: file.robot,
         source,
     })
@@ -299,7 +319,7 @@ fn steps(
 }
 
 /// The deserialiser's message without Rust's words for what TOML calls keys and numbers.
-pub(super) fn in_toml_words(message: &str) -> String {
+pub(crate) fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")
         .replace("missing field", "missing key")
@@ -362,6 +382,15 @@ impl Reader<'_> {
 
     pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
         self.two(numbers, what).map(Point::from)
+    }
+
+    /// Where a frame lies and how it is turned; none if neither is said.
+    pub fn pose(&self, at: Option<&Numbers>, angle: Option<&Written>, what: &str) -> Result<Option<Pose>, Diagnostic> {
+        let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
+        let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
+        let is_given = at.is_some() || angle.is_some();
+        let place = || Pose::new(at.map_or_else(Vector::zeros, |at| at.coords), angle.unwrap_or(0.0));
+        Ok(is_given.then(place))
     }
 
     /// Joint values or a point for the tip, and where they stand.

@@ -84,6 +84,27 @@ impl Arm {
         Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))
     }
 
+    /// The same arm, put where `place` takes its root frame: turned, then moved.
+    #[must_use]
+    pub fn placed(&self, place: &Pose) -> Self {
+        let (mut arm, turn) = (self.clone(), place.rotation);
+        arm.base = place * self.base;
+        // Without a turn all numbers stay as they are.
+        if turn.angle() != 0.0 {
+            (arm.offset, arm.tip) = (turn * self.offset, turn * self.tip);
+            let turned = Pose::from_parts(Translation2::identity(), turn);
+            for part in arm.links.iter_mut().flat_map(|link| &mut link.parts) {
+                part.shape = part.shape.at(&turned);
+            }
+            for joint in &mut arm.joints {
+                if let JointType::Prismatic { direction } = &mut joint.joint_type {
+                    *direction = turn * *direction;
+                }
+            }
+        }
+        arm
+    }
+
     /// The space of configurations.
     #[must_use]
     pub fn topology(&self) -> Topology {

@@ -115,6 +115,6 @@ pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
 }
 
 /// A text field of a CSV file.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

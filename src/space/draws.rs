@@ -16,6 +16,14 @@ impl Draws {
         Self(seed)
     }
 
+    /// The `number`-th of many sequences of a seed.
+    #[must_use]
+    pub fn nth(seed: u64, number: u64) -> Self {
+        // The numbers of a sequence are as good as random, and so are those that begin with them.
+        let mut seeds = Self(seed ^ number.rotate_left(32));
+        Self(seeds.bits())
+    }
+
     /// The next 64 bits.
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);

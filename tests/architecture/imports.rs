@@ -11,7 +11,7 @@ const EVERYWHERE: [&str; 2] = ["cplan_interrupt", "text"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 23] = [
+const MAY_IMPORT: [(&str, &[&str]); 24] = [
     (EVERYWHERE[0], &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),
@@ -31,6 +31,7 @@ const MAY_IMPORT: [(&str, &[&str]); 23] = [
     ("explore", &["geometry", "space", "model", "input", "cspace", "field", "check", "motion", "engine"]),
     ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
+    ("study", &["space", "model", "input", "engine", "report"]),
     ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
     ("grammar", &["model", "field", "planner", "motion", "engine"]),
     (
@@ -41,7 +42,7 @@ const MAY_IMPORT: [(&str, &[&str]); 23] = [
         "cli",
         &[
             "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
-            "explore", "draw", "report", "output", "grammar", "serve",
+            "explore", "draw", "report", "study", "output", "grammar", "serve",
         ],
     ),
 ];

@@ -7,6 +7,7 @@ mod errors;
 mod inspect;
 mod mutations;
 mod maps;
+mod places;
 mod real_urdfs;
 mod tasks;
 mod world_schema;

@@ -9,7 +9,6 @@ mod args;
 mod cases;
 mod drawings;
 mod pairs;
-mod progress;
 mod runner;
 mod sink;
 mod started;
@@ -18,13 +17,13 @@ pub use args::CompareArgs;
 
 use super::failure::Failure;
 use super::memory::MemoryMeter;
+use super::progress::Progress;
 use super::sinks::{self, Sink};
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use crate::engine::{Method, Options, Planner};
 use crate::motion::write_whole_set;
 use crate::report::{Comparison, Page, Refusal, Study};
 use cases::{Case, Cases};
-use progress::Progress;
 use runner::{Compared, Entry, Runner};
 use sink::{ReportFormat, report_sinks};
 

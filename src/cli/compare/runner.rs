@@ -1,8 +1,8 @@
 //! Runs every planner on every problem, several at a time if asked to.
 
 use super::cases::{Case, Cases};
-use super::progress::Progress;
 use crate::cli::memory::MemoryMeter;
+use crate::cli::progress::Progress;
 use crate::cli::sinks;
 use crate::engine::{MotionPlan, Options, PlanError, Problem, Verdict, bound, plan, plan_with};
 use crate::model::{MotionProblem, Status};

@@ -39,6 +39,7 @@ pub(super) use trace::TraceView;
 pub(super) use waves::{LEVELS, Waves};
 pub(super) use world::{ContourView, ObstacleView, PayloadView, RegionView, WorldView};
 
+use crate::engine::Reach;
 use crate::model::{Arm, Status};
 use crate::space::Configuration;
 use motion::{Clock, MotionView};
@@ -95,6 +96,8 @@ pub(super) struct Still {
     pub panels: Vec<PanelView>,
     /// Objects where they are put, each place once.
     pub placed: Vec<ObstacleView>,
+    /// Where the tip can get.
+    pub reach: Option<Reach>,
     /// Where the arm is in the end, and in which world.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below what the columns are called; none of single motions.
@@ -120,6 +123,13 @@ impl View {
     /// Whether it is that of a task, whose steps have numbers.
     pub(super) fn is_task(&self) -> bool {
         !self.still.steps.is_empty()
+    }
+
+    /// The same with the places that the tip can get to.
+    #[must_use]
+    pub fn with_reach(mut self, reach: &Reach) -> Self {
+        self.still.reach = Some(reach.clone());
+        self
     }
 
     /// The world that is there at first.

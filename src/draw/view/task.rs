@@ -76,6 +76,7 @@ impl View {
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
         let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
         let still = Still {
+            reach: None,
             panels: panels(picture, &paths, world, grain),
             placed: placed.collect(),
             // What was let go of at the end lies there.

@@ -15,6 +15,7 @@ use crate::input::inspection::{
     RateEntry, RateSource, ReachEntry, Role, source_name,
 };
 use crate::input::source::Source;
+use crate::input::standing;
 use crate::input::world::World;
 use crate::model::{Arm, Link, OutlineSource, Plane, Scene};
 use crate::space::{Configuration, JointRange};
@@ -138,7 +139,7 @@ fn reduced(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(notes.notes.into_iter().filter(|note| note.contains("are ignored")));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
-    report.scene = Some(Scene::trusted(arm, reduction.world.at_first()));
+    report.scene = Some(Scene::trusted(standing(&arm, reduction.world), reduction.world.at_first()));
 }
 
 fn link(link: &urdf_rs::Link) -> LinkEntry {

@@ -32,6 +32,11 @@ impl Axis {
         Some(Self { lower: floor, upper: max + room, is_logarithmic: false })
     }
 
+    /// One from a value to a greater one, without room.
+    pub fn between(lower: f64, upper: f64) -> Self {
+        Self { lower, upper, is_logarithmic: false }
+    }
+
     /// Where a value lies: 0 at the lower end, 1 at the upper.
     pub fn place(&self, value: f64) -> f64 {
         let [value, lower, upper] =

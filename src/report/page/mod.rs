@@ -4,19 +4,20 @@
 mod axis;
 mod boxes;
 mod convergence;
+mod frame;
 mod markup;
 mod outcomes;
 mod overlay;
 
-pub(super) use axis::Axis;
-pub(super) use markup::number;
+pub(crate) use axis::Axis;
+pub(crate) use frame::{Frame, frame};
+pub(crate) use markup::{image_source, number, table};
 pub use overlay::{Overlay, Spot};
 
 use super::measure::Measure;
 use super::study::Study;
 use super::words::words;
 use crate::text::{counted, markup};
-use markup::{image_source, table};
 
 /// Colours of planners, after which they begin again: those of Okabe and Ito that pictures draw paths in.
 const COLORS: usize = 6;
@@ -140,7 +141,7 @@ impl Page<'_> {
 }
 
 /// What a page begins with.
-fn head(title: &str, subtitle: &str) -> String {
+pub(crate) fn head(title: &str, subtitle: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
@@ -153,7 +154,7 @@ fn head(title: &str, subtitle: &str) -> String {
 }
 
 /// What it ends with, after words on how its numbers came about, as HTML.
-fn foot(how: &str) -> String {
+pub(crate) fn foot(how: &str) -> String {
     format!("<footer>{how}</footer>\n</main>\n</body>\n</html>\n")
 }
 
@@ -177,10 +178,10 @@ fn paragraph(text: &str) -> String {
     }
 }
 
-fn section(heading: &str, content: &str) -> String {
+pub(crate) fn section(heading: &str, content: &str) -> String {
     format!("<section>\n<h2>{}</h2>\n{content}</section>\n", markup(heading))
 }
 
-fn folded(heading: &str, content: &str) -> String {
+pub(crate) fn folded(heading: &str, content: &str) -> String {
     format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
 }

@@ -21,6 +21,8 @@ mod path_kind;
 mod pressed;
 mod proof_sizes;
 mod results;
+#[cfg(feature = "study")]
+mod study;
 mod tasks;
 mod terminal;
 

@@ -1,4 +1,4 @@
-//! Progress of many runs, on stderr.
+//! Progress of many runs, or layouts, on stderr.
 
 use crate::cli::sinks;
 use std::io::{IsTerminal, Write};
@@ -7,6 +7,9 @@ use std::time::{Duration, Instant};
 
 /// Time between lines where nobody watches a terminal.
 const INTERVAL: Duration = Duration::from_secs(10);
+
+/// Time between two drawings of the bar.
+const REDRAWN: Duration = Duration::from_millis(50);
 
 /// Characters of the bar.
 const BAR: usize = 16;
@@ -66,7 +69,10 @@ impl Progress {
             Manner::Bar => {
                 let mut state = self.state();
                 state.now = format!("{planner} on {problem}");
-                self.draw(&state);
+                if state.done == 0 || state.shown.elapsed() >= REDRAWN {
+                    state.shown = Instant::now();
+                    self.draw(&state);
+                }
             }
         }
     }

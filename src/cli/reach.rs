@@ -1,0 +1,183 @@
+//! `cplan reach`: where the tip can get.
+
+use super::DONE;
+use super::args::Files;
+use super::failure::Failure;
+use super::print_args::PrintArgs;
+use super::sinks;
+use crate::draw::{Picture, View};
+use crate::engine::{Access, MOST_PLACES, Reach, reach};
+use crate::grammar::positive;
+use crate::input::{self, Explorable, JointValues, Overrides};
+use crate::motion::{check_writable, write_whole_set};
+use crate::output::{PictureFormat, contours, laid_out, title_of};
+use crate::text::counted;
+use clap::{Args, ValueHint};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Cells across the arm's reach, if nothing else is said.
+const CELLS: f64 = 60.0;
+
+/// Arguments of `reach`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The tip is asked for at the centre of each square cell: with which solutions of the inverse kinematics can it be there, and which of these does
+a certified motion lead to from the home configuration? What is free and proven out of reach is told apart from what is not free.
+
+Examples:
+  cplan reach robots/planar_2r.urdf workspaces/shelf.toml
+  cplan reach robots/planar_2r.urdf workspaces/shelf.toml --cell 0.1 --output reach.csv --picture reach.svg
+  cplan reach robots/scara.urdf workspaces/scara_cell.toml --home 0,1.2 --json
+
+Exit codes: 0 every cell has its answer or is said to be unknown, 1 bad input or I/O, 2 wrong command line.")]
+pub struct ReachArgs {
+    #[command(flatten)]
+    pub files: Files,
+    /// Where motions begin, instead of the world's start.
+    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true)]
+    pub home: Option<JointValues>,
+    /// Side of the cells, metres [default: a 60th of the arm's reach].
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub cell: Option<f64>,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", value_parser = super::args::clearance)]
+    pub clearance: Option<f64>,
+    /// Write the cells and their solutions: .json, .csv (a line a solution). Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Vec<PathBuf>,
+    /// Draw them in the workspace, and the solutions in the configuration space: .svg, .png. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub print: PrintArgs,
+}
+
+/// Tells where the tip can get.
+///
+/// # Errors
+/// Bad input and I/O.
+pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
+    let tables =
+        args.output.iter().map(|path| Ok((path.clone(), is_json(path)?))).collect::<Result<Vec<_>, Failure>>()?;
+    let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
+        PictureFormat::Html => Err(Failure::Usage(format!("{}: a reach is drawn as .svg or .png", path.display()))),
+        format => Ok((path.clone(), format)),
+    });
+    let pictures = pictures.collect::<Result<Vec<_>, Failure>>()?;
+    let files = || tables.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(|(path, _)| path.as_path()));
+    files().try_for_each(check_writable)?;
+    sinks::distinct(files())?;
+    let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
+    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&overrides)?;
+    world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
+    sinks::spare_inputs(files())?;
+    let cell = args.cell.unwrap_or(world.scene.arm().reach() / CELLS);
+    let reach = reach(&world.scene, world.start, cell).ok_or_else(|| {
+        Failure::Option(format!("--cell {cell} makes more than {MOST_PLACES} cells: choose larger ones"))
+    })?;
+    let mut written = Vec::new();
+    for (path, is_json) in &tables {
+        let text = if *is_json { sinks::pretty(&object(&world, &reach))? } else { csv(&world, &reach) };
+        written.push((path.clone(), text.into_bytes()));
+    }
+    for (path, format) in &pictures {
+        written.push((path.clone(), format.bytes(&view(&world, &reach))?));
+    }
+    write_whole_set(&written)?;
+    args.print.tell(|| sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
+    Ok(DONE)
+}
+
+fn is_json(path: &std::path::Path) -> Result<bool, Failure> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension.as_deref() {
+        Some("json") => Ok(true),
+        Some("csv") => Ok(false),
+        _ => Err(Failure::Usage(format!("{}: a reach is written as .json or .csv", path.display()))),
+    }
+}
+
+fn names(world: &Explorable) -> [&str; 2] {
+    world.scene.arm().joints.each_ref().map(|joint| joint.name.as_str())
+}
+
+fn object(world: &Explorable, reach: &Reach) -> Value {
+    let area = reach.cell * reach.cell;
+    let tally: Value =
+        Access::ALL.iter().zip(reach.tally()).map(|(access, n)| (access.name().to_owned(), json!(n))).collect();
+    let area_reachable = area * reach.tally()[0] as f64;
+    json!({ "joints": names(world), "cells": tally, "reachable_area": area_reachable, "reach": reach })
+}
+
+/// A line a solution: the cell's centre, joint values, whether it can be reached.
+fn csv(world: &Explorable, reach: &Reach) -> String {
+    let [a, b] = names(world).map(crate::report::quoted);
+    let mut text = format!("x,y,{a},{b},access\n");
+    for (place, solutions) in reach.places.iter().enumerate() {
+        let at = reach.center(place);
+        for solution in solutions {
+            text += &format!(
+                "{},{},{},{},{}\n",
+                at.x,
+                at.y,
+                solution.joints[0],
+                solution.joints[1],
+                solution.access.name()
+            );
+        }
+    }
+    text
+}
+
+/// What there is to say, by name.
+fn facts(world: &Explorable, reach: &Reach) -> Vec<(&'static str, String)> {
+    let [joints, units] = [names(world), world.scene.arm().joints.each_ref().map(|joint| joint.unit())];
+    let several = reach.best().filter(|(_, access, count)| *access == Access::Reachable && *count > 1).count();
+    let [reachable, unknown, unreachable, blocked] = reach.tally();
+    let area = reach.cell * reach.cell;
+    let home = [0, 1].map(|k| format!("{} {:.4} {}", joints[k], reach.home[k], units[k])).join(", ");
+    let mut facts = vec![
+        ("home", home),
+        ("cells", format!("of {:.4} m; the tip is asked for at their centres", reach.cell)),
+        (
+            "reachable",
+            format!(
+                "{}, {several} of them with several solutions ({:.4} m2)",
+                counted(reachable, "cell"),
+                area * reachable as f64
+            ),
+        ),
+        (
+            "out of reach",
+            format!(
+                "{} where the arm is free, proven ({:.4} m2)",
+                counted(unreachable, "cell"),
+                area * unreachable as f64
+            ),
+        ),
+        ("not free", counted(blocked, "cell")),
+    ];
+    if unknown > 0 {
+        facts.push(("unknown", counted(unknown, "cell")));
+    }
+    facts
+}
+
+fn summary(world: &Explorable, reach: &Reach) -> String {
+    let mut lines: Vec<(&str, String)> = world.notes.iter().map(|note| ("note", note.clone())).collect();
+    lines.extend(facts(world, reach));
+    format!("{}\n{}", title_of(&world.scene), laid_out(&lines))
+}
+
+fn view(world: &Explorable, reach: &Reach) -> View {
+    let facts = facts(world, reach);
+    let picture = Picture {
+        title: vec![title_of(&world.scene), format!("where the tip can get: {}", facts[2].1)],
+        status: "reach".into(),
+        facts: facts.into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        c_obstacles: &contours(&world.scene),
+        ..Picture::new(&world.scene, world.start)
+    };
+    View::of_picture(&picture).with_reach(reach)
+}

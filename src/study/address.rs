@@ -1,0 +1,278 @@
+//! Places of numbers in world files and URDFs: `world.obstacle.post.at[0]`, `urdf.joint.elbow.origin.xyz[0]`.
+
+use std::fmt;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+/// One step of an address.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Step {
+    /// A key, an element's tag or attribute, or a name.
+    Name(String),
+    /// The number of an entry, from 0.
+    Number(usize),
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name(name) => write!(f, "\"{name}\""),
+            Self::Number(number) => write!(f, "[{number}]"),
+        }
+    }
+}
+
+/// Reads `a.b."c d"[2]`.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
+    let mut steps = Vec::new();
+    let mut rest = text;
+    loop {
+        let (name, after) = match rest.strip_prefix('"') {
+            Some(quoted) => quoted.split_once('"').ok_or_else(|| format!("{text}: a quotation mark is not closed"))?,
+            None => rest.split_at(rest.find(['.', '[', '"']).unwrap_or(rest.len())),
+        };
+        if name.is_empty() {
+            return Err(format!("{text}: a name is missing"));
+        }
+        steps.push(Step::Name(name.to_owned()));
+        rest = after;
+        while let Some(inside) = rest.strip_prefix('[') {
+            let (digits, after) = inside.split_once(']').ok_or_else(|| format!("{text}: a bracket is not closed"))?;
+            let number = digits.trim().parse().map_err(|_| format!("{text}: [{digits}] is not a number from 0 on"))?;
+            steps.push(Step::Number(number));
+            rest = after;
+        }
+        match rest.strip_prefix('.') {
+            Some(after) => rest = after,
+            None if rest.is_empty() => return Ok(steps),
+            None => return Err(format!("{text}: after a name comes a dot or a bracket, not {rest}")),
+        }
+    }
+}
+
+/// A number in a text.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Found {
+    /// Where it stands.
+    pub at: Range<usize>,
+    /// Whether it is written without a fraction, as counts must be.
+    pub is_whole: bool,
+}
+
+/// Keys that a robot or an obstacle has without saying so, and what they say then.
+const SILENT: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
+
+/// The text of a world in which the number is written out, if it is one that robots and obstacles have without saying so;
+/// else the same text.
+pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
+    let (table, key) = match steps {
+        [Step::Name(robot), Step::Name(key), ..] if robot == "robot" => (&steps[..1], key),
+        [Step::Name(obstacle), _, Step::Name(key), ..] if obstacle == "obstacle" => (&steps[..2], key),
+        _ => return text.to_owned(),
+    };
+    let Some((_, silent)) = SILENT.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
+    let Ok(document) = DeTable::parse(text) else { return text.to_owned() };
+    match descend(document.get_ref(), document.span(), table) {
+        Ok((DeRef::Table(given), at)) if given.get(key.as_str()).is_none() => {
+            // A table with a header begins at its bracket, an inline one at its brace.
+            let opening = &text[at.start..];
+            let (end, written) = match opening.chars().next() {
+                Some('{') if opening[1..].trim_start().starts_with('}') => (1, format!(" {key} = {silent} ")),
+                Some('{') => (1, format!(" {key} = {silent},")),
+                _ => (opening.find('\n').map_or(opening.len(), |end| end + 1), format!("{key} = {silent}\n")),
+            };
+            let (before, after) = text.split_at(at.start + end);
+            let break_before = if before.ends_with(['\n', '{']) { "" } else { "\n" };
+            format!("{before}{break_before}{written}{after}")
+        }
+        Err(_) if table.len() == 1 => format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()),
+        _ => text.to_owned(),
+    }
+}
+
+/// What stands somewhere in a TOML document.
+enum DeRef<'a> {
+    Table(&'a DeTable<'a>),
+    Array(&'a DeArray<'a>),
+    Value(&'a DeValue<'a>),
+}
+
+fn seen<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usize>) {
+    let seen = match value.get_ref() {
+        DeValue::Table(table) => DeRef::Table(table),
+        DeValue::Array(array) => DeRef::Array(array),
+        other => DeRef::Value(other),
+    };
+    (seen, value.span())
+}
+
+/// What the steps lead to. A name leads from a list of tables to the one of that `name`.
+fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Result<(DeRef<'a>, Range<usize>), String> {
+    let mut here = (DeRef::Table(root), at);
+    for step in steps {
+        let next = match (&here.0, step) {
+            (DeRef::Table(table), Step::Name(name)) => table.get(name.as_str()),
+            (DeRef::Array(array), Step::Number(number)) => array.get(*number),
+            (DeRef::Array(array), Step::Name(name)) => array.iter().find(|entry| is_named(entry.get_ref(), name)),
+            _ => None,
+        };
+        here = seen(next.ok_or_else(|| missing(&here.0, step))?);
+    }
+    Ok(here)
+}
+
+fn is_named(value: &DeValue, name: &str) -> bool {
+    let DeValue::Table(table) = value else { return false };
+    table.get("name").and_then(|given| given.get_ref().as_str()).is_some_and(|given| given == name)
+}
+
+fn missing(here: &DeRef, step: &Step) -> String {
+    let there = match here {
+        DeRef::Table(table) => table.keys().map(|key| key.get_ref().to_string()).collect::<Vec<_>>().join(", "),
+        DeRef::Array(array) => {
+            let name = |entry: &Spanned<DeValue>| match entry.get_ref() {
+                DeValue::Table(table) => table.get("name").and_then(|name| name.get_ref().as_str().map(str::to_owned)),
+                _ => None,
+            };
+            let names: Vec<String> = array.iter().filter_map(name).collect();
+            let numbered = format!("[0] to [{}]", array.len().saturating_sub(1));
+            if names.is_empty() { numbered } else { format!("{}, or {numbered}", names.join(", ")) }
+        }
+        DeRef::Value(_) => return format!("there is no {step} in a single value"),
+    };
+    format!("there is no {step}; there is {there}")
+}
+
+/// The number of a world file that the steps lead to.
+///
+/// # Errors
+/// Where there is none, in words.
+pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
+    let document = DeTable::parse(text).map_err(|error| error.message().to_owned())?;
+    match descend(document.get_ref(), document.span(), steps)? {
+        (DeRef::Value(DeValue::Float(_)), at) => Ok(Found { at, is_whole: false }),
+        (DeRef::Value(DeValue::Integer(_)), at) => Ok(Found { at, is_whole: true }),
+        // An angle such as "30deg".
+        (DeRef::Value(DeValue::String(text)), at) if text.trim_end().ends_with("deg") => {
+            Ok(Found { at, is_whole: false })
+        }
+        (DeRef::Array(_), _) => Err("it is a list: say which entry, as in [0]".into()),
+        (DeRef::Table(_), _) => Err("it is a table: say which key".into()),
+        _ => Err("it is no number".into()),
+    }
+}
+
+/// The number of a URDF that the steps lead to: elements by tag, `joint` and `link` by name, then an attribute, and the number of the
+/// entry in it.
+///
+/// # Errors
+/// Where there is none, in words.
+pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
+    let document = roxmltree::Document::parse(text).map_err(|error| error.to_string())?;
+    let mut here = document.root_element();
+    let mut steps = steps.iter().peekable();
+    while let Some(step) = steps.next() {
+        let Step::Name(name) = step else { return Err(format!("there is no {step} in <{}>", here.tag_name().name())) };
+        if let Some(attribute) = here.attribute_node(name.as_str()) {
+            let number = match (steps.next(), steps.next()) {
+                (None, _) => 0,
+                (Some(Step::Number(number)), None) => *number,
+                (Some(step), _) => return Err(format!("there is no {step} in an attribute")),
+            };
+            let range = attribute.range_value();
+            let words = entries(&text[range.clone()]);
+            let at = words.get(number).ok_or_else(|| format!("{name} has {} entries", words.len()))?;
+            let at = range.start + at.start..range.start + at.end;
+            text[at.clone()].parse::<f64>().map_err(|_| format!("{} is no number", &text[at.clone()]))?;
+            return Ok(Found { at, is_whole: false });
+        }
+        let mut children = here.children().filter(|child| child.has_tag_name(name.as_str()));
+        let which = match steps.peek() {
+            Some(Step::Number(number)) => children.nth(*number).map(|child| (child, true)),
+            Some(Step::Name(wanted)) if ["joint", "link"].contains(&name.as_str()) => {
+                children.find(|child| child.attribute("name") == Some(wanted.as_str())).map(|child| (child, true))
+            }
+            _ => children.next().map(|child| (child, false)),
+        };
+        let (child, is_chosen) = which.ok_or_else(|| {
+            let chosen = steps.peek().map_or_else(String::new, |step| format!(" {step}"));
+            let tags: Vec<&str> = here.children().filter(|c| c.is_element()).map(|c| c.tag_name().name()).collect();
+            let attributes: Vec<&str> = here.attributes().map(|a| a.name()).collect();
+            let there = [attributes, tags].concat().join(", ");
+            format!("there is no {name}{chosen} in <{}>, which has {there}", here.tag_name().name())
+        })?;
+        if is_chosen {
+            steps.next();
+        }
+        here = child;
+    }
+    Err("it is an element: say which attribute".into())
+}
+
+/// Where the words of a text stand.
+fn entries(text: &str) -> Vec<Range<usize>> {
+    let start = |word: &str| word.as_ptr() as usize - text.as_ptr() as usize;
+    text.split_whitespace().map(|word| start(word)..start(word) + word.len()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WORLD: &str = "goal = { joints = [0.5, \"30deg\"] }\n\n[[obstacle]]\nname = \"a post\"\ncircle = { center = [1, 2.5], radius = 0.1 }\n\n[[obstacle]]\nname = \"b\"\nat = [3.0, 4.0]\npolyline = [[0, 0], [1, 0]]\n";
+
+    fn number(address: &str) -> Result<String, String> {
+        let steps = steps(address)?;
+        let text = written_out(WORLD, &steps);
+        in_world(&text, &steps).map(|found| text[found.at].to_owned())
+    }
+
+    #[test]
+    fn worlds_are_addressed_by_key_name_and_number() {
+        assert_eq!(number("goal.joints[0]").as_deref(), Ok("0.5"));
+        assert_eq!(number("goal.joints[1]").as_deref(), Ok("\"30deg\""));
+        assert_eq!(number("obstacle.\"a post\".circle.center[1]").as_deref(), Ok("2.5"));
+        assert_eq!(number("obstacle[1].at[1]").as_deref(), Ok("4.0"));
+        assert_eq!(number("obstacle.b.polyline[1][0]").as_deref(), Ok("1"));
+        assert_eq!(number("goal.joints"), Err("it is a list: say which entry, as in [0]".into()));
+        assert_eq!(number("obstacle.c.at[0]"), Err("there is no \"c\"; there is a post, b, or [0] to [1]".into()));
+        assert_eq!(number("goal.tip[0]"), Err("there is no \"tip\"; there is joints".into()));
+        assert_eq!(number("goal..joints"), Err("goal..joints: a name is missing".into()));
+    }
+
+    #[test]
+    fn places_that_are_not_said_are_written_out() {
+        for (address, key) in
+            [("obstacle.\"a post\".at[1]", "at"), ("obstacle.b.angle", "angle"), ("robot.at[0]", "at")]
+        {
+            assert_eq!(number(address).as_deref(), Ok("0.0"), "{address}");
+            let text = written_out(WORLD, &steps(address).unwrap());
+            assert!(text.parse::<toml::Table>().is_ok_and(|table| table.to_string() != WORLD), "{key}: {text}");
+        }
+        let inline = "robot = { tip = \"t\" }\n";
+        assert_eq!(written_out(inline, &steps("robot.at[0]").unwrap()), "robot = { at = [0.0, 0.0], tip = \"t\" }\n");
+        let last = "[[obstacle]]";
+        assert_eq!(written_out(last, &steps("obstacle[0].angle").unwrap()), "[[obstacle]]\nangle = 0.0\n");
+    }
+
+    #[test]
+    fn urdfs_are_addressed_by_tag_name_and_attribute() {
+        let text = "<robot name='r'><link name='l'><collision><geometry><box size='1 2 3'/></geometry></collision><collision><geometry>\
+                    <sphere radius='0.5'/></geometry></collision></link><joint name='j'><origin xyz='0.1  0.2 0.3'/></joint></robot>";
+        let number = |address: &str| in_urdf(text, &steps(address)?).map(|found| &text[found.at]);
+        assert_eq!(number("joint.j.origin.xyz[1]"), Ok("0.2"));
+        assert_eq!(number("link.l.collision[1].geometry.sphere.radius"), Ok("0.5"));
+        assert_eq!(number("link.l.collision.geometry.box.size[2]"), Ok("3"));
+        assert_eq!(
+            number("joint.k.origin.xyz[1]").unwrap_err(),
+            "there is no joint \"k\" in <robot>, which has name, link, joint"
+        );
+        assert_eq!(number("joint.j.origin.xyz[3]"), Err("xyz has 3 entries".into()));
+        assert_eq!(number("joint.j"), Err("it is an element: say which attribute".into()));
+        assert_eq!(number("joint.j.name"), Err("j is no number".into()));
+    }
+}

@@ -1,0 +1,414 @@
+//! The study file.
+
+use super::Study;
+use super::measure::{Condition, Measure, Objective};
+use super::parameter::{Design, Parameter, Values};
+use super::template::{Place, Setting, Template, place};
+use crate::engine::Options;
+use crate::input::{Diagnostic, InputError, Overrides, Source, in_toml_words, scene_from};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::ops::Range;
+use std::path::Path;
+use toml::Spanned;
+
+/// Layouts of a study at the most.
+const MOST_LAYOUTS: usize = 100_000_000;
+
+/// How words such as `--planner=first` are read; they are those of the main job.
+pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
+
+type Text = Spanned<String>;
+
+/// A study of many layouts for cplan: a robot in a world, numbers of both that differ, and what is measured. Lengths are in metres, angles in
+/// radians, times in seconds.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "cplan study")]
+struct StudyFile {
+    /// Title of tables and pages; by default the file's name.
+    name: Option<String>,
+    /// The robot's URDF, relative to this file.
+    #[schemars(with = "String")]
+    robot: Text,
+    /// The world file, relative to this file.
+    #[schemars(with = "String")]
+    world: Text,
+    /// Options of the main job, such as ["--planner=first", "--clearance=0.01"].
+    #[schemars(with = "Option<Vec<String>>")]
+    options: Option<Spanned<Vec<String>>>,
+    /// Draws for each combination of the values that are listed; needed where a parameter is drawn.
+    #[schemars(with = "Option<u64>")]
+    draws: Option<Spanned<u64>>,
+    /// What the draws follow from; by default 0.
+    seed: Option<u64>,
+    /// What is measured: length, over_bound, lower_bound, clearance, duration; by default all of them.
+    #[schemars(with = "Option<Vec<String>>")]
+    measure: Option<Vec<Text>>,
+    /// What a layout must meet, such as ["clearance >= 0.01", "duration <= 3"].
+    #[serde(default)]
+    #[schemars(with = "Vec<String>")]
+    conditions: Vec<Text>,
+    /// By what layouts are better: "least duration", "most clearance"; by default the first that is measured, duration before length.
+    #[schemars(with = "Option<String>")]
+    objective: Option<Text>,
+    search: Option<SearchTable>,
+    /// What differs from layout to layout.
+    #[serde(default)]
+    #[schemars(with = "Vec<ParameterTable>")]
+    parameter: Vec<Spanned<ParameterTable>>,
+}
+
+/// A search for a better layout than those listed and drawn, within the ranges of the parameters.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct SearchTable {
+    /// Layouts that it may try.
+    #[schemars(with = "u64")]
+    layouts: Spanned<u64>,
+}
+
+/// A number of world or robot that differs: listed, in equal steps, or drawn.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct ParameterTable {
+    /// Its name, a column of the table.
+    #[schemars(with = "String")]
+    name: Text,
+    /// The unit of its values, for tables and pictures.
+    unit: Option<String>,
+    /// What it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or several.
+    #[schemars(with = "Targets")]
+    sets: Spanned<Targets>,
+    /// Its values.
+    #[schemars(with = "Option<Vec<f64>>")]
+    values: Option<Spanned<Vec<f64>>>,
+    /// Its least value.
+    #[schemars(with = "Option<f64>")]
+    from: Option<Spanned<f64>>,
+    /// Its greatest value.
+    #[schemars(with = "Option<f64>")]
+    to: Option<Spanned<f64>>,
+    /// The number of its values from the least to the greatest, in equal steps.
+    #[schemars(with = "Option<u64>")]
+    steps: Option<Spanned<u64>>,
+    /// In place of steps: "uniform" (independent draws) or "latin" (one in each of as many equal stretches as there are draws).
+    #[schemars(with = "Option<String>")]
+    draw: Option<Text>,
+}
+
+/// What a parameter sets.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Targets {
+    /// An address.
+    One(String),
+    /// Several, each the address of a number.
+    Many(Vec<Target>),
+}
+
+/// A number that follows from a parameter.
+#[derive(Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Target {
+    /// The number at this address is the parameter's value.
+    Address(String),
+    /// It is `factor` times the value, plus `offset`.
+    Scaled(Scaled),
+}
+
+/// A number that is some multiple of a parameter, plus something.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Scaled {
+    /// The address.
+    address: String,
+    /// By default 1.
+    factor: Option<f64>,
+    /// By default 0.
+    offset: Option<f64>,
+}
+
+impl Targets {
+    /// Each with its factor and offset.
+    fn all(&self) -> Vec<(&str, f64, f64)> {
+        match self {
+            Self::One(address) => vec![(address.as_str(), 1.0, 0.0)],
+            Self::Many(targets) => targets.iter().map(Target::setting).collect(),
+        }
+    }
+}
+
+impl Target {
+    fn setting(&self) -> (&str, f64, f64) {
+        match self {
+            Self::Address(address) => (address.as_str(), 1.0, 0.0),
+            Self::Scaled(Scaled { address, factor, offset }) => {
+                (address.as_str(), factor.unwrap_or(1.0), offset.unwrap_or(0.0))
+            }
+        }
+    }
+}
+
+/// Knows the file for messages.
+struct Reader<'a> {
+    source: &'a Source,
+}
+
+/// Reads a study and the two files that it names.
+///
+/// # Errors
+/// Everything that is wrong with them, with line, column and cure.
+pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
+    read(&Source::read(path)?, read_options, &|name| Source::read(&path.with_file_name(name)))
+}
+
+/// Reads a study from its text, and what it names through `open`.
+pub(super) fn read(
+    source: &Source,
+    read_options: ReadOptions,
+    open: &dyn Fn(&str) -> Result<Source, InputError>,
+) -> Result<Study, InputError> {
+    let reader = Reader { source };
+    let file: StudyFile = toml::from_str(source.text()).map_err(|error| {
+        let message = in_toml_words(error.message());
+        let diagnostic = match error.span() {
+            Some(span) => source.diagnostic_at(span, message),
+            None => source.diagnostic(message),
+        };
+        diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
+    })?;
+    let urdf = reader.named(&file.robot, open)?;
+    let world = reader.named(&file.world, open)?;
+    let (options, overrides) = match &file.options {
+        None => (Options::default(), Overrides::default()),
+        Some(words) => read_options(words.get_ref()).map_err(|why| {
+            reader.wrong(words.span(), format!("options: {why}"), "write options of the main job: `cplan --help`")
+        })?,
+    };
+    let parameters = file.parameter.iter().map(|table| reader.parameter(table.get_ref(), table.span()));
+    let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
+    reader.distinct(&file.parameter)?;
+    let drawn = parameters.iter().position(|parameter| matches!(parameter.values, Values::Drawn { .. }));
+    let draws = reader.draws(&file, drawn)?;
+    let design =
+        Design::new(&parameters, draws, file.seed.unwrap_or(0)).filter(|design| design.count() <= MOST_LAYOUTS);
+    let design = design.ok_or_else(|| {
+        let message = format!("the values make more than {MOST_LAYOUTS} layouts");
+        source.diagnostic(message).help("list fewer values, or draw some of them")
+    })?;
+    let [world, urdf] = reader.templates(&file.parameter, world, urdf)?;
+    let base = scene_from(urdf.source().clone(), world.source().clone())?;
+    if let (Some(why), Some(words)) = (options.error(base.has_steps()), &file.options) {
+        return Err(reader.wrong(words.span(), format!("options: {why}"), "leave the option out").into());
+    }
+    let measures = match &file.measure {
+        None => Measure::ALL.to_vec(),
+        Some(names) => names.iter().map(|name| reader.word(name, Measure::named)).collect::<Result<_, _>>()?,
+    };
+    let conditions: Vec<Condition> =
+        file.conditions.iter().map(|text| reader.word(text, Condition::parse)).collect::<Result<_, _>>()?;
+    let objective = file.objective.as_ref().map(|text| reader.word(text, Objective::parse)).transpose()?;
+    let first = || {
+        [Measure::Duration, Measure::Length].into_iter().find(|m| measures.contains(m)).or(measures.first().copied())
+    };
+    let objective =
+        objective.or_else(|| first().map(|measure| Objective { measure, most: measure == Measure::Clearance }));
+    let wanted =
+        conditions.iter().map(|condition| condition.measure).chain(objective.map(|objective| objective.measure));
+    let mut all = measures;
+    wanted.for_each(|measure| {
+        if !all.contains(&measure) {
+            all.push(measure)
+        }
+    });
+    let searched =
+        file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
+    let stem = source.stem().unwrap_or_else(|| "study".to_owned());
+    Ok(Study {
+        name: file.name.unwrap_or(stem),
+        parameters,
+        measures: all,
+        conditions,
+        objective,
+        searched: searched.unwrap_or(0),
+        seed: file.seed.unwrap_or(0),
+        text: source.text().to_owned(),
+        design,
+        world,
+        urdf,
+        base,
+        options,
+        overrides,
+    })
+}
+
+impl Reader<'_> {
+    fn wrong(&self, at: Range<usize>, message: impl Into<String>, help: &str) -> Diagnostic {
+        self.source.diagnostic_at(at, message).help(help)
+    }
+
+    /// A file that the study names.
+    fn named(&self, name: &Text, open: &dyn Fn(&str) -> Result<Source, InputError>) -> Result<Source, InputError> {
+        open(name.get_ref()).map_err(|error| match error.diagnostics() {
+            [only] => self
+                .wrong(name.span(), format!("{}: {}", name.get_ref(), only.message), "paths are relative to the study")
+                .into(),
+            _ => error,
+        })
+    }
+
+    /// What a word stands for.
+    fn word<T>(&self, text: &Text, read: fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
+        let help = "conditions are as in \"clearance >= 0.01\", objectives as in \"least duration\"";
+        read(text.get_ref()).map_err(|why| self.wrong(text.span(), why, help))
+    }
+
+    fn parameter(&self, table: &ParameterTable, at: Range<usize>) -> Result<Parameter, Diagnostic> {
+        let name = table.name.get_ref().clone();
+        let what = format!("parameter \"{name}\"");
+        if name.trim().is_empty() || name.contains(['\n', '\r']) {
+            return Err(self.wrong(table.name.span(), "a parameter needs a name on one line", "name = \"base x\""));
+        }
+        let finite = |value: &Spanned<f64>| match *value.get_ref() {
+            value if value.is_finite() => Ok(value),
+            other => Err(self.wrong(value.span(), format!("{what}: {other} is not finite"), "write a number")),
+        };
+        let ends = match (&table.from, &table.to) {
+            (Some(from), Some(to)) => Some((finite(from)?, finite(to)?)),
+            (None, None) => None,
+            _ => return Err(self.wrong(at, format!("{what} has one of `from` and `to`"), "give it both")),
+        };
+        if let (Some((from, to)), Some(given)) = (ends, &table.from)
+            && from > to
+        {
+            return Err(self.wrong(
+                given.span(),
+                format!("{what}: {from} is more than {to}"),
+                "write the lesser value as `from`",
+            ));
+        }
+        let values = match (&table.values, ends, &table.steps, &table.draw) {
+            (Some(values), None, None, None) => {
+                let given = values.get_ref();
+                if given.is_empty() || given.iter().any(|value| !value.is_finite()) {
+                    return Err(self.wrong(
+                        values.span(),
+                        format!("{what} needs values, all finite"),
+                        "values = [0.1, 0.2]",
+                    ));
+                }
+                Values::Listed(given.clone())
+            }
+            (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
+                n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
+                n => {
+                    let message = format!("{what}: {n} values from {from} to {to}");
+                    return Err(self.wrong(steps.span(), message, "give it 2 values or more, at most a million"));
+                }
+            },
+            (None, Some((from, to)), None, Some(draw)) => match draw.get_ref().as_str() {
+                word @ ("uniform" | "latin") => Values::Drawn { from, to, latin: word == "latin" },
+                other => {
+                    let message = format!("{what}: values are drawn \"uniform\" or \"latin\", not \"{other}\"");
+                    return Err(self.wrong(draw.span(), message, "write draw = \"latin\""));
+                }
+            },
+            _ => {
+                let help = "values = [...]; or from, to and steps; or from, to and draw = \"uniform\" or \"latin\"";
+                return Err(self.wrong(at, format!("it is not clear which values {what} takes"), help));
+            }
+        };
+        Ok(Parameter { name, unit: table.unit.clone(), values })
+    }
+
+    /// Refuses two parameters of one name, and names of other columns.
+    fn distinct(&self, tables: &[Spanned<ParameterTable>]) -> Result<(), Diagnostic> {
+        let names = || tables.iter().map(|table| &table.get_ref().name);
+        for (number, name) in names().enumerate() {
+            let taken = ["layout", "outcome", "reason", "fits"].contains(&name.get_ref().as_str())
+                || Measure::named(name.get_ref()).is_ok();
+            if taken || names().take(number).any(|other| other.get_ref() == name.get_ref()) {
+                let message = format!("there is another column \"{}\"", name.get_ref());
+                return Err(self.wrong(name.span(), message, "give each parameter a name of its own"));
+            }
+        }
+        match tables {
+            [] => Err(self
+                .source
+                .diagnostic("a study without parameters has nothing to study")
+                .help("add a [[parameter]]")),
+            _ => Ok(()),
+        }
+    }
+
+    fn draws(&self, file: &StudyFile, drawn: Option<usize>) -> Result<usize, Diagnostic> {
+        match (&file.draws, drawn) {
+            (None, None) => Ok(1),
+            (Some(draws), Some(_)) => match *draws.get_ref() {
+                n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+                n => Err(self.wrong(draws.span(), format!("{n} draws"), "give it 1 to 100 million")),
+            },
+            (Some(draws), None) => Err(self.wrong(
+                draws.span(),
+                "no parameter is drawn",
+                "remove `draws`, or give a parameter draw = \"latin\"",
+            )),
+            (None, Some(number)) => {
+                let name = &file.parameter[number].get_ref().name;
+                let message = format!("parameter \"{}\" is drawn: how often?", name.get_ref());
+                Err(self.wrong(name.span(), message, "write draws = 1000 above the first [[parameter]]"))
+            }
+        }
+    }
+
+    /// World and robot with the places that the parameters set.
+    fn templates(
+        &self,
+        tables: &[Spanned<ParameterTable>],
+        world: Source,
+        urdf: Source,
+    ) -> Result<[Template; 2], Diagnostic> {
+        let mut settings = [Vec::new(), Vec::new()];
+        let mut owners = [Vec::new(), Vec::new()];
+        for (parameter, table) in tables.iter().enumerate() {
+            let sets = &table.get_ref().sets;
+            for (address, factor, offset) in sets.get_ref().all() {
+                let (file, steps) = place(address).map_err(|why| {
+                    self.wrong(sets.span(), why, "as in \"world.robot.at[0]\" or \"urdf.joint.elbow.origin.xyz[0]\"")
+                })?;
+                if !(factor.is_finite() && offset.is_finite()) {
+                    return Err(self.wrong(sets.span(), "factor and offset must be finite", "write numbers"));
+                }
+                settings[file as usize].push((steps, Setting { parameter, factor, offset }));
+                owners[file as usize].push((parameter, address));
+            }
+        }
+        let template = |source: Source, file: Place| {
+            let name = source.name();
+            Template::new(source, file, &settings[file as usize]).map_err(|(number, why)| {
+                let (parameter, address) = owners[file as usize][number];
+                let message = format!("{address}: {why} (in {name})");
+                self.wrong(tables[parameter].get_ref().sets.span(), message, "name a number that the file has")
+            })
+        };
+        Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
+    }
+
+    fn search(
+        &self,
+        layouts: &Spanned<u64>,
+        parameters: &[Parameter],
+        objective: Option<Objective>,
+    ) -> Result<usize, Diagnostic> {
+        let has_room = parameters.iter().any(|parameter| parameter.values.range()[0] < parameter.values.range()[1]);
+        match *layouts.get_ref() {
+            _ if objective.is_none() => {
+                Err(self.wrong(layouts.span(), "a search needs an objective", "objective = \"least duration\""))
+            }
+            _ if !has_room => Err(self.wrong(layouts.span(), "no parameter has more than one value", "widen a range")),
+            n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
+            n => Err(self.wrong(layouts.span(), format!("{n} layouts"), "give it 1 to 100 million")),
+        }
+    }
+}

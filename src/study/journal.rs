@@ -1,0 +1,127 @@
+//! Rows on disk while a study runs, so that one that is stopped goes on where it was.
+
+use super::Study;
+use super::row::Row;
+use serde::{Deserialize, Serialize};
+use std::fs::{File, OpenOptions};
+use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use thiserror::Error;
+
+/// Rows are on disk after this time.
+const DELAY: Duration = Duration::from_millis(200);
+
+/// Why rows cannot be kept.
+#[derive(Debug, Error)]
+pub enum JournalError {
+    /// They are rows of something else.
+    #[error("{} has rows of another study, or of other files or another version of cplan: remove it, or run with --fresh to begin anew", path.display())]
+    Other {
+        /// The journal.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("{}: {source}", path.display())]
+    System {
+        /// The journal.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// What rows follow from.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Head {
+    cplan: String,
+    study: String,
+    world: String,
+    urdf: String,
+}
+
+/// Rows of a study, a line each, in order.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: BufWriter<File>,
+    written: Instant,
+}
+
+impl Journal {
+    /// Opens the journal of a study, and reads the rows that it has: those of the first layouts, without a gap. A line that is not whole,
+    /// because the program was killed in the middle of it, is dropped.
+    ///
+    /// # Errors
+    /// A journal of another study; what the system refuses.
+    pub fn open(path: &Path, study: &Study) -> Result<(Self, Vec<Row>), JournalError> {
+        let system = |source| JournalError::System { path: path.to_owned(), source };
+        let mut file =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
+        let head = study.head();
+        let mut reader = BufReader::new(&mut file);
+        let (mut rows, mut line, mut length) = (Vec::new(), Vec::new(), 0);
+        loop {
+            line.clear();
+            let read = reader.read_until(b'\n', &mut line).map_err(system)?;
+            if line.last() != Some(&b'\n') {
+                break;
+            }
+            if length == 0 {
+                let found: Option<Head> = serde_json::from_slice(&line).ok();
+                if found.as_ref() != Some(&head) {
+                    return Err(JournalError::Other { path: path.to_owned() });
+                }
+            } else {
+                match serde_json::from_slice::<Row>(&line) {
+                    Ok(row) if row.layout == rows.len() => rows.push(row),
+                    _ => break,
+                }
+            }
+            length += read as u64;
+        }
+        // Something else that has no line of its own is nobody's journal.
+        if length == 0 && !line.is_empty() && !head_text(&head).as_bytes().starts_with(&line) {
+            return Err(JournalError::Other { path: path.to_owned() });
+        }
+        file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length))).map_err(system)?;
+        let mut journal = Self { path: path.to_owned(), file: BufWriter::new(file), written: Instant::now() };
+        if length == 0 {
+            journal.file.write_all(head_text(&head).as_bytes()).and_then(|()| journal.file.flush()).map_err(system)?;
+        }
+        Ok((journal, rows))
+    }
+
+    /// Adds the next row.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn add(&mut self, row: &Row) -> Result<(), JournalError> {
+        let mut written = serde_json::to_writer(&mut self.file, row).map_err(io::Error::from);
+        written = written.and_then(|()| self.file.write_all(b"\n"));
+        if self.written.elapsed() >= DELAY {
+            written = written.and_then(|()| self.file.flush());
+            self.written = Instant::now();
+        }
+        written.map_err(|source| JournalError::System { path: self.path.clone(), source })
+    }
+
+    /// Removes it: the table is written.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn remove(self) -> Result<(), JournalError> {
+        std::fs::remove_file(&self.path).map_err(|source| JournalError::System { path: self.path.clone(), source })
+    }
+}
+
+fn head_text(head: &Head) -> String {
+    serde_json::to_string(head).unwrap_or_default() + "\n"
+}
+
+impl Study {
+    fn head(&self) -> Head {
+        let [world, urdf] = [&self.world, &self.urdf].map(|template| template.source().text().to_owned());
+        Head { cplan: env!("CARGO_PKG_VERSION").into(), study: self.text.clone(), world, urdf }
+    }
+}

@@ -1,0 +1,168 @@
+//! Studies: one task in many layouts.
+//!
+//! A [`Study`] is a robot in a world, parameters that set numbers of both, and what is measured. A layout is the same two files with other
+//! numbers in place, so whatever the files can say can be varied, and each layout can be written as files and planned in by itself
+//! ([`Study::layout`]). What a layout's row says follows from its number and the files alone: rows are the same for any number of
+//! threads, machines and interruptions.
+//!
+//! ```text
+//! study.toml -> Study -> Row, Row, ... -> Table -> CSV, Parquet
+//!                 |        (journal)        |
+//!               search                    Summary, page
+//! ```
+
+mod address;
+mod file;
+mod journal;
+mod measure;
+mod page;
+mod parallel;
+mod parameter;
+mod row;
+mod search;
+mod summary;
+mod table;
+mod template;
+
+pub use file::ReadOptions;
+pub use journal::{Journal, JournalError};
+pub use measure::{Condition, Measure, Objective};
+pub use parallel::in_order;
+pub use parameter::{Parameter, Values};
+pub use row::{Ending, Row};
+pub use summary::Summary;
+
+use crate::engine::{Options, Plan, Problem, plan, solve};
+use crate::input::{InputError, LoadedScene, Overrides, Source};
+use parameter::Design;
+use std::path::Path;
+use template::Template;
+
+/// A task in many layouts.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The title of tables and pages.
+    pub name: String,
+    /// What differs from layout to layout.
+    pub parameters: Vec<Parameter>,
+    /// What is measured, in the order of the columns.
+    pub measures: Vec<Measure>,
+    /// What layouts must meet.
+    pub conditions: Vec<Condition>,
+    /// By what layouts are better.
+    pub objective: Option<Objective>,
+    /// Layouts that may be tried to find a better one.
+    pub searched: usize,
+    /// What draws and search follow from.
+    seed: u64,
+    /// The study file.
+    text: String,
+    design: Design,
+    world: Template,
+    urdf: Template,
+    /// Robot and world as the files have them.
+    base: LoadedScene,
+    options: Options,
+    overrides: Overrides,
+}
+
+impl Study {
+    /// Reads a study file, and robot and world that it names.
+    ///
+    /// # Errors
+    /// Everything that is wrong with them, with line, column and cure.
+    pub fn load(path: impl AsRef<Path>, read_options: ReadOptions) -> Result<Self, InputError> {
+        file::load(path.as_ref(), read_options)
+    }
+
+    /// The number of layouts that are listed and drawn.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.design.count()
+    }
+
+    /// The values of a layout, a parameter each.
+    #[must_use]
+    pub fn values(&self, layout: usize) -> Vec<f64> {
+        self.design.values(layout)
+    }
+
+    /// The column of a measure among those of [`Row::measured`].
+    pub(crate) fn column(&self, measure: Measure) -> Option<usize> {
+        self.measures.iter().position(|m| *m == measure)
+    }
+
+    /// World and robot with these values in place, as files have them.
+    #[must_use]
+    pub fn layout(&self, values: &[f64]) -> [Source; 2] {
+        [self.world.filled(values), self.urdf.filled(values)]
+    }
+
+    /// What is asked with these values.
+    ///
+    /// # Errors
+    /// Values that make no sense; a start or goal that is out of reach or not free.
+    pub fn problem(&self, values: &[f64]) -> Result<Problem, InputError> {
+        let [world, urdf] = self.layout(values);
+        let scene = match self.urdf.is_fixed() {
+            true => self.base.edited(&urdf, world)?,
+            false => crate::input::scene_from(urdf, world)?,
+        };
+        Problem::of_scene(scene, &self.overrides)
+    }
+
+    /// The plan with these values.
+    ///
+    /// # Errors
+    /// As [`Study::problem`], and what a plan is refused for.
+    pub fn plan(&self, values: &[f64]) -> Result<Plan, String> {
+        let problem = self.problem(values).map_err(|error| told(&error))?;
+        plan(&problem, &self.options).map_err(|error| error.to_string())
+    }
+
+    /// A layout's row.
+    #[must_use]
+    pub fn row(&self, layout: usize) -> Row {
+        self.row_of(layout, self.values(layout))
+    }
+
+    fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
+        let (ending, reason, measured) = match self.judged(&values) {
+            Ok(judged) => judged,
+            Err(reason) => (Ending::Refused, Some(reason), vec![None; self.measures.len()]),
+        };
+        let of = |measure: Measure| self.column(measure).and_then(|column| measured[column]);
+        let fits =
+            ending == Ending::Found && self.conditions.iter().all(|condition| condition.holds(of(condition.measure)));
+        Row { layout, values, ending, reason, measured, fits }
+    }
+
+    /// How planning with these values ends, why without a motion, and what is measured.
+    fn judged(&self, values: &[f64]) -> Result<(Ending, Option<String>, Vec<Option<f64>>), String> {
+        let problem = self.problem(values).map_err(|error| told(&error))?;
+        if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
+            // The path is known before it is driven along.
+            let answer = solve(motion, &self.options, &mut |_| ());
+            let measured = self.measures.iter().map(|measure| measure.of_path(&answer)).collect();
+            return Ok((answer.verdict.status().into(), answer.verdict.reason(), measured));
+        }
+        let plan = plan(&problem, &self.options).map_err(|error| error.to_string())?;
+        let report = plan.report();
+        let measured = self.measures.iter().map(|measure| measure.of(report)).collect();
+        Ok((plan.status().into(), report.reason.clone(), measured))
+    }
+
+    /// Rows of layouts from `first` on, on so many threads, each handed to `each` in order as soon as it is there.
+    ///
+    /// # Errors
+    /// What `each` refuses with.
+    pub fn rows<E>(&self, first: usize, jobs: usize, mut each: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
+        let count = self.count().saturating_sub(first);
+        in_order(count, jobs, |i| self.row(first + i), &mut each)
+    }
+}
+
+/// What is wrong, on a line: the first of it, without the place in files that are made for one layout.
+fn told(error: &InputError) -> String {
+    error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
+}

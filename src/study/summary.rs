@@ -1,0 +1,260 @@
+//! What a study shows: how many layouts have a motion, why others have none, and which are best.
+
+use super::Study;
+use super::measure::Measure;
+use super::row::{Ending, Row};
+use crate::report::{Align, Column, Table};
+use crate::text::counted;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// Reasons that are listed.
+const REASONS: usize = 8;
+
+/// Layouts that are listed as the best, and as the worst.
+const BEST: usize = 5;
+
+/// Figures of all rows.
+#[derive(Debug, Clone)]
+pub struct Summary<'a> {
+    study: &'a Study,
+    rows: &'a [Row],
+    /// Rows of the study itself; those behind were found by the search.
+    designed: usize,
+    /// Layouts that count, the best first.
+    ranked: Vec<usize>,
+}
+
+impl<'a> Summary<'a> {
+    /// Of these rows, the first ones of which are those of the study's layouts.
+    #[must_use]
+    pub fn new(study: &'a Study, rows: &'a [Row]) -> Self {
+        let mut ranked: Vec<usize> = (0..rows.len()).filter(|&i| study.cost(&rows[i]).is_finite()).collect();
+        ranked.sort_by(|&a, &b| study.cost(&rows[a]).total_cmp(&study.cost(&rows[b])).then(a.cmp(&b)));
+        Self { study, rows, designed: study.count().min(rows.len()), ranked }
+    }
+
+    /// Rows that ended in each way, in the order of [`Ending::ALL`].
+    #[must_use]
+    pub fn tally(&self) -> [usize; 4] {
+        tally(self.rows)
+    }
+
+    /// The same of the search alone.
+    #[must_use]
+    pub fn searched(&self) -> [usize; 4] {
+        tally(&self.rows[self.designed..])
+    }
+
+    /// The best layout that counts.
+    #[must_use]
+    pub fn best(&self) -> Option<&'a Row> {
+        self.ranked.first().map(|&i| &self.rows[i])
+    }
+
+    /// The worst layout that counts.
+    #[must_use]
+    pub fn worst(&self) -> Option<&'a Row> {
+        self.ranked.last().map(|&i| &self.rows[i])
+    }
+
+    /// The best layout among those of the study itself.
+    #[must_use]
+    pub fn best_designed(&self) -> Option<&'a Row> {
+        self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
+    }
+
+    /// Why layouts have no motion: the reasons without their numbers, and how many layouts have each, the most frequent first.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
+        let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
+        for row in self.rows {
+            if let Some(reason) = &row.reason {
+                *counts.entry((row.ending, without_numbers(reason))).or_default() += 1;
+            }
+        }
+        let mut reasons: Vec<_> = counts.into_iter().map(|((ending, reason), count)| (ending, reason, count)).collect();
+        reasons.sort_by(|a, b| b.2.cmp(&a.2));
+        reasons
+    }
+
+    /// The layouts among which none is better in both of two measures, the best in the first one first. Neither is better where it costs no
+    /// more: less is better but for clearances.
+    #[must_use]
+    pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
+        let cost = |row: &Row, k: usize| {
+            let value = row.measured[self.study.column(measures[k])?]?;
+            Some(if measures[k] == Measure::Clearance { -value } else { value })
+        };
+        let mut costs: Vec<([f64; 2], &Row)> = self
+            .rows
+            .iter()
+            .filter(|row| row.fits)
+            .filter_map(|row| Some(([cost(row, 0)?, cost(row, 1)?], row)))
+            .collect();
+        costs.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let mut least = f64::INFINITY;
+        let is_front = |(cost, _): &([f64; 2], &'a Row)| {
+            let is_less = cost[1] < least;
+            least = least.min(cost[1]);
+            is_less
+        };
+        costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
+    }
+
+    /// For a terminal. Ends in a newline.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let study = self.study;
+        let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
+        let mut text = format!("{}: {rows}, {parameters}\n", study.name);
+        for (ending, count) in Ending::ALL.into_iter().zip(self.tally()).filter(|(_, count)| *count > 0) {
+            text += &format!("  {:<11} {count:>8}  {:5.1} %\n", ending.name(), share(count, self.rows.len()));
+        }
+        if !study.conditions.is_empty() {
+            let fitting = self.rows.iter().filter(|row| row.fits).count();
+            let conditions: Vec<String> = study.conditions.iter().map(ToString::to_string).collect();
+            text += &format!(
+                "  {:<11} {fitting:>8}  {:5.1} %  ({})\n",
+                "fit",
+                share(fitting, self.rows.len()),
+                conditions.join(", ")
+            );
+        }
+        if self.rows.len() > self.designed {
+            let [found, infeasible, ..] = self.searched();
+            let tried = counted(self.rows.len() - self.designed, "layout");
+            text += &format!("  the search tried {tried}: {found} with a motion, {infeasible} proven to have none\n");
+        }
+        let reasons = self.reasons();
+        if !reasons.is_empty() {
+            text += "why there is no motion:\n";
+            for (ending, reason, count) in reasons.iter().take(REASONS) {
+                text += &format!("  {count:>8}  {}: {reason}\n", ending.name());
+            }
+            if reasons.len() > REASONS {
+                text += &format!("            and {} more\n", counted(reasons.len() - REASONS, "reason"));
+            }
+        }
+        if let (Some(objective), Some(_)) = (study.objective, self.best()) {
+            text += &format!("best ({objective}):\n{}", indented(&self.table(self.ranked.iter().take(BEST)).to_text()));
+            if self.ranked.len() > BEST {
+                text += &format!("worst:\n{}", indented(&self.table(self.ranked.iter().rev().take(1)).to_text()));
+            }
+        }
+        text
+    }
+
+    /// A JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let counts = |tally: [usize; 4]| -> Value {
+            Ending::ALL.into_iter().zip(tally).map(|(ending, count)| (ending.name().to_owned(), json!(count))).collect()
+        };
+        let reasons: Vec<Value> = self
+            .reasons()
+            .into_iter()
+            .map(|(ending, reason, count)| json!({ "outcome": ending.name(), "reason": reason, "layouts": count }))
+            .collect();
+        json!({
+            "name": self.study.name,
+            "layouts": self.rows.len(),
+            "outcomes": counts(self.tally()),
+            "fit": self.rows.iter().filter(|row| row.fits).count(),
+            "search": (self.rows.len() > self.designed).then(|| counts(self.searched())),
+            "reasons": reasons,
+            "objective": self.study.objective.map(|objective| objective.to_string()),
+            "best": self.best().map(|row| self.object(row)),
+            "worst": self.worst().map(|row| self.object(row)),
+        })
+    }
+
+    fn object(&self, row: &Row) -> Value {
+        let study = self.study;
+        let values = study.parameters.iter().zip(&row.values).map(|(p, value)| (p.name.clone(), json!(value)));
+        let measured = study.measures.iter().zip(&row.measured).map(|(m, value)| (m.name().to_owned(), json!(value)));
+        json!({ "layout": row.layout, "parameters": Value::from_iter(values), "measured": Value::from_iter(measured) })
+    }
+
+    /// The best rows, as many as are listed.
+    pub(super) fn best_table(&self) -> Table {
+        self.table(self.ranked.iter().take(2 * BEST))
+    }
+
+    fn table<'b>(&self, rows: impl Iterator<Item = &'b usize>) -> Table {
+        let study = self.study;
+        let mut columns = vec![Column::new("layout", Align::Right)];
+        columns.extend(study.parameters.iter().map(|parameter| Column::new(&parameter.titled(), Align::Right)));
+        let titled = |m: &Measure| m.unit().map_or_else(|| m.name().to_owned(), |unit| format!("{}, {unit}", m.name()));
+        columns.extend(study.measures.iter().map(|measure| Column::new(&titled(measure), Align::Right)));
+        let cells = |&i: &usize| {
+            let row = &self.rows[i];
+            let values = row.values.iter().map(|value| Some(shown(*value)));
+            let measured = row.measured.iter().map(|value| value.map(shown));
+            std::iter::once(Some(row.layout.to_string())).chain(values).chain(measured).collect()
+        };
+        Table { columns, rows: rows.map(cells).collect() }
+    }
+}
+
+fn tally(rows: &[Row]) -> [usize; 4] {
+    Ending::ALL.map(|ending| rows.iter().filter(|row| row.ending == ending).count())
+}
+
+fn share(part: usize, all: usize) -> f64 {
+    100.0 * part as f64 / all.max(1) as f64
+}
+
+/// Five significant digits, which tell layouts apart; the tables have all of them.
+pub(super) fn shown(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let digits = 4 - value.abs().log10().floor() as i32;
+    if (0..=9).contains(&digits) { format!("{value:.*}", digits as usize) } else { format!("{value:.4e}") }
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("  {line}\n")).collect()
+}
+
+/// A reason with `#` in place of each number, so that layouts that fail alike are counted together. Numbers in names stay.
+fn without_numbers(reason: &str) -> String {
+    let is_number = |word: &str| {
+        let bare = word.trim_matches(['(', ')', '[', ']', ',', ';', ':']);
+        bare.trim_end_matches(['.', '%']).parse::<f64>().is_ok()
+    };
+    let word = |word: &str| {
+        if is_number(word) {
+            word.replace(|c: char| c.is_ascii_digit() || "+-.eE".contains(c), "#")
+        } else {
+            word.to_owned()
+        }
+    };
+    let mut text = reason.split(' ').map(word).collect::<Vec<_>>().join(" ");
+    while text.contains("##") {
+        text = text.replace("##", "#");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_differ_in_words_alone() {
+        let reasons = ["link \"arm 2\" is 0.012 m deep in \"post 3\" (1.5, -2e-3).", "proven: 17 boxes of it"];
+        let without = reasons.map(without_numbers);
+        assert_eq!(without[1], "proven: # boxes of it");
+        assert_eq!(without[0], "link \"arm 2\" is # m deep in \"post 3\" (#, #).");
+    }
+
+    #[test]
+    fn numbers_have_five_digits() {
+        assert_eq!(
+            [0.0, 1.0, -12.345678, 123456.7, 1.5e-9].map(shown),
+            ["0", "1.0000", "-12.346", "1.2346e5", "1.5000e-9"]
+        );
+    }
+}
