@@ -32,6 +32,8 @@ mod variant;
 mod verify;
 mod words;
 
+pub use compare::compare_in;
+pub use failure::Failure;
 pub use memory::MemoryMeter;
 pub use words::read_words;
 
@@ -39,7 +41,6 @@ use args::{Cli, Command};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches};
 use error_json::ErrorJson;
-use failure::Failure;
 use std::ffi::OsString;
 use std::process::ExitCode;
 

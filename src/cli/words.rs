@@ -29,14 +29,17 @@ struct Words {
 /// # Errors
 /// What is wrong with them, in a line or two.
 pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
-    let words = Words::try_parse_from(words).map_err(|error| {
-        let text = error.to_string();
-        let said = text.split("\n\nUsage").next().unwrap_or_default();
-        said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()
-    })?;
+    let words = Words::try_parse_from(words).map_err(|error| told(&error))?;
     let Words { planner, query, motion, message, options } = words;
     let options = self::options(planner, &options, &motion, &message).map_err(|failure| failure.to_string())?;
     Ok((options, query.overrides()))
+}
+
+/// What is wrong with words, without the usage of a program.
+pub(super) fn told(error: &clap::Error) -> String {
+    let text = error.to_string();
+    let said = text.split("\n\nUsage").next().unwrap_or_default();
+    said.strip_prefix("error: ").unwrap_or(said).trim_end().to_owned()
 }
 
 /// What is asked for.

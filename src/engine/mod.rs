@@ -39,6 +39,7 @@ mod clock;
 mod corners;
 mod field_problem;
 mod field_report;
+pub mod findings;
 mod first;
 mod grid_space;
 mod kind;

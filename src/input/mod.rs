@@ -68,7 +68,7 @@ pub use schema::world_schema;
 pub use source::{Position, Source};
 pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;
-pub use trajectory::{LoadedRecording, load_recording};
+pub use trajectory::{LoadedRecording, load_recording, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 use world::RobotTable;
 pub use world::World;

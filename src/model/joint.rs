@@ -89,4 +89,14 @@ impl Joint {
     pub fn unit(&self) -> &'static str {
         if self.joint_type.is_revolute() { "rad" } else { "m" }
     }
+
+    /// A value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
+    #[must_use]
+    pub fn shown(&self, value: f64) -> String {
+        if self.joint_type.is_revolute() {
+            format!("{value:.4} rad ({:.2} deg)", value.to_degrees())
+        } else {
+            format!("{value:.4} m")
+        }
+    }
 }

@@ -19,4 +19,4 @@ pub(crate) use picture::{contours, title_of};
 #[cfg(feature = "program")]
 pub(crate) use step_lines::{StepLine, step_lines};
 #[cfg(feature = "program")]
-pub(crate) use summary::{Line, configuration, laid_out, range, value};
+pub(crate) use summary::{Line, configuration, laid_out, range};

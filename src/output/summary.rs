@@ -7,19 +7,10 @@ use crate::space::{Configuration, JointRange, Segment};
 use crate::text::Columns;
 use std::time::Duration;
 
-/// A joint's value with its unit, angles in both units: `0.3491 rad (20.00 deg)`.
-pub fn value(joint: &Joint, value: f64) -> String {
-    if joint.joint_type.is_revolute() {
-        format!("{value:.4} rad ({:.2} deg)", value.to_degrees())
-    } else {
-        format!("{value:.4} m")
-    }
-}
-
 /// Both joints' values by name.
 pub fn configuration(arm: &Arm, q: Configuration) -> String {
     let [a, b] = &arm.joints;
-    format!("{} {}, {} {}", a.name, value(a, q[0]), b.name, value(b, q[1]))
+    format!("{} {}, {} {}", a.name, a.shown(q[0]), b.name, b.shown(q[1]))
 }
 
 /// Both joints' values along a segment by name: of a joint that moves all along it, from where to where.
@@ -28,8 +19,8 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
     let shown = |k: usize| {
         let joint = &arm.joints[k];
         match from[k] == to[k] {
-            true => format!("{} {}", joint.name, value(joint, from[k])),
-            false => format!("{} any from {} to {}", joint.name, value(joint, from[k]), value(joint, to[k])),
+            true => format!("{} {}", joint.name, joint.shown(from[k])),
+            false => format!("{} any from {} to {}", joint.name, joint.shown(from[k]), joint.shown(to[k])),
         }
     };
     format!("{}, {}", shown(0), shown(1))
@@ -39,7 +30,7 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
 pub fn range(joint: &Joint) -> String {
     match joint.range {
         JointRange::Circle => "continuous".into(),
-        JointRange::Interval { lower, upper } => format!("{} to {}", value(joint, lower), value(joint, upper)),
+        JointRange::Interval { lower, upper } => format!("{} to {}", joint.shown(lower), joint.shown(upper)),
     }
 }
 

@@ -3,13 +3,12 @@
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
 use crate::cli::failure::Failure;
-use crate::input::{self, DiagnosticKind, Overrides, Refused, Suite};
+use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Refused, Suite};
 use crate::model::MotionProblem;
 use crate::output::title_of;
 use crate::report::{Refusal, Sampling};
 use crate::space::Configuration;
 use std::borrow::Cow;
-use std::path::Path;
 use std::sync::Arc;
 
 /// All that is to be compared, read and checked.
@@ -66,11 +65,23 @@ impl Cases {
     /// Every diagnostic of all files at once.
     pub fn load(args: &CompareArgs) -> Result<Self, Failure> {
         let suite = match (&args.urdf, &args.world, &args.suite) {
-            (Some(urdf), Some(world), _) => one(urdf, world)?,
+            (Some(urdf), Some(world), _) => one(input::load_scene(urdf, world)?),
             (Some(urdf), None, Some(folder)) => input::load_folder(urdf, folder)?,
             (_, _, Some(place)) => input::load_suite(place)?,
             _ => return Err(Failure::Usage("URDF and WORLD are required, or --suite".into())),
         };
+        Self::of_suite(suite, args)
+    }
+
+    /// A robot in a world that is read already.
+    ///
+    /// # Errors
+    /// As [`Cases::load`].
+    pub fn of_scene(scene: LoadedScene, args: &CompareArgs) -> Result<Self, Failure> {
+        Self::of_suite(one(scene), args)
+    }
+
+    fn of_suite(suite: Suite, args: &CompareArgs) -> Result<Self, Failure> {
         let left_out = |path: &std::path::PathBuf| {
             format!("{} is left out: it has steps, and only `cplan ROBOT WORLD` plans those", path.display())
         };
@@ -121,15 +132,14 @@ impl Cases {
 }
 
 /// A robot in a world as a suite of one.
-fn one(urdf: &Path, world: &Path) -> Result<Suite, Failure> {
-    let scene = input::load_scene(urdf, world)?;
+fn one(scene: LoadedScene) -> Suite {
     let name = scene.scene.workspace().name.clone();
-    Ok(Suite {
+    Suite {
         name: name.clone(),
         members: vec![input::Member { name, scene }],
         with_steps: Vec::new(),
         refused: Vec::new(),
-    })
+    }
 }
 
 /// Problems with their names, and those that cannot be run.

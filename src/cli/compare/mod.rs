@@ -19,11 +19,14 @@ use super::failure::Failure;
 use super::memory::MemoryMeter;
 use super::progress::Progress;
 use super::sinks::{self, Sink};
+use super::words::told;
 use super::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use crate::engine::{Method, Options, Planner};
+use crate::input::LoadedScene;
 use crate::motion::write_whole_set;
 use crate::report::{Comparison, Page, Refusal, Study};
 use cases::{Case, Cases};
+use clap::Parser;
 use runner::{Compared, Entry, Runner};
 use sink::{ReportFormat, report_sinks};
 
@@ -38,7 +41,6 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     sinks::distinct(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
     let cases = Cases::load(args)?;
     sinks::spare_inputs(sinks.iter().map(|sink| sink.path.as_path()).chain(pictures.iter().map(Sink::path)))?;
-    let entries = entries(args, &cases)?;
     cases.warnings.iter().for_each(|w| sinks::say(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
         sinks::say(&format!("warning: {problem} is not run: {reason}"));
@@ -46,23 +48,8 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     if !args.quiet {
         cases.left_out.iter().for_each(|line| sinks::say(&format!("note: {line}")));
     }
-    let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
-    let progress = Progress::new(total, args.is_single(), args.quiet);
-    let jobs = usize::from(args.jobs);
-    let meter = runner::meter(meter, jobs, args.quiet);
-    let runner = Runner { entries: &entries, jobs, meter, progress: &progress };
     let started = started::now();
-    let mut done = runner.run(&cases).map_err(|(name, error)| match error {
-        error if args.is_single() => Failure::Plan(error),
-        error => Failure::Option(format!("{name}: {error}")),
-    })?;
-    let study = Study {
-        title: cases.title.clone(),
-        sampling: cases.sampling,
-        comparisons: std::mem::take(&mut done.comparisons),
-        left_out: cases.left_out.clone(),
-        refused: cases.refused.clone(),
-    };
+    let (study, done) = measured(args, &cases, meter)?;
     for sink in &pictures {
         if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
             drawings::save(&cases.cases[0], comparison, &done.paths[0], *format, path)?;
@@ -81,6 +68,54 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
     let alarms = study.alarms();
     alarms.iter().for_each(|alarm| sinks::say(&format!("error: {alarm}")));
     Ok(exit_code(&study, args.is_single()))
+}
+
+/// Compares in a scene that is read already, for callers that are no shell: told by words of this command line behind the files. Without
+/// random queries it is a study of one problem.
+///
+/// # Errors
+/// Words that make no sense, and what is wrong with start and goal.
+pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure> {
+    let words = ["URDF", "WORLD", "--quiet"].into_iter().chain(words.iter().map(String::as_str));
+    let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
+    if args.json || args.csv || args.markdown || !args.output.is_empty() || !args.picture.is_empty() {
+        let message = "what is printed, written and drawn is for the program to say, not for callers of the library";
+        return Err(Failure::Usage(message.into()));
+    }
+    Ok(measured(&args, &Cases::of_scene(scene, &args)?, None)?.0)
+}
+
+/// Arguments of `compare` alone.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct CompareWords {
+    #[command(flatten)]
+    args: CompareArgs,
+}
+
+/// Runs the planners on the problems.
+///
+/// # Errors
+/// Options that make no sense for a world, and motions that cannot be timed as asked.
+fn measured(args: &CompareArgs, cases: &Cases, meter: Option<MemoryMeter>) -> Result<(Study, Compared), Failure> {
+    let entries = entries(args, cases)?;
+    let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
+    let progress = Progress::new(total, args.is_single(), args.quiet);
+    let jobs = usize::from(args.jobs);
+    let meter = runner::meter(meter, jobs, args.quiet);
+    let runner = Runner { entries: &entries, jobs, meter, progress: &progress };
+    let mut done = runner.run(cases).map_err(|(name, error)| match error {
+        error if args.is_single() => Failure::Plan(error),
+        error => Failure::Option(format!("{name}: {error}")),
+    })?;
+    let study = Study {
+        title: cases.title.clone(),
+        sampling: cases.sampling,
+        comparisons: std::mem::take(&mut done.comparisons),
+        left_out: cases.left_out.clone(),
+        refused: cases.refused.clone(),
+    };
+    Ok((study, done))
 }
 
 /// A contradiction is a failure, and so is a problem that could not be run, after all others were; otherwise the code is that of a single problem's best answer.

@@ -1,15 +1,16 @@
 //! What `verify` found, for people.
 
-use super::findings::{EncounterFinding, Findings, LimitFinding, MomentFinding, Verdict, WayFinding};
-use super::task::StepFinding;
 use crate::check::Limit;
+use crate::engine::findings::{
+    EncounterFinding, LimitFinding, MomentFinding, MotionFindings, StepFinding, Verdict, WayFinding,
+};
 use crate::model::Arm;
-use crate::output::{Line, StepLine, configuration, laid_out, step_lines, value};
+use crate::output::{Line, StepLine, configuration, laid_out, step_lines};
 use crate::space::Recording;
 use crate::text::counted;
 
 /// The findings for people.
-pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &Findings) -> String {
+pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
     let mut lines = vec![("arm", format!("{} ({})", arm.name, arm.kind()))];
     let duration = findings.duration.map_or("no times".into(), |d| format!("{d:.3} s"));
     lines.push(("motion", format!("{} samples, {duration}", findings.samples)));
@@ -80,7 +81,7 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let unit = joint.unit();
     let what = match excess.limit {
         Limit::Position => {
-            format!("position {} beyond {}", value(joint, excess.value), value(joint, excess.allowed))
+            format!("position {} beyond {}", joint.shown(excess.value), joint.shown(excess.allowed))
         }
         Limit::Velocity => format!("velocity {:.6} {unit}/s, at most {:.6}", excess.value, excess.allowed),
         Limit::Acceleration => format!("acceleration {:.6} {unit}/s2, at most {:.6}", excess.value, excess.allowed),
@@ -122,7 +123,7 @@ fn rows(steps: &[StepFinding]) -> Vec<String> {
     step_lines(&steps.iter().map(line).collect::<Vec<_>>())
 }
 
-fn result(findings: &Findings) -> String {
+fn result(findings: &MotionFindings) -> String {
     let required = findings.required;
     let kept = if required > 0.0 { format!(" by {required} m") } else { String::new() };
     let whole = match &findings.steps {

@@ -87,29 +87,29 @@ pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecordin
             .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
     }
-    let names = Names {
-        arm: scene.scene.arm().joints.each_ref().map(|j| j.name.as_str()),
-        held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
-        has_steps: scene.has_steps(),
-    };
     if extension.as_deref() == Some("mcap") {
-        return recorded(path, &names);
+        return recorded(path, &Names::of(scene));
     }
-    let source = Source::read(path)?;
-    let samples = match extension.as_deref() {
-        Some("json") => document::json(&source)?,
-        Some("csv") => csv::read(&source, &names)?,
-        _ => document::yaml(&source)?,
+    read_recording(&Source::read(path)?, scene)
+}
+
+/// The same from a text: its name's extension tells the format, JSON where it is none of the others.
+///
+/// # Errors
+/// As for [`load_recording`].
+pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
+    let names = Names::of(scene);
+    let extension = source.path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let (samples, steps, claims) = match extension.as_deref() {
+        Some("csv") => (csv::read(source, &names)?, None, None),
+        Some("yaml" | "yml") => (document::yaml(source)?, None, None),
+        _ => {
+            let samples = document::json(source)?;
+            let steps = if scene.has_steps() { steps::json(source, &samples)? } else { None };
+            (samples, steps, claims::json(source, names.arm)?)
+        }
     };
-    let steps = match extension.as_deref() {
-        Some("json") if scene.has_steps() => steps::json(&source, &samples)?,
-        _ => None,
-    };
-    let claims = match extension.as_deref() {
-        Some("json") => claims::json(&source, names.arm)?,
-        _ => None,
-    };
-    Ok(LoadedRecording { steps, claims, ..names.recording(&source, samples)? })
+    Ok(LoadedRecording { steps, claims, ..names.recording(source, samples)? })
 }
 
 /// A recording of topics.
@@ -135,7 +135,15 @@ struct Names<'a> {
     has_steps: bool,
 }
 
-impl Names<'_> {
+impl<'a> Names<'a> {
+    fn of(scene: &'a LoadedScene) -> Self {
+        Self {
+            arm: scene.scene.arm().joints.each_ref().map(|j| j.name.as_str()),
+            held: scene.robot.held.iter().map(|(name, value)| (name.as_str(), *value)).collect(),
+            has_steps: scene.has_steps(),
+        }
+    }
+
     fn all(&self) -> impl Iterator<Item = &str> {
         self.arm.iter().copied().chain(self.held.iter().map(|(name, _)| *name))
     }

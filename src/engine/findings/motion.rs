@@ -1,15 +1,15 @@
-//! What `verify` found, as data.
+//! What is found of a motion, as data.
 
-use super::task::StepFinding;
+use super::StepFinding;
 use crate::check::{CollisionCheck, Encounter, Excess, Limit, Moment};
 use crate::model::{Claims, Joint, Scene};
 use crate::space::Recording;
 use serde::Serialize;
 
-/// In a word, the worst last.
+/// What is found in a word, the worst last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Verdict {
+pub enum Verdict {
     /// Proven free and within all limits that can be judged.
     Free,
     /// Neither proven free nor proven to collide.
@@ -28,6 +28,7 @@ pub(super) enum Verdict {
 
 impl Verdict {
     /// As it is written in JSON.
+    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Verdict::Free => "free",
@@ -41,20 +42,26 @@ impl Verdict {
     }
 }
 
-/// What there is to say about a motion.
-#[derive(Debug, Serialize)]
-pub(super) struct Findings {
+/// What there is to say about a motion, or about the motions of a task.
+#[derive(Debug, Clone, Serialize)]
+pub struct MotionFindings {
+    /// In a word.
     pub verdict: Verdict,
+    /// Names of the joints, base to tip.
     pub joints: [String; 2],
+    /// Units of the joints' values: `rad` or `m`.
     pub units: [&'static str; 2],
+    /// How many samples there are.
     pub samples: usize,
     /// Seconds from the first to the last sample.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
     /// The distance to keep, metres.
     pub required: f64,
+    /// What it meets.
     #[serde(flatten)]
     pub way: WayFinding,
+    /// Limits that are broken, each once.
     pub limits_broken: Vec<LimitFinding>,
     /// In what a motion or a task is not the one asked for, and what the file says of it that is false.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -65,18 +72,20 @@ pub(super) struct Findings {
     /// Of a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
+    /// How the file was read and what was judged, line by line.
     pub notes: Vec<String>,
 }
 
 /// What a motion meets, or how near it comes.
 #[derive(Debug, Clone, Default, Serialize)]
-pub(super) struct WayFinding {
+pub struct WayFinding {
     /// Proven lower bound on the distance to every obstacle, metres; only of a free motion that could hit something.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// Where a free motion comes nearest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<EncounterFinding>,
+    /// Where a motion that collides first does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_contact: Option<EncounterFinding>,
     /// The motion before this is proven free, on the clock of `first_contact`.
@@ -90,22 +99,28 @@ pub(super) struct WayFinding {
     pub undecided: Option<EncounterFinding>,
 }
 
+/// A link and an obstacle at a moment.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct EncounterFinding {
+pub struct EncounterFinding {
+    /// When, and where the arm is.
     #[serde(flatten)]
     pub moment: MomentFinding,
+    /// Name of the arm's link.
     pub link: String,
+    /// Name of the body of the URDF that moves with it.
     pub body: String,
+    /// Name of the obstacle.
     pub obstacle: String,
     /// Penetration depth, metres; negative is a distance.
     pub depth: f64,
     /// The pair, for people.
     #[serde(skip)]
-    pub pair: String,
+    pub(crate) pair: String,
 }
 
+/// A moment of a motion.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct MomentFinding {
+pub struct MomentFinding {
     /// Seconds on the file's clock.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
@@ -114,25 +129,32 @@ pub(super) struct MomentFinding {
     pub waypoint: Option<f64>,
     /// The sample at or before it, counted from 0.
     pub sample: usize,
+    /// Joint values then, base to tip.
     pub configuration: [f64; 2],
 }
 
+/// A limit that is broken.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct LimitFinding {
+pub struct LimitFinding {
+    /// Name of the joint.
     pub joint: String,
+    /// What it is a limit of, such as `velocity`.
     pub limit: &'static str,
+    /// What is reached: rad or m, and per second, second squared or cubed.
     pub value: f64,
+    /// What is allowed, in the same unit.
     pub allowed: f64,
+    /// When.
     #[serde(flatten)]
     pub moment: MomentFinding,
     /// The same as it was found.
     #[serde(skip)]
-    pub excess: Excess,
+    pub(crate) excess: Excess,
 }
 
-impl Findings {
+impl MotionFindings {
     /// Collects what the checks found of one motion.
-    pub fn new(
+    pub(super) fn new(
         scene: &Scene,
         recording: &Recording,
         collision_check: &CollisionCheck,
@@ -150,7 +172,7 @@ impl Findings {
     }
 
     /// What there is to say of a recording before it is judged.
-    pub fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
+    pub(super) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
             verdict: Verdict::Free,
@@ -169,7 +191,7 @@ impl Findings {
     }
 
     /// With faults of a kind, if there are any.
-    pub fn but(mut self, verdict: Verdict, faults: Vec<impl ToString>) -> Self {
+    pub(super) fn but(mut self, verdict: Verdict, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
         }
@@ -178,7 +200,7 @@ impl Findings {
     }
 
     /// With what nobody judges of what a file says.
-    pub fn leaving(mut self, claims: &Claims) -> Self {
+    pub(super) fn leaving(mut self, claims: &Claims) -> Self {
         self.not_judged.clone_from(&claims.unjudged);
         self
     }
@@ -196,7 +218,7 @@ pub(super) fn verdict(collision_check: &CollisionCheck, broken: &[Excess]) -> Ve
 
 impl WayFinding {
     /// What the check found of a motion, which has times or not.
-    pub fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
+    pub(super) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
         match collision_check {
             CollisionCheck::Free { clearance, nearest } => Self {

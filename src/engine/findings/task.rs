@@ -1,14 +1,14 @@
-//! What `verify` found of a task, step by step.
+//! What is found of a task, step by step.
 
-use super::findings::{Findings, LimitFinding, Verdict, WayFinding, limits, verdict};
+use super::motion::{LimitFinding, MotionFindings, Verdict, WayFinding, limits, verdict};
 use crate::check::{Departure, Replay, ReplayedStep, ReplayedTurn, step_claims_kept, task_claims_kept};
 use crate::model::{Claims, RecordedStep, Scene, Task};
 use crate::space::Recording;
 use serde::Serialize;
 
 /// What there is to say of a step.
-#[derive(Debug, Serialize)]
-pub(super) struct StepFinding {
+#[derive(Debug, Clone, Serialize)]
+pub struct StepFinding {
     /// Its number in the world file, from 1.
     pub step: usize,
     /// Which repetition of it this is, from 1.
@@ -19,28 +19,35 @@ pub(super) struct StepFinding {
     pub object: Option<String>,
     /// The object that is carried during the motion.
     pub carried: Option<String>,
+    /// In a word.
     pub verdict: Verdict,
+    /// The sample with which its motion begins, from 0.
     pub first_sample: usize,
+    /// The sample with which it ends.
     pub last_sample: usize,
     /// Of the motion.
     pub seconds: f64,
+    /// What its motion meets.
     #[serde(flatten)]
     pub way: WayFinding,
     /// The turn of the wrist.
+    /// The turn of the wrist at its end.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnFinding>,
+    /// Limits that are broken, each once.
     pub limits_broken: Vec<LimitFinding>,
     /// In what it is not what was asked for.
     pub faults: Vec<String>,
 }
 
 /// A turn of the wrist while the arm stands still.
-#[derive(Debug, Serialize)]
-pub(super) struct TurnFinding {
+#[derive(Debug, Clone, Serialize)]
+pub struct TurnFinding {
     /// Orientation of the object at the beginning, radians.
     pub from: f64,
     /// At the end.
     pub to: f64,
+    /// How long it takes.
     pub seconds: f64,
     /// Proven lower bound on the distance between object and obstacles, metres; only of a free turn that could hit something.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,10 +57,12 @@ pub(super) struct TurnFinding {
     pub contact: Option<TurnContactFinding>,
 }
 
-#[derive(Debug, Serialize)]
-pub(super) struct TurnContactFinding {
+/// Where an object that is turned hits something.
+#[derive(Debug, Clone, Serialize)]
+pub struct TurnContactFinding {
     /// Orientation of the object then, radians.
     pub angle: f64,
+    /// Name of the obstacle.
     pub obstacle: String,
 }
 
@@ -85,11 +94,13 @@ impl StepFinding {
     }
 
     /// In words that stand for it.
+    #[must_use]
     pub fn name(&self) -> String {
         format!("step {} (cycle {})", self.step, self.cycle)
     }
 
     /// Proven lower bound on the distance kept in its motion and its turn, metres; none where nothing can be hit.
+    #[must_use]
     pub fn clearance(&self) -> Option<f64> {
         let turn = self.turn.as_ref().and_then(|turn| turn.clearance);
         turn.into_iter().chain(self.way.clearance).reduce(f64::min)
@@ -117,7 +128,7 @@ pub(super) fn judged(
     mut replay: Replay,
     claims: &Claims,
     notes: Vec<String>,
-) -> Findings {
+) -> MotionFindings {
     let (mut happened, mut false_claims) = (Vec::new(), Vec::new());
     let mut steps = Vec::new();
     for (index, step) in replay.by_ref().enumerate() {
@@ -137,14 +148,14 @@ pub(super) fn judged(
         step.faults.iter().map(move |fault| format!("{name}: {fault}")).collect::<Vec<_>>()
     };
     let faults = steps.iter().flat_map(of_step).chain(departure).collect();
-    Findings {
+    MotionFindings {
         verdict: worst.max(of_departure),
         way: way(&steps),
         limits_broken: steps.iter().flat_map(|step| step.limits_broken.iter().cloned()).collect(),
         faults,
         steps: Some(steps),
         notes,
-        ..Findings::of_nothing(scene, recording)
+        ..MotionFindings::of_nothing(scene, recording)
     }
     .but(Verdict::Claims, false_claims)
 }
