@@ -31,10 +31,14 @@ from cplan._cplan import (
     penetration_depth,
     polygon_test,
 )
+from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
 from cplan.planning import plan
 
 __all__ = [
     "Arm",
+    "Check",
+    "Comparison",
+    "Comparisons",
     "Found",
     "Infeasible",
     "InputError",
@@ -44,10 +48,14 @@ __all__ = [
     "Problem",
     "Trajectory",
     "Unknown",
+    "Verification",
     "World",
     "__version__",
+    "check",
+    "compare",
     "minkowski_difference",
     "penetration_depth",
     "plan",
     "polygon_test",
+    "verify",
 ]

@@ -1,6 +1,7 @@
 """From an arm and a world to an answer."""
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import Any
 
 from cplan._cplan import Arm, Found, Infeasible, Options, Problem, Unknown, World
@@ -15,8 +16,17 @@ def options(**given: Any) -> Options | None:
     >>> options(planner="wavefront", cells=(80, 40), start=(0.5, -0.25))
     <cplan.Options: --planner=wavefront --cells=80x40 --start=0.5,-0.25>
     """
-    words = [word for name, value in given.items() for word in _words(name, value)]
-    return Options(words) if words else None
+    asked = words(**given)
+    return _options(tuple(asked)) if asked else None
+
+
+# Reading words takes longer than a small plan.
+_options = lru_cache(maxsize=64)(Options)
+
+
+def words(**given: Any) -> list[str]:
+    """The same as words of a command line."""
+    return [word for name, value in given.items() for word in _words(name, value)]
 
 
 def _words(name: str, value: Any) -> list[str]:

@@ -40,7 +40,8 @@ pub fn penetration_depth(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f
 }
 
 /// What the polygon penetration test finds.
-#[pyclass(frozen, get_all, module = "cplan")]
+#[pyclass(frozen, get_all, eq, module = "cplan")]
+#[derive(PartialEq)]
 pub struct PolygonTest {
     /// Whether the polygons have a point in common: exact, touching counts.
     meet: bool,
@@ -51,6 +52,32 @@ pub struct PolygonTest {
     /// Sides of a and of b that cross properly.
     crossings: Vec<(usize, usize)>,
 }
+
+#[pymethods]
+impl PolygonTest {
+    fn __repr__(&self) -> String {
+        let Self { meet, a_inside, b_inside, crossings } = self;
+        let meet = if *meet { "True" } else { "False" };
+        format!(
+            "<cplan.PolygonTest: meet={meet}, a_inside={a_inside:?}, b_inside={b_inside:?}, crossings={crossings:?}>"
+        )
+    }
+
+    /// What was found, from what it was pickled as.
+    #[staticmethod]
+    fn restored(meet: bool, a_inside: Vec<usize>, b_inside: Vec<usize>, crossings: Vec<(usize, usize)>) -> Self {
+        Self { meet, a_inside, b_inside, crossings }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts)> {
+        let Self { meet, a_inside, b_inside, crossings } = slf.get();
+        let parts = (*meet, a_inside.clone(), b_inside.clone(), crossings.clone());
+        Ok((slf.get_type().getattr("restored")?, parts))
+    }
+}
+
+/// What a [`PolygonTest`] consists of.
+type Parts = (bool, Vec<usize>, Vec<usize>, Vec<(usize, usize)>);
 
 /// Corners of each convex polygon in the other, and sides that cross. Exact.
 ///

@@ -4,6 +4,7 @@
 //! line, plans are those of [`cplan::plan`]; arrays are numpy's.
 
 mod error;
+mod findings;
 mod geometry;
 mod plan;
 mod problem;
@@ -27,6 +28,10 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<geometry::PolygonTest>()?;
     module.add_function(wrap_pyfunction!(plan::plan, module)?)?;
     module.add_function(wrap_pyfunction!(plan::restored, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::seconds_in_rust, module)?)?;
+    module.add_function(wrap_pyfunction!(findings::check, module)?)?;
+    module.add_function(wrap_pyfunction!(findings::verify, module)?)?;
+    module.add_function(wrap_pyfunction!(findings::compare, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::penetration_depth, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::polygon_test, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::minkowski_difference, module)?)?;

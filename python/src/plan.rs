@@ -9,6 +9,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
+use std::time::Instant;
 
 /// An answer with all that the program prints, writes and draws of it: Found, Infeasible or Unknown. Frozen; pickled it is problem, options
 /// and result, and unpickling plans again and compares.
@@ -45,21 +46,22 @@ pub struct Trajectory {
     /// Names of the joints, base to tip.
     joints: [String; 2],
     /// Units of the joints' values: rad or m.
-    units: [&'static str; 2],
+    units: [String; 2],
+    /// What happens between samples, in words.
+    interpolation: Option<String>,
 }
 
 impl Trajectory {
     fn new(py: Python<'_>, report: &cplan::engine::Report) -> PyResult<Option<Self>> {
         let Some(motion) = report.trajectory.clone() else { return Ok(None) };
-        let time = PyArray1::from_vec(py, motion.time);
-        time.readwrite().make_nonwriteable();
         Ok(Some(Self {
-            time: time.unbind(),
+            time: series(py, motion.time),
             position: array(py, motion.position)?,
             velocity: array(py, motion.velocity)?,
             acceleration: array(py, motion.acceleration)?,
             joints: report.joints.clone(),
-            units: report.units,
+            units: report.units.map(str::to_owned),
+            interpolation: report.interpolation.map(str::to_owned),
         }))
     }
 }
@@ -69,6 +71,51 @@ impl Trajectory {
     fn __len__(&self, py: Python<'_>) -> usize {
         self.time.bind(py).len().unwrap_or(0)
     }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("<cplan.Trajectory: {} samples of {}>", self.__len__(py), self.joints.join(", "))
+    }
+
+    /// Columns by name with joint and unit, such as "time [s]" and "elbow velocity [rad/s]": what `pandas.DataFrame` and
+    /// `polars.DataFrame` take.
+    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("cplan._frames")?.call_method1("of_trajectory", (slf,))
+    }
+
+    /// The same as a pandas DataFrame; pandas has to be installed.
+    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("cplan._frames")?.call_method1("pandas", (Self::to_dict(slf)?,))
+    }
+
+    /// A trajectory from what it was pickled as.
+    #[staticmethod]
+    fn restored(
+        py: Python<'_>,
+        time: Vec<f64>,
+        rows: [Vec<[f64; 2]>; 3],
+        joints: [String; 2],
+        units: [String; 2],
+        interpolation: Option<String>,
+    ) -> PyResult<Self> {
+        if rows.iter().any(|rows| rows.len() != time.len()) {
+            return Err(refused("a trajectory has as many positions, velocities and accelerations as times"));
+        }
+        let [position, velocity, acceleration] = rows.map(|rows| array(py, rows));
+        let (position, velocity, acceleration) = (position?, velocity?, acceleration?);
+        Ok(Self { time: series(py, time), position, velocity, acceleration, joints, units, interpolation })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let restored = slf.get_type().getattr("restored")?;
+        Ok((restored, slf.py().import("cplan._frames")?.call_method1("parts", (slf,))?))
+    }
+}
+
+/// Numbers as an array, which nobody changes.
+fn series(py: Python<'_>, numbers: Vec<f64>) -> Py<PyArray1<f64>> {
+    let array = PyArray1::from_vec(py, numbers);
+    array.readwrite().make_nonwriteable();
+    array.unbind()
 }
 
 /// A plan as the class of its outcome.
@@ -106,6 +153,20 @@ pub fn plan(
         cplan::engine::plan_with(&problem.problem, &options, &mut say)
     })?;
     outcome(py, made.map_err(refused)?)
+}
+
+/// Seconds that a plan takes on the average of so many, without Python: what the overhead of `plan` is measured against.
+#[pyfunction]
+#[pyo3(signature = (problem, options = None, count = 1))]
+pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Options>, count: u32) -> PyResult<f64> {
+    let options = options.map_or_else(cplan::Options::default, |options| options.options);
+    py.detach(|| {
+        let begun = Instant::now();
+        for _ in 0..count {
+            std::hint::black_box(cplan::plan(&problem.problem, &options).map_err(refused)?);
+        }
+        Ok(begun.elapsed().as_secs_f64() / f64::from(count))
+    })
 }
 
 /// A plan from what it was pickled as: it is planned again, and refused if the result differs.
@@ -176,6 +237,16 @@ impl Plan {
         let name = slf.get_type().qualname()?;
         let summary = slf.get().plan.summary();
         Ok(format!("<cplan.{name}: {}>", summary.lines().take(2).collect::<Vec<_>>().join("; ")))
+    }
+
+    /// Itself: it never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// Itself: it never changes.
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {

@@ -2,7 +2,7 @@
 
 use crate::error::{raised, refused};
 use cplan::Joint;
-use cplan::input::{Overrides, Source, scene_from, scene_of};
+use cplan::input::{InputError, LoadedScene, Overrides, Source, scene_from, scene_of};
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -27,7 +27,7 @@ impl Arm {
     /// Reads a URDF file.
     #[staticmethod]
     fn from_urdf(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Source::read(&path).map(|source| Self(What::Urdf(source))).map_err(|error| raised(py, &error))
+        Source::read(&absolute(path)?).map(|source| Self(What::Urdf(source))).map_err(|error| raised(py, &error))
     }
 
     /// Takes a URDF text. `name` is for messages.
@@ -66,6 +66,12 @@ impl Arm {
         if let What::Urdf(source) = &self.0 { Some(source.text()) } else { None }
     }
 
+    /// Names of the two joints that are planned in a world, base to tip.
+    fn joints(&self, py: Python<'_>, world: &World) -> PyResult<[String; 2]> {
+        let loaded = py.detach(|| self.among(world)).map_err(|error| raised(py, &error))?;
+        Ok(loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone()))
+    }
+
     fn __repr__(&self) -> String {
         match &self.0 {
             What::Urdf(source) => format!("<cplan.Arm: URDF of {} characters>", source.text().len()),
@@ -84,6 +90,17 @@ impl Arm {
     }
 }
 
+impl Arm {
+    /// In its world.
+    pub fn among(&self, world: &World) -> Result<LoadedScene, InputError> {
+        let world = world.source.clone();
+        match &self.0 {
+            What::Urdf(source) => scene_from(source.clone(), world),
+            What::Made(arm) => scene_of(*arm.clone(), world),
+        }
+    }
+}
+
 /// A polygonal workspace, with start and goal or steps: the text of a world file (TOML).
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(PartialEq)]
@@ -96,7 +113,7 @@ impl World {
     /// Reads a world file (TOML).
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Source::read(&path).map(|source| Self { source }).map_err(|error| raised(py, &error))
+        Source::read(&absolute(path)?).map(|source| Self { source }).map_err(|error| raised(py, &error))
     }
 
     /// Takes the text of a world file. `name` is for messages.
@@ -137,6 +154,11 @@ impl World {
     }
 }
 
+/// Where a file is for a process elsewhere, too: what lies beside it is found after unpickling, and wherever the process goes.
+fn absolute(path: PathBuf) -> PyResult<PathBuf> {
+    Ok(std::path::absolute(path)?)
+}
+
 /// How to make a thing again that has a static method `restored`. A text stays as it was read; files that it names are read when a problem is made.
 fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyResult<(Bound<'py, PyAny>, (String,))> {
     let data = serde_json::to_string(data).map_err(refused)?;
@@ -149,7 +171,7 @@ fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyR
 pub struct Options {
     words: Vec<String>,
     pub options: cplan::Options,
-    overrides: Overrides,
+    pub overrides: Overrides,
 }
 
 #[pymethods]
@@ -186,14 +208,7 @@ impl Problem {
     #[pyo3(signature = (arm, world, options = None))]
     fn new(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<Self> {
         let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
-        let problem = py.detach(|| {
-            let world = world.source.clone();
-            let scene = match &arm.0 {
-                What::Urdf(source) => scene_from(source.clone(), world),
-                What::Made(arm) => scene_of(*arm.clone(), world),
-            };
-            cplan::Problem::of_scene(scene?, &overrides)
-        });
+        let problem = py.detach(|| cplan::Problem::of_scene(arm.among(world)?, &overrides));
         problem.map(|problem| Self { problem }).map_err(|error| raised(py, &error))
     }
 
@@ -213,6 +228,16 @@ impl Problem {
     #[getter]
     fn kind(&self) -> &'static str {
         self.problem.scene().arm().kind()
+    }
+
+    /// Itself: it never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// Itself: it never changes.
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
     }
 
     /// A problem from what it was pickled as.

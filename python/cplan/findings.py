@@ -1,0 +1,453 @@
+"""What others chose, judged: `check` and `verify`; and planners side by side: `compare`.
+
+What is found has the members of the program's JSON as attributes, None where it has none; `to_dict` and `to_json` give that JSON itself.
+"""
+
+import csv
+import io
+import json
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass, field, fields, is_dataclass
+from os import PathLike
+from types import UnionType
+from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cplan import _frames
+from cplan._cplan import Arm, Plan, Trajectory, World
+from cplan._cplan import check as _check
+from cplan._cplan import compare as _compare
+from cplan._cplan import verify as _verify
+from cplan.planning import options, words
+
+Pair = tuple[float, float]
+Vector = tuple[float, float, float]
+Side = tuple[Pair, Pair]
+
+
+@dataclass(frozen=True)
+class _Findings:
+    _: KW_ONLY
+    _json: str = field(repr=False)
+
+    def to_json(self) -> str:
+        """What the program prints with `--json`, byte for byte but for times that were taken."""
+        return self._json
+
+    def to_dict(self) -> dict[str, Any]:
+        """The same as dictionaries and lists."""
+        found: dict[str, Any] = json.loads(self._json)
+        return found
+
+
+@dataclass(frozen=True)
+class Basis:
+    """The plane of motion: directions of its coordinates and of heights in the root frame."""
+
+    u: Vector
+    v: Vector
+    normal: Vector
+
+
+@dataclass(frozen=True)
+class Corner:
+    """A corner in the other shape: plane coordinates, and how far from the nearest side; metres."""
+
+    at: Pair
+    depth: float
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A link and an obstacle that touch, or are nearer than the distance to keep; lengths in metres.
+
+    `depth` is the penetration depth, negative a distance. Of polygons there are the corners of each in the other, and the sides that cross,
+    the link's and the obstacle's.
+    """
+
+    link: str
+    body: str
+    obstacle: str
+    touching: bool
+    depth: float
+    link_corners_inside: tuple[Corner, ...]
+    obstacle_corners_inside: tuple[Corner, ...]
+    crossing_sides: tuple[tuple[Side, Side], ...]
+
+
+@dataclass(frozen=True)
+class NearestFree:
+    """The nearest free configuration: how far it is in joint space, and the clearance there, metres.
+
+    `resolution` is the spacing of the values of joint 1 that were looked at; joint 2 is exact for each.
+    """
+
+    configuration: Pair
+    distance: float
+    clearance: float | None
+    resolution: float
+
+
+@dataclass(frozen=True)
+class Check(_Findings):
+    """Why a configuration is, or is not, free.
+
+    `clearance` is the least signed distance to an obstacle, `required` the distance to keep, `tip` the tip's place: metres.
+    """
+
+    free: bool
+    configuration: Pair
+    within_limits: tuple[bool, bool]
+    tip: Pair
+    clearance: float | None
+    required: float
+    plane: Basis
+    contacts: tuple[Contact, ...]
+    nearest_free: NearestFree | None
+
+
+@dataclass(frozen=True)
+class Encounter:
+    """A link and an obstacle at a moment of a motion.
+
+    `depth` is the penetration depth, metres, negative a distance. The moment is a `time`, seconds; of a path without times a `waypoint`,
+    counted from 0, with the share of the way to the next. `sample` is the one at or before it.
+    """
+
+    link: str
+    body: str
+    obstacle: str
+    depth: float
+    time: float | None
+    waypoint: float | None
+    sample: int
+    configuration: Pair
+
+
+@dataclass(frozen=True)
+class BrokenLimit:
+    """A limit that a motion breaks: what is reached and what is allowed, rad or m and seconds; and when, as of an `Encounter`."""
+
+    joint: str
+    limit: str
+    value: float
+    allowed: float
+    time: float | None
+    waypoint: float | None
+    sample: int
+    configuration: Pair
+
+
+@dataclass(frozen=True)
+class TurnContact:
+    """Where an object that is turned hits something: its orientation, radians."""
+
+    angle: float
+    obstacle: str
+
+
+@dataclass(frozen=True)
+class Turn:
+    """A turn of the wrist while the arm stands still: orientations of the object, radians; `clearance` in metres."""
+
+    from_: float
+    to: float
+    seconds: float
+    clearance: float | None
+    contact: TurnContact | None
+
+
+@dataclass(frozen=True)
+class Step:
+    """What is found of a step of a task. Numbers of steps and cycles count from 1; `seconds` are those of its motion."""
+
+    step: int
+    cycle: int
+    action: str
+    object: str | None
+    carried: str | None
+    verdict: str
+    first_sample: int
+    last_sample: int
+    seconds: float
+    clearance: float | None
+    nearest: Encounter | None
+    first_contact: Encounter | None
+    free_until: float | None
+    deepest: Encounter | None
+    undecided: Encounter | None
+    turn: Turn | None
+    limits_broken: tuple[BrokenLimit, ...]
+    faults: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Verification(_Findings):
+    """What there is to say about a motion, all of it, also between its samples.
+
+    `verdict` is one of free, undecided, claims (the file says of it what is false), ends (it does not lead from start to goal), limits, task
+    (it is not the task that the world asks for), collision. `clearance` is a proven lower bound on the distance to every obstacle, metres.
+    """
+
+    verdict: str
+    joints: tuple[str, str]
+    units: tuple[str, str]
+    samples: int
+    duration: float | None
+    required: float
+    clearance: float | None
+    nearest: Encounter | None
+    first_contact: Encounter | None
+    free_until: float | None
+    deepest: Encounter | None
+    undecided: Encounter | None
+    limits_broken: tuple[BrokenLimit, ...]
+    faults: tuple[str, ...]
+    not_judged: tuple[str, ...]
+    steps: tuple[Step, ...] | None
+    notes: tuple[str, ...]
+
+    @property
+    def free(self) -> bool:
+        """Whether it is proven free, within all limits, and what was asked for."""
+        return self.verdict == "free"
+
+
+@dataclass(frozen=True)
+class StageTimes:
+    """Seconds that the stages of a run took."""
+
+    build: float | None
+    query: float | None
+    certify: float | None
+    prove: float | None
+    total: float | None
+
+
+@dataclass(frozen=True)
+class Run:
+    """A planner's run on a problem.
+
+    `length` is the path's in joint space, `ratio` that over the shortest path of all planners, `over_optimum` that over the proven lower
+    bound. `clearance` in metres, `duration` of the motion in seconds, `size` of what the planner built by name.
+    """
+
+    planner: str
+    path_kind: str
+    outcome: str
+    length: float | None
+    paths: dict[str, dict[str, float | None] | None] | None
+    ratio: float | None
+    over_optimum: float | None
+    pieces: int | None
+    clearance: float | None
+    duration: float | None
+    size: dict[str, int] | None
+    time: StageTimes
+    memory: int | None
+    note: str | None
+    reason: str | None
+
+
+@dataclass(frozen=True)
+class _Compared(_Findings):
+    _: KW_ONLY
+    _text: str = field(repr=False)
+    _markdown: str = field(repr=False)
+    _csv: str = field(repr=False)
+
+    def __str__(self) -> str:
+        return self._text
+
+    def _repr_markdown_(self) -> str:
+        return self._markdown
+
+    def to_csv(self) -> str:
+        """What the program prints with `--csv`: a line a run."""
+        return self._csv
+
+    def to_columns(self) -> dict[str, list[Any]]:
+        """A row a run, columns as in `to_csv`: what `pandas.DataFrame` and `polars.DataFrame` take; None where there is nothing."""
+        rows = list(csv.DictReader(io.StringIO(self._csv)))
+        return {name: [_entry(name, row[name]) for row in rows] for name in rows[0]}
+
+    def to_pandas(self) -> Any:
+        """The same as a pandas DataFrame; pandas has to be installed."""
+        return _frames.pandas(self.to_columns())
+
+
+_WORDS = ("problem", "planner", "outcome", "note", "reason")
+_COUNTS = ("nodes", "edges", "cells", "sweeps", "expanded", "memory_bytes")
+
+
+def _entry(column: str, text: str) -> Any:
+    if not text:
+        return None
+    return text if column in _WORDS else int(text) if column in _COUNTS else float(text)
+
+
+@dataclass(frozen=True)
+class ProblemRuns:
+    """The planners' runs on a problem; lengths in `length_unit`, no path is shorter than `lower_bound`: proven.
+
+    `start` and `goal` where they were drawn at random.
+    """
+
+    problem: str
+    length_unit: str
+    lower_bound: float | None
+    contradictory: bool
+    planners: tuple[Run, ...]
+    start: Pair | None
+    goal: Pair | None
+
+
+@dataclass(frozen=True)
+class Comparison(ProblemRuns, _Compared):
+    """Planners side by side on one problem."""
+
+
+@dataclass(frozen=True)
+class Tally:
+    """How many of a planner's runs ended in each way, and how their figures are distributed."""
+
+    planner: str
+    found: int
+    infeasible: int
+    unknown: int
+    total: int
+    distributions: dict[str, dict[str, float]]
+
+
+@dataclass(frozen=True)
+class Comparisons(_Compared):
+    """Planners side by side on random problems in one world; `summary` is in words."""
+
+    title: str
+    queries: int
+    seed: int
+    problems: tuple[ProblemRuns, ...]
+    planners: tuple[Tally, ...]
+    summary: tuple[str, ...]
+    contradictions: tuple[str, ...]
+
+
+_Made = TypeVar("_Made")
+
+
+def _made(kind: type[_Made], data: Any, **given: str) -> _Made:
+    """An object of what JSON has; what it leaves out is empty or None."""
+    types = get_type_hints(kind)
+    # A trailing underscore is of names that Python keeps for itself.
+    members = {each.name: data.get(each.name.rstrip("_")) for each in fields(kind) if each.init and each.name[0] != "_"}  # type: ignore[arg-type]
+    return kind(**{name: _value(types[name], value) for name, value in members.items()}, **given)
+
+
+def _value(kind: Any, value: Any) -> Any:
+    if isinstance(kind, UnionType):
+        return None if value is None else _value(get_args(kind)[0], value)
+    if get_origin(kind) is tuple:
+        of, *others = get_args(kind)
+        kinds = [of] * len(value or []) if others == [...] else [of, *others]
+        return tuple(_value(each, entry) for each, entry in zip(kinds, value or []))
+    return _made(kind, value) if is_dataclass(kind) and isinstance(kind, type) else value
+
+
+def check(arm: Arm, world: World, at: Sequence[float] | str, *, clearance: float | None = None) -> Check:
+    """Why a configuration is, or is not, free: contacts, their depth, limits, and the nearest free configuration.
+
+    `at` are joint values, base to tip, radians or metres, or a text such as "20deg,-60deg". `clearance` (metres) stands in place of the world's.
+
+    >>> arm = Arm.rr([1.0, 0.8], width=0.06)
+    >>> found = check(arm, World({"circle": {"center": [1.6, 0.0], "radius": 0.1}, "name": "post"}), at=[0.0, 0.0])
+    >>> found.free, found.contacts[0].obstacle, found.contacts[0].depth
+    (False, 'post', 0.13)
+    """
+    place = at if isinstance(at, str) else ",".join(str(float(value)) for value in at)
+    text = _check(arm, world, place, clearance)
+    return _made(Check, json.loads(text), _json=text)
+
+
+def verify(
+    arm: Arm,
+    world: World,
+    motion: str | PathLike[str] | Plan | Trajectory | ArrayLike,
+    *,
+    start: Sequence[float] | str | None = None,
+    goal: Sequence[float] | str | None = None,
+    goal_tip: Sequence[float] | None = None,
+    clearance: float | None = None,
+    anywhere: bool = False,
+    unwrap: bool = False,
+) -> Verification:
+    """Judges anyone's motion: whether all of it, also between samples, is free of collision, within the limits, and leads from start to goal.
+
+    `motion` is a file (.json of cplan, .csv, .yaml or .mcap of ROS 2), a plan with a motion, a `Trajectory`; an array of waypoints, shape
+    `(n, 2)`, straight segments between them; or a tuple of arrays `(time, position)`, shapes `(n,)` and `(n, 2)`, with velocities and
+    accelerations if there are any. Joint values are radians or metres, base to tip; seconds.
+
+    `start`, `goal`, `goal_tip` and `clearance` stand in place of the world's; `anywhere` it may begin and end where it does; `unwrap` lets
+    joints without limits go the short way from sample to sample.
+
+    >>> arm = Arm.rr([1.0, 0.8], width=0.06)
+    >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.0], goal=[-1.0, 0.0])
+    >>> verify(arm, world, [[1.0, 0.0], [-1.0, 0.0]]).verdict
+    'collision'
+    >>> verify(arm, world, [[1.0, 0.0], [0.5, 1.5], [-1.0, 1.5], [-1.0, 0.0]]).verdict
+    'free'
+    """
+    asked = options(start=start, goal=goal, goal_tip=goal_tip, clearance=clearance)
+    file = motion if isinstance(motion, (str, PathLike)) else None
+    text = None if file is not None else _motion(arm, world, motion)
+    found = _verify(arm, world, file, text, asked, anywhere, unwrap)
+    return _made(Verification, json.loads(found), _json=found)
+
+
+def _motion(arm: Arm, world: World, motion: Any) -> str:
+    """A motion that is no file as the JSON of one."""
+    if isinstance(motion, Plan):
+        return motion.to_json()
+    if isinstance(motion, Trajectory):
+        rows = [motion.time, motion.position, motion.velocity, motion.acceleration]
+        return _document(motion.joints, rows, motion.interpolation)
+    joints = arm.joints(world)
+    if isinstance(motion, tuple):
+        return _document(joints, motion, None)
+    return json.dumps({"joints": joints, "path": np.asarray(motion, float).tolist()})
+
+
+def _document(joints: list[str], rows: Sequence[Any], interpolation: str | None) -> str:
+    names = ["time", "position", "velocity", "acceleration"]
+    samples = {name: np.asarray(row, float).tolist() for name, row in zip(names, rows)}
+    return json.dumps({"joints": joints, "interpolation": interpolation, "trajectory": samples})
+
+
+def compare(
+    arm: Arm,
+    world: World,
+    *,
+    planners: Sequence[str] = (),
+    variants: Sequence[str] = (),
+    queries: int | None = None,
+    seed: int | None = None,
+    **more: Any,
+) -> Comparison | Comparisons:
+    """Planners side by side: outcome, length over the proven optimum, clearance, duration, and where the time went.
+
+    `planners` are names, all if none are given; `variants` planners with options of their own, such as "trapezoid --path own". With
+    `queries`, so many random start-goal pairs in place of the world's own, which follow from `seed`. All other options are those of
+    `cplan compare`, by name. Ctrl-C ends it, but for `jobs=2` and more.
+
+    >>> arm = Arm.rr([1.0, 0.8], width=0.06)
+    >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.2], goal=[-1.0, -0.2])
+    >>> compared = compare(arm, world, planners=["visibility", "wavefront"], cells=64)
+    >>> [(run.planner, run.outcome) for run in compared.planners]
+    [('visibility', 'found'), ('wavefront', 'found')]
+    """
+    asked = [f"--planner={name}" for name in planners] + [f"--with={variant}" for variant in variants]
+    texts = _compare(arm, world, asked + words(queries=queries, seed=seed, **more))
+    given = dict(zip(["_json", "_text", "_markdown", "_csv"], texts))
+    data = json.loads(texts[0])
+    return _made(Comparison, data, **given) if queries is None else _made(Comparisons, data, **given)

@@ -1,0 +1,78 @@
+//! What others chose, judged: configurations and motions; and planners side by side. As the program's JSON, which
+//! `cplan/findings.py` makes objects of.
+
+use crate::error::{raised, refused};
+use crate::problem::{Arm, Options, World};
+use crate::signals::interruptible;
+use cplan::cli::{Failure, compare_in};
+use cplan::engine::findings;
+use cplan::input::{InputError, JointValues, Overrides, Source, load_recording, read_recording};
+use pyo3::prelude::*;
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Why a configuration (`0.3,-1`) is, or is not, free.
+#[pyfunction]
+#[pyo3(signature = (arm, world, at, clearance = None))]
+pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Option<f64>) -> PyResult<String> {
+    let at: JointValues = at.parse().map_err(|error| refused(format!("at: {error}")))?;
+    let found = interruptible(py, |_| {
+        let scene = arm.among(world)?.keeping(clearance)?.scene;
+        Ok(findings::check(&scene, at.resolve(&scene.arm().joints, "at")?))
+    })?;
+    printed(&found.map_err(|error: InputError| raised(py, &error))?)
+}
+
+/// Judges a motion: a file, or a text as JSON files have it.
+#[pyfunction]
+#[pyo3(signature = (arm, world, file = None, text = None, options = None, anywhere = false, unwrap = false))]
+#[allow(clippy::too_many_arguments)]
+pub fn verify(
+    py: Python<'_>,
+    arm: &Arm,
+    world: &World,
+    file: Option<PathBuf>,
+    text: Option<String>,
+    options: Option<&Options>,
+    anywhere: bool,
+    unwrap: bool,
+) -> PyResult<String> {
+    let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
+    let found = interruptible(py, |_| {
+        let loaded = arm.among(world)?.keeping(overrides.clearance)?;
+        let mut recorded = match &file {
+            Some(file) => load_recording(file, &loaded)?,
+            None => read_recording(&Source::in_memory("motion", text.unwrap_or_default()), &loaded)?,
+        };
+        if recorded.steps.is_some() && anywhere {
+            return Ok(None);
+        }
+        if unwrap {
+            recorded.recording = recorded.recording.unwrapped(&loaded.scene.arm().topology());
+        }
+        findings::verify(&loaded, &recorded, &overrides, anywhere).map(Some)
+    })?;
+    match found.map_err(|error: InputError| raised(py, &error))? {
+        Some(found) => printed(&found),
+        None => Err(refused("anywhere is for motions; a task begins at its start")),
+    }
+}
+
+/// Planners side by side, told by words of the program's `compare`: JSON, text, Markdown and CSV.
+#[pyfunction]
+pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> PyResult<[String; 4]> {
+    let compared = interruptible(py, |_| compare_in(arm.among(world)?, &words))?;
+    let study = compared.map_err(|failure| match failure {
+        Failure::Input(error) => raised(py, &error),
+        other => refused(other),
+    })?;
+    match study.comparisons.first().filter(|_| study.sampling.is_none()) {
+        Some(only) => Ok([printed(&only.to_json())?, only.to_text(), only.to_markdown(), only.to_csv()]),
+        None => Ok([printed(&study.to_json())?, study.to_text(), study.to_markdown(), study.to_csv()]),
+    }
+}
+
+/// As the program prints it.
+fn printed(found: &impl Serialize) -> PyResult<String> {
+    serde_json::to_string_pretty(found).map(|json| json + "\n").map_err(refused)
+}
