@@ -10,6 +10,7 @@ use super::man::ManArgs;
 use super::message_args::MessageArgs;
 use super::print_args::PrintArgs;
 use super::reach::ReachArgs;
+use super::schema::SchemaArgs;
 #[cfg(feature = "serve")]
 use super::serve::ServeArgs;
 #[cfg(feature = "study")]
@@ -110,9 +111,8 @@ pub enum Command {
     Man(ManArgs),
     /// Tell what each planner can be told: these options are options of the main job.
     Planners(PlannersArgs),
-    /// Print the JSON schema of world files, for editors.
-    #[command(after_help = super::schema::HELP)]
-    Schema,
+    /// Print the JSON schema of world files, for editors, or of configuration spaces.
+    Schema(SchemaArgs),
 }
 
 /// The two files.
@@ -165,7 +165,8 @@ pub struct PlanArgs {
     pub query: QueryArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics). Can be repeated.
+    /// Write the result: .json, .csv, .yaml (ROS 2 JointTrajectory) or .mcap (recording of ROS 2 topics); or the configuration
+    /// space with what the planner saw in it: cspace.json, NAME.cspace.json or .geojson. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Vec<PathBuf>,
     /// Write the motion of each step into a .csv or .yaml file of its own, from rest to rest: plan-001.yaml, plan-002.yaml

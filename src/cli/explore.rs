@@ -105,9 +105,11 @@ impl From<StrategyName> for Strategy {
 /// Bad input and I/O.
 pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let sinks = sinks::sinks(&args.output, &args.picture)?;
-    if let Some(Sink::Result(_, path)) = sinks.iter().find(|sink| !is_known(sink)) {
-        let path = path.display();
-        return Err(Failure::Usage(format!("{path}: an exploration is written as .json, .csv or .yaml")));
+    if let Some(sink) = sinks.iter().find(|sink| !is_known(sink)) {
+        let path = sink.path().display();
+        return Err(Failure::Usage(format!(
+            "{path}: an exploration is written as .json (of another name than cspace.json), .csv or .yaml"
+        )));
     }
     let map = args.map.as_deref().map(map_files).transpose()?;
     let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
@@ -135,6 +137,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                     files.push((path.clone(), text.into_bytes()));
                 }
             },
+            Sink::CSpace(..) => (),
             Sink::Picture(format, path) => {
                 let view = || view(&world, &done);
                 let page = || {

@@ -92,7 +92,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         (Some(Command::Completions(args)), _) => completions::run(args),
         (Some(Command::Man(args)), _) => man::run(args),
         (Some(Command::Planners(_)), _) => planners(),
-        (Some(Command::Schema), _) => schema::run(),
+        (Some(Command::Schema(args)), _) => schema::run(args),
         (None, Some(files)) => plan::run(files, &cli.plan),
         (None, None) => {
             let error = Cli::command().error(ErrorKind::MissingRequiredArgument, "URDF and WORLD are required");

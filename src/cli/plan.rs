@@ -8,6 +8,7 @@ use super::{DONE, INFEASIBLE, UNKNOWN, words};
 use crate::engine::{Options, Plan, Problem, plan_with};
 use crate::input::{self, InputError, LoadedScene};
 use crate::model::Status;
+use crate::motion::write_whole;
 use std::time::Instant;
 
 /// Plans, writes what was asked for, and returns the exit code.
@@ -51,18 +52,24 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     })
 }
 
-/// Writes results, then pictures. The names of the files that are written, for people.
+/// Writes results, then configuration spaces and pictures. The names of the files that are written, for people.
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
 fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<String>, Failure> {
     let mut written = files.write(plan.report())?;
-    let mut view = None;
+    let (mut view, mut spaces) = (None, None);
     for sink in sinks {
-        if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, view.get_or_insert_with(|| plan.view()))?;
-            written.push(path.display().to_string());
+        match sink {
+            Sink::Result(..) => continue,
+            Sink::CSpace(format, path) => {
+                write_whole(path, format.text(spaces.get_or_insert_with(|| plan.cspaces())).as_bytes())?;
+            }
+            Sink::Picture(format, path) => {
+                sinks::save_picture(*format, path, view.get_or_insert_with(|| plan.view()))?;
+            }
         }
+        written.push(sink.path().display().to_string());
     }
     Ok(written)
 }

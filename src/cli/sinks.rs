@@ -4,7 +4,7 @@ use super::failure::Failure;
 use crate::draw::View;
 use crate::input::{FileIdentity, read_from};
 use crate::motion::{Format, check_writable, write_whole};
-use crate::output::PictureFormat;
+use crate::output::{CSpaceFormat, PictureFormat};
 use crate::text::{plain, plain_json};
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 pub enum Sink {
     /// The result.
     Result(Format, PathBuf),
+    /// The configuration space as data.
+    CSpace(CSpaceFormat, PathBuf),
     /// A picture.
     Picture(PictureFormat, PathBuf),
 }
@@ -23,7 +25,7 @@ impl Sink {
     /// The file.
     pub fn path(&self) -> &Path {
         match self {
-            Sink::Result(_, path) | Sink::Picture(_, path) => path,
+            Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) => path,
         }
     }
 }
@@ -35,7 +37,10 @@ impl Sink {
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
     let mut sinks = Vec::new();
     for path in results {
-        sinks.push(Sink::Result(Format::from_path(path)?, path.clone()));
+        sinks.push(match CSpaceFormat::from_path(path) {
+            Some(format) => Sink::CSpace(format, path.clone()),
+            None => Sink::Result(Format::from_path(path)?, path.clone()),
+        });
     }
     for path in pictures {
         sinks.push(Sink::Picture(PictureFormat::from_path(path)?, path.clone()));

@@ -44,10 +44,13 @@ mod translation;
 mod union;
 mod zones;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
-pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regions, traced_pairs};
+pub use regions::{CObstacle, Polygon, Regions, c_obstacles, inner_regions, regions, traced_pairs, united};
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_slices, outer_grid};
 pub use slices::{Forbidden, Slice};
@@ -55,7 +58,8 @@ pub use stretches::free_stretches;
 pub use zones::{Zone, ZonedGrid};
 
 /// What a representation of free space proves about the real one.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Proves {
     /// Free means free and blocked means blocked, up to rounding.
     Exact,

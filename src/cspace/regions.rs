@@ -2,7 +2,7 @@
 
 use super::coarse::coarse;
 use super::curves::Curves;
-use super::union::free_space;
+use super::union::{blocked_space, free_space};
 use super::{Proves, translation};
 use crate::geometry::{Hits, Point, cross};
 use crate::interrupt::checkpoint;
@@ -154,9 +154,23 @@ fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 
 }
 
 fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
-    let periods = [0, 1].map(|k| scene.arm().joints[k].joint_type.is_revolute().then_some(TAU));
-    let free = free_space(window, periods, obstacles.iter().map(|o| o.contour.as_slice()));
+    let free = free_space(window, periods(scene), obstacles.iter().map(|o| o.contour.as_slice()));
     Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
+}
+
+/// After which joint values poses repeat.
+fn periods(scene: &Scene) -> [Option<f64>; 2] {
+    scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
+}
+
+/// What each obstacle of the workspace blocks within the limits, on a circle within `[-pi, pi]`, given the contours of the
+/// [`c_obstacles`]: disjoint polygons an obstacle, cut at the seams of circles.
+#[must_use]
+pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<Polygon>> {
+    let window = scene.arm().topology().ranges.map(JointRange::domain);
+    let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
+    let obstacles = 0..scene.workspace().obstacles.len();
+    obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 
 /// Contours that cover every configuration in which a pair of the scene is at most its clearance and `margin` apart, and

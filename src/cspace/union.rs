@@ -17,9 +17,32 @@ const SLIVER_AREA: f64 = 1e-10;
 /// Every contour is counter-clockwise and repeats by `periods` along each axis that has one. Corners are rounded to a
 /// grid of some 1e-17 of the coordinates' range, which contours that carry a margin absorb.
 pub(super) fn free_space<'a>(
-    window: [(f64, f64); 2],
+    window: Window,
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
+) -> Vec<Polygon> {
+    let mut free = parts(window, periods, contours, OverlayRule::Difference);
+    free.retain(|polygon| polygon.area() > SLIVER_AREA);
+    free
+}
+
+/// The same of the parts of `window` that contours cover, all of them.
+pub(super) fn blocked_space<'a>(
+    window: Window,
+    periods: [Option<f64>; 2],
+    contours: impl Iterator<Item = &'a [Point]>,
+) -> Vec<Polygon> {
+    parts(window, periods, contours, OverlayRule::Intersect)
+}
+
+/// Lower and upper value of each axis.
+type Window = [(f64, f64); 2];
+
+fn parts<'a>(
+    window: Window,
+    periods: [Option<f64>; 2],
+    contours: impl Iterator<Item = &'a [Point]>,
+    rule: OverlayRule,
 ) -> Vec<Polygon> {
     let [(left, right), (bottom, top)] = window;
     let subject = vec![[left, bottom], [right, bottom], [right, top], [left, top]];
@@ -37,15 +60,11 @@ pub(super) fn free_space<'a>(
     }
     let mut overlay = overlay(&subject, &blocked);
     let inside = |[x, y]: [f64; 2]| Point::new(x.clamp(left, right), y.clamp(bottom, top));
-    overlay
-        .overlay(OverlayRule::Difference, FillRule::NonZero)
-        .into_iter()
-        .filter_map(|shape| {
-            let mut contours = shape.into_iter().map(|contour| contour.into_iter().map(inside).collect::<Vec<_>>());
-            let polygon = Polygon { outer: contours.next()?, holes: contours.collect() };
-            (polygon.area() > SLIVER_AREA).then_some(polygon)
-        })
-        .collect()
+    let polygon = |shape: Contours| {
+        let mut contours = shape.into_iter().map(|contour| contour.into_iter().map(inside).collect::<Vec<_>>());
+        Some(Polygon { outer: contours.next()?, holes: contours.collect() })
+    };
+    overlay.overlay(rule, FillRule::NonZero).into_iter().filter_map(polygon).collect()
 }
 
 /// With more contours than this, neighbours are united before all of them are.

@@ -1,5 +1,6 @@
 //! The three answers.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use std::fmt;
 
@@ -37,7 +38,7 @@ impl<F, I, U> Outcome<F, I, U> {
 }
 
 /// Which of the three answers it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// With a certified path.

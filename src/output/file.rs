@@ -1,5 +1,6 @@
 //! Files of a plan.
 
+use super::cspace::CSpaceFormat;
 use super::picture::{PictureFormat, PictureFormatError};
 use crate::draw::DrawError;
 use crate::engine::Plan;
@@ -12,6 +13,8 @@ use thiserror::Error;
 pub enum FileFormat {
     /// The result, or the motion alone.
     Result(Format),
+    /// The configuration space as data.
+    CSpace(CSpaceFormat),
     /// A picture, or a page.
     Picture(PictureFormat),
 }
@@ -40,11 +43,15 @@ pub enum SaveError {
 }
 
 impl FileFormat {
-    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png` or `.html`.
+    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.html` or `.geojson`; but
+    /// `cspace.json` and what ends in `.cspace.json` is the configuration space.
     ///
     /// # Errors
     /// Any other extension, and those that this build of the program does not have.
     pub fn from_path(path: &Path) -> Result<Self, SaveError> {
+        if let Some(format) = CSpaceFormat::from_path(path) {
+            return Ok(Self::CSpace(format));
+        }
         match PictureFormat::from_path(path) {
             Ok(format) => Ok(Self::Picture(format)),
             Err(error @ PictureFormatError::WithoutPng { .. }) => Err(error.into()),
@@ -62,6 +69,7 @@ impl Plan {
     pub fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
         match format {
             FileFormat::Result(format) => Ok(self.report().bytes(format)),
+            FileFormat::CSpace(format) => Ok(Some(format.text(&self.cspaces()).into_bytes())),
             FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
         }
     }

@@ -1,8 +1,9 @@
 //! How a plan leaves cplan: as files, pictures, a page, and a summary for people.
 //!
 //! All of it are methods of [`Plan`](crate::engine::Plan): `bytes` and `save` for files, `svg` and `html` for pictures,
-//! `summary` for a terminal.
+//! `summary` for a terminal; `cspaces` has the configuration space as data.
 
+mod cspace;
 mod file;
 mod motion_summary;
 mod picture;
@@ -10,6 +11,10 @@ mod step_lines;
 mod summary;
 mod task_summary;
 
+pub use cspace::{
+    Axis, Boxes, CSpace, CSpaceFormat, CSpaces, Cells, FieldGrid, FreeRegion, ObstacleRegion, Polygons, Roadmap,
+    Values, Way, cspace_schema,
+};
 pub use file::{FileFormat, SaveError};
 #[cfg(feature = "serve")]
 pub(crate) use picture::status;

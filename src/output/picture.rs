@@ -42,7 +42,7 @@ pub enum PictureFormatError {
 const PNG_SCALE: f64 = 2.0;
 
 /// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.
-const PICTURE_TOLERANCE: f64 = 1e-3;
+pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
 impl PictureFormat {
     /// The format that a picture's extension stands for; upper and lower case are the same.

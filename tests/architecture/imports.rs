@@ -32,7 +32,7 @@ const MAY_IMPORT: [(&str, &[&str]); 24] = [
     ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("study", &["space", "model", "input", "engine", "report"]),
-    ("output", &["space", "model", "cspace", "check", "motion", "engine", "draw"]),
+    ("output", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine", "draw"]),
     ("grammar", &["model", "field", "planner", "motion", "engine"]),
     (
         "serve",
