@@ -30,6 +30,7 @@ from cplan._cplan import (
     minkowski_difference,
     penetration_depth,
     polygon_test,
+    slices,
 )
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
 from cplan.planning import plan
@@ -57,5 +58,6 @@ __all__ = [
     "penetration_depth",
     "plan",
     "polygon_test",
+    "slices",
     "verify",
 ]

@@ -30,11 +30,11 @@ def words(**given: Any) -> list[str]:
 
 
 def _words(name: str, value: Any) -> list[str]:
+    if value is None or value is False:
+        return []
     option = "--" + name.replace("_", "-")
     if hasattr(value, "tolist"):
         value = value.tolist()
-    if value is None or value is False:
-        return []
     if value is True:
         return [option]
     if isinstance(value, (list, tuple)):

@@ -2,11 +2,15 @@
 //! `cplan/findings.py` makes objects of.
 
 use crate::error::{raised, refused};
+use crate::geometry::array;
 use crate::problem::{Arm, Options, World};
 use crate::signals::interruptible;
 use cplan::cli::{Failure, compare_in};
+use cplan::cspace::Slice;
 use cplan::engine::findings;
 use cplan::input::{InputError, JointValues, Overrides, Source, load_recording, read_recording};
+use cplan::model::Contacts;
+use numpy::PyArray2;
 use pyo3::prelude::*;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -21,6 +25,31 @@ pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Opti
         Ok(findings::check(&scene, at.resolve(&scene.arm().joints, "at")?))
     })?;
     printed(&found.map_err(|error: InputError| raised(py, &error))?)
+}
+
+/// Where link 2 or link 1 hits something, or is nearer than the clearance to keep, at values of joint 1 (radians or metres): of each the closed
+/// intervals of joint 2, shape (n, 2), ascending. Exact, from contact angles; on a circle an interval over its seam is in two.
+#[pyfunction]
+pub fn slices(py: Python<'_>, arm: &Arm, world: &World, q1: Vec<f64>) -> PyResult<Vec<Py<PyArray2<f64>>>> {
+    if let Some(odd) = q1.iter().find(|value| !value.is_finite()) {
+        return Err(refused(format!("q1: {odd} is no joint value")));
+    }
+    let found = interruptible(py, |_| {
+        let scene = arm.among(world)?.scene;
+        let (contacts, grow) = (Contacts::new(&scene), scene.workspace().clearance);
+        let (bands, domain) = (contacts.bands(grow), scene.arm().topology().ranges.map(|range| range.domain()));
+        let mut slice = Slice::default();
+        let of = |q1: f64| match bands.forbids(q1) {
+            true => vec![<[f64; 2]>::from(domain[1])],
+            false => {
+                contacts.slice(q1, grow, &mut slice);
+                slice.merged.clone()
+            }
+        };
+        Ok(q1.into_iter().map(of).collect::<Vec<_>>())
+    })?;
+    let found = found.map_err(|error: InputError| raised(py, &error))?;
+    found.into_iter().map(|intervals| array(py, intervals)).collect()
 }
 
 /// Judges a motion: a file, or a text as JSON files have it.

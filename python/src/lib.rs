@@ -30,6 +30,7 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(plan::restored, module)?)?;
     module.add_function(wrap_pyfunction!(plan::seconds_in_rust, module)?)?;
     module.add_function(wrap_pyfunction!(findings::check, module)?)?;
+    module.add_function(wrap_pyfunction!(findings::slices, module)?)?;
     module.add_function(wrap_pyfunction!(findings::verify, module)?)?;
     module.add_function(wrap_pyfunction!(findings::compare, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::penetration_depth, module)?)?;

@@ -222,7 +222,14 @@ impl Plan {
         py.detach(|| self.plan.html())
     }
 
-    /// Writes the plan as the file's ending says: .json, .csv, .yaml, .mcap, .svg, .png, .html.
+    /// The configuration space and what the planner built in it, as arrays (see `cplan.cspace`): one of a motion, of a task one for each
+    /// world that the arm moves in.
+    fn cspaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let spaces = py.detach(|| self.plan.cspaces().json());
+        py.import("cplan.cspace")?.call_method1("read", (spaces,))
+    }
+
+    /// Writes the plan as the file's name says: .json, .csv, .yaml, .mcap, .svg, .png, .html; cspace.json and .geojson.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| self.plan.save(path)).map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))
     }
@@ -236,7 +243,8 @@ impl Plan {
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {
         let name = slf.get_type().qualname()?;
         let summary = slf.get().plan.summary();
-        Ok(format!("<cplan.{name}: {}>", summary.lines().take(2).collect::<Vec<_>>().join("; ")))
+        let result = summary.lines().find_map(|line| line.strip_prefix("result")).unwrap_or_default();
+        Ok(format!("<cplan.{name}: {}>", result.trim_start()))
     }
 
     /// Itself: it never changes.
