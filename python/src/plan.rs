@@ -7,6 +7,7 @@ use crate::signals::interruptible;
 use cplan::Status;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -16,8 +17,9 @@ use std::time::Instant;
 #[pyclass(frozen, subclass, module = "cplan")]
 pub struct Plan {
     plan: cplan::Plan,
-    trajectory: Option<Py<Trajectory>>,
-    path: Option<Py<PyArray2<f64>>>,
+    /// Made when first asked for, which takes as long as the rest of a call.
+    trajectory: PyOnceLock<Option<Py<Trajectory>>>,
+    path: PyOnceLock<Option<Py<PyArray2<f64>>>>,
 }
 
 /// A motion that is certified free of collision, all of it.
@@ -120,11 +122,8 @@ fn series(py: Python<'_>, numbers: Vec<f64>) -> Py<PyArray1<f64>> {
 
 /// A plan as the class of its outcome.
 fn outcome(py: Python<'_>, plan: cplan::Plan) -> PyResult<Py<PyAny>> {
-    let report = plan.report();
-    let trajectory = Trajectory::new(py, report)?.map(|trajectory| Py::new(py, trajectory)).transpose()?;
-    let path = report.path.clone().map(|path| array(py, path)).transpose()?;
     let status = plan.status();
-    let base = PyClassInitializer::from(Plan { plan, trajectory, path });
+    let base = PyClassInitializer::from(Plan { plan, trajectory: PyOnceLock::new(), path: PyOnceLock::new() });
     Ok(match status {
         Status::Found => Py::new(py, base.add_subclass(Found))?.into_any(),
         Status::Infeasible => Py::new(py, base.add_subclass(Infeasible))?.into_any(),
@@ -273,14 +272,22 @@ impl Found {
 
     /// Waypoints, shape (n, 2), straight segments between them; read-only.
     #[getter]
-    fn path(slf: PyRef<'_, Self>) -> Option<Py<PyArray2<f64>>> {
-        slf.as_super().path.as_ref().map(|path| path.clone_ref(slf.py()))
+    fn path(slf: PyRef<'_, Self>) -> PyResult<Option<Py<PyArray2<f64>>>> {
+        let py = slf.py();
+        let Plan { plan, path, .. } = &**slf.as_super();
+        let made = path.get_or_try_init(py, || plan.report().path.clone().map(|path| array(py, path)).transpose())?;
+        Ok(made.as_ref().map(|path| path.clone_ref(py)))
     }
 
     /// The whole motion in time.
     #[getter]
-    fn trajectory(slf: PyRef<'_, Self>) -> Option<Py<Trajectory>> {
-        slf.as_super().trajectory.as_ref().map(|trajectory| trajectory.clone_ref(slf.py()))
+    fn trajectory(slf: PyRef<'_, Self>) -> PyResult<Option<Py<Trajectory>>> {
+        let py = slf.py();
+        let Plan { plan, trajectory, .. } = &**slf.as_super();
+        let made = trajectory.get_or_try_init(py, || {
+            Trajectory::new(py, plan.report())?.map(|trajectory| Py::new(py, trajectory)).transpose()
+        })?;
+        Ok(made.as_ref().map(|trajectory| trajectory.clone_ref(py)))
     }
 
     /// Euclidean length of the path in joint space; of a task that of all its motions.
