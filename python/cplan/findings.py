@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, field, fields, is_dataclass
 from os import PathLike
 from types import UnionType
-from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, get_args, get_origin, get_type_hints, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -424,6 +424,14 @@ def _document(joints: list[str], rows: Sequence[Any], interpolation: str | None)
     return json.dumps({"joints": joints, "interpolation": interpolation, "trajectory": samples})
 
 
+@overload
+def compare(
+    arm: Arm, world: World, *, planners: Sequence[str] = (), variants: Sequence[str] = (), queries: None = None, **more: Any
+) -> Comparison: ...
+@overload
+def compare(
+    arm: Arm, world: World, *, planners: Sequence[str] = (), variants: Sequence[str] = (), queries: int, **more: Any
+) -> Comparisons: ...
 def compare(
     arm: Arm,
     world: World,
@@ -431,14 +439,13 @@ def compare(
     planners: Sequence[str] = (),
     variants: Sequence[str] = (),
     queries: int | None = None,
-    seed: int | None = None,
     **more: Any,
 ) -> Comparison | Comparisons:
     """Planners side by side: outcome, length over the proven optimum, clearance, duration, and where the time went.
 
     `planners` are names, all if none are given; `variants` planners with options of their own, such as "trapezoid --path own". With
-    `queries`, so many random start-goal pairs in place of the world's own, which follow from `seed`. All other options are those of
-    `cplan compare`, by name. Ctrl-C ends it, but for `jobs=2` and more.
+    `queries`, so many random start-goal pairs in place of the world's own. All other options are those of `cplan compare`, by name, such as
+    the `seed` of the pairs. Ctrl-C ends it, but for `jobs=2` and more.
 
     >>> arm = Arm.rr([1.0, 0.8], width=0.06)
     >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.2], goal=[-1.0, -0.2])
@@ -447,7 +454,7 @@ def compare(
     [('visibility', 'found'), ('wavefront', 'found')]
     """
     asked = [f"--planner={name}" for name in planners] + [f"--with={variant}" for variant in variants]
-    texts = _compare(arm, world, asked + words(queries=queries, seed=seed, **more))
+    texts = _compare(arm, world, asked + words(queries=queries, **more))
     given = dict(zip(["_json", "_text", "_markdown", "_csv"], texts))
     data = json.loads(texts[0])
     return _made(Comparison, data, **given) if queries is None else _made(Comparisons, data, **given)

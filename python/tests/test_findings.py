@@ -3,8 +3,11 @@
 import copy
 import json
 import pickle
+import signal
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 from typing import Any
 
@@ -135,6 +138,14 @@ def test_random_problems_are_compared() -> None:
     assert (found.queries, found.seed, len(found.problems)) == (5, 3, 5)
     assert [tally.found + tally.infeasible + tally.unknown for tally in found.planners] == [5, 5]
     assert len(found.to_columns()["planner"]) == 10
+
+
+def test_control_c_ends_a_comparison() -> None:
+    begun = time.monotonic()
+    threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        cplan.compare(*shelf(), planners=["harmonic"], cells=1024, queries=1000)
+    assert time.monotonic() - begun < 30
 
 
 @pytest.mark.parametrize("wrong", [{"planners": ["best"]}, {"queries": 0}, {"suite": "workspaces"}, {"output": "a.csv"}, {"nonsense": 1}])
