@@ -57,9 +57,9 @@ pub mod engine;
 pub mod explore;
 pub mod draw;
 pub mod report;
+pub mod output;
 #[cfg(feature = "study")]
 pub mod study;
-pub mod output;
 #[cfg(feature = "program")]
 mod grammar;
 #[cfg(feature = "serve")]

@@ -34,6 +34,7 @@ from cplan._cplan import (
 )
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
 from cplan.planning import plan
+from cplan.studies import Results, Study
 
 __all__ = [
     "Arm",
@@ -47,6 +48,8 @@ __all__ = [
     "Plan",
     "PolygonTest",
     "Problem",
+    "Results",
+    "Study",
     "Trajectory",
     "Unknown",
     "Verification",

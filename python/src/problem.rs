@@ -22,6 +22,13 @@ enum What {
     Made(Box<cplan::Arm>),
 }
 
+impl Arm {
+    /// The robot of a URDF.
+    pub fn of(urdf: Source) -> Self {
+        Self(What::Urdf(urdf))
+    }
+}
+
 #[pymethods]
 impl Arm {
     /// Reads a URDF file.
@@ -106,6 +113,13 @@ impl Arm {
 #[derive(PartialEq)]
 pub struct World {
     source: Source,
+}
+
+impl World {
+    /// The world of a file.
+    pub fn of(source: Source) -> Self {
+        Self { source }
+    }
 }
 
 #[pymethods]

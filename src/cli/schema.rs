@@ -16,6 +16,7 @@ with the schema in that file beside it, as `cplan init` writes both.
 
 Examples:
   cplan schema > world.schema.json
+  cplan schema study > study.schema.json
   cplan schema cspace > cspace.schema.json
 
 Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
@@ -30,6 +31,9 @@ pub struct SchemaArgs {
 enum Described {
     /// Worlds, as TOML.
     World,
+    /// Studies, as TOML.
+    #[cfg(feature = "study")]
+    Study,
     /// Configuration spaces, as `--output cspace.json` writes them.
     Cspace,
 }
@@ -41,6 +45,8 @@ enum Described {
 pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
     sinks::print(&match args.of {
         Described::World => text(),
+        #[cfg(feature = "study")]
+        Described::Study => format!("{:#}\n", crate::study::study_schema()),
         Described::Cspace => format!("{:#}\n", cspace_schema()),
     })?;
     Ok(DONE)

@@ -6,8 +6,7 @@ use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::sinks;
 use crate::motion::{check_writable, write_whole_set};
-use crate::report::Picture;
-use crate::study::{Ending, Journal, JournalError, Row, Study, Summary};
+use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
 use crate::text::counted;
 use clap::{Args, ValueHint};
 use std::ffi::OsString;
@@ -110,7 +109,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         }
         Ok(())
     };
-    study.rows(rows.len(), jobs, |row| {
+    study.rows(rows.len()..study.count(), jobs, |row| {
         keep(&row, true)?;
         rows.push(row);
         Ok::<_, JournalError>(())
@@ -193,28 +192,9 @@ fn bytes(study: &Study, rows: &[Row], summary: &Summary, content: Content) -> Re
     Ok(match content {
         Content::Csv => study.csv(rows).into_bytes(),
         Content::Parquet => study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?,
-        Content::Page => study.html(rows, &pictures(study, rows, summary)).into_bytes(),
+        Content::Page => study.html(rows, &pictures(study, rows)).into_bytes(),
         Content::Summary => sinks::pretty(&summary.to_json())?.into_bytes(),
         Content::World => best(0)?,
         Content::Robot => best(1)?,
     })
-}
-
-/// The best and the worst layout, and the first of those that are infeasible and unknown.
-fn pictures(study: &Study, rows: &[Row], summary: &Summary) -> Vec<Picture> {
-    let first = |ending: Ending| rows.iter().find(|row| row.ending == ending);
-    let shown = [
-        ("best", summary.best()),
-        ("worst", summary.worst()),
-        ("infeasible", first(Ending::Infeasible)),
-        ("unknown", first(Ending::Unknown)),
-    ];
-    let picture = |(word, row): (&str, &Row)| {
-        let values = study.parameters.iter().zip(&row.values);
-        let unit = |unit: &Option<String>| unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
-        let values: Vec<String> = values.map(|(p, value)| format!("{} {value:.4}{}", p.name, unit(&p.unit))).collect();
-        let title = format!("{word}: layout {} ({})", row.layout, values.join(", "));
-        Some(Picture { title, svg: study.plan(&row.values).ok()?.svg() })
-    };
-    shown.into_iter().filter_map(|(word, row)| picture((word, row?))).collect()
 }

@@ -64,6 +64,7 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
+pub(crate) use schema::toml_schema;
 pub use schema::world_schema;
 pub use source::{Position, Source};
 pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};

@@ -14,10 +14,15 @@ use std::borrow::Cow;
 /// there, that numbers are not too large, that an arm can take the values.
 #[must_use]
 pub fn world_schema() -> Value {
+    toml_schema::<WorldFile>()
+}
+
+/// The schema of a file in TOML.
+pub(crate) fn toml_schema<T: JsonSchema>() -> Value {
     let mut settings = SchemaSettings::draft07();
     // First, because what it leaves may be for the draft's own transforms.
     settings.transforms.insert(0, Box::new(AsToml));
-    let mut schema = settings.into_generator().into_root_schema_for::<WorldFile>().to_value();
+    let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     // In any order of serde_json's maps, which other crates may choose.
     schema.sort_all_objects();
     schema

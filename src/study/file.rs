@@ -5,9 +5,10 @@ use super::measure::{Condition, Measure, Objective};
 use super::parameter::{Design, Parameter, Values};
 use super::template::{Place, Setting, Template, place};
 use crate::engine::Options;
-use crate::input::{Diagnostic, InputError, Overrides, Source, in_toml_words, scene_from};
+use crate::input::{Diagnostic, InputError, Overrides, Source, in_toml_words, scene_from, toml_schema};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
 use std::ops::Range;
 use std::path::Path;
 use toml::Spanned;
@@ -17,6 +18,9 @@ const MOST_LAYOUTS: usize = 100_000_000;
 
 /// How words such as `--planner=first` are read; they are those of the main job.
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
+
+/// How a file that a study names is had.
+type Open<'a> = &'a dyn Fn(Named, &str) -> Result<Source, InputError>;
 
 type Text = Spanned<String>;
 
@@ -160,15 +164,26 @@ struct Reader<'a> {
 /// # Errors
 /// Everything that is wrong with them, with line, column and cure.
 pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
-    read(&Source::read(path)?, read_options, &|name| Source::read(&path.with_file_name(name)))
+    let study = Source::read(path)?;
+    let beside = |name: &str| Source::read(&path.with_file_name(name));
+    read(&study, read_options, &|_, name| beside(name))
+}
+
+/// A file that a study names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Named {
+    Robot,
+    World,
+}
+
+/// The JSON schema of study files, for editors.
+#[must_use]
+pub fn study_schema() -> Value {
+    toml_schema::<StudyFile>()
 }
 
 /// Reads a study from its text, and what it names through `open`.
-pub(super) fn read(
-    source: &Source,
-    read_options: ReadOptions,
-    open: &dyn Fn(&str) -> Result<Source, InputError>,
-) -> Result<Study, InputError> {
+pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Result<Study, InputError> {
     let reader = Reader { source };
     let file: StudyFile = toml::from_str(source.text()).map_err(|error| {
         let message = in_toml_words(error.message());
@@ -178,8 +193,8 @@ pub(super) fn read(
         };
         diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
     })?;
-    let urdf = reader.named(&file.robot, open)?;
-    let world = reader.named(&file.world, open)?;
+    let urdf = reader.named(Named::Robot, &file.robot, open)?;
+    let world = reader.named(Named::World, &file.world, open)?;
     let (options, overrides) = match &file.options {
         None => (Options::default(), Overrides::default()),
         Some(words) => read_options(words.get_ref()).map_err(|why| {
@@ -233,7 +248,7 @@ pub(super) fn read(
         objective,
         searched: searched.unwrap_or(0),
         seed: file.seed.unwrap_or(0),
-        text: source.text().to_owned(),
+        source: source.clone(),
         design,
         world,
         urdf,
@@ -249,8 +264,8 @@ impl Reader<'_> {
     }
 
     /// A file that the study names.
-    fn named(&self, name: &Text, open: &dyn Fn(&str) -> Result<Source, InputError>) -> Result<Source, InputError> {
-        open(name.get_ref()).map_err(|error| match error.diagnostics() {
+    fn named(&self, which: Named, name: &Text, open: Open) -> Result<Source, InputError> {
+        open(which, name.get_ref()).map_err(|error| match error.diagnostics() {
             [only] => self
                 .wrong(name.span(), format!("{}: {}", name.get_ref(), only.message), "paths are relative to the study")
                 .into(),

@@ -106,6 +106,14 @@ impl Journal {
         written.map_err(|source| JournalError::System { path: self.path.clone(), source })
     }
 
+    /// Puts on disk what has been added.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    pub fn flush(&mut self) -> Result<(), JournalError> {
+        self.file.flush().map_err(|source| JournalError::System { path: self.path.clone(), source })
+    }
+
     /// Removes it: the table is written.
     ///
     /// # Errors
@@ -122,6 +130,6 @@ fn head_text(head: &Head) -> String {
 impl Study {
     fn head(&self) -> Head {
         let [world, urdf] = [&self.world, &self.urdf].map(|template| template.source().text().to_owned());
-        Head { cplan: env!("CARGO_PKG_VERSION").into(), study: self.text.clone(), world, urdf }
+        Head { cplan: env!("CARGO_PKG_VERSION").into(), study: self.source.text().into(), world, urdf }
     }
 }

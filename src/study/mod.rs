@@ -18,23 +18,27 @@ mod measure;
 mod page;
 mod parallel;
 mod parameter;
+mod pictures;
 mod row;
 mod search;
 mod summary;
 mod table;
 mod template;
 
-pub use file::ReadOptions;
+pub use file::{ReadOptions, study_schema};
 pub use journal::{Journal, JournalError};
 pub use measure::{Condition, Measure, Objective};
 pub use parallel::in_order;
 pub use parameter::{Parameter, Values};
+pub use pictures::pictures;
 pub use row::{Ending, Row};
 pub use summary::Summary;
 
 use crate::engine::{Options, Plan, Problem, plan, solve};
 use crate::input::{InputError, LoadedScene, Overrides, Source};
+use file::Named;
 use parameter::Design;
+use std::ops::Range;
 use std::path::Path;
 use template::Template;
 
@@ -56,7 +60,7 @@ pub struct Study {
     /// What draws and search follow from.
     seed: u64,
     /// The study file.
-    text: String,
+    source: Source,
     design: Design,
     world: Template,
     urdf: Template,
@@ -73,6 +77,22 @@ impl Study {
     /// Everything that is wrong with them, with line, column and cure.
     pub fn load(path: impl AsRef<Path>, read_options: ReadOptions) -> Result<Self, InputError> {
         file::load(path.as_ref(), read_options)
+    }
+
+    /// The same from texts: the study, and the robot and the world that it names.
+    ///
+    /// # Errors
+    /// Everything that is wrong with them, with line, column and cure.
+    pub fn from_sources([study, urdf, world]: [Source; 3], read_options: ReadOptions) -> Result<Self, InputError> {
+        file::read(&study, read_options, &|which, _| {
+            Ok(if which == Named::Robot { urdf.clone() } else { world.clone() })
+        })
+    }
+
+    /// Study, robot and world as they are read, with what the world leaves unsaid written out: what [`Study::from_sources`] takes.
+    #[must_use]
+    pub fn sources(&self) -> [&Source; 3] {
+        [&self.source, self.urdf.source(), self.world.source()]
     }
 
     /// The number of layouts that are listed and drawn.
@@ -152,13 +172,12 @@ impl Study {
         Ok((plan.status().into(), report.reason.clone(), measured))
     }
 
-    /// Rows of layouts from `first` on, on so many threads, each handed to `each` in order as soon as it is there.
+    /// Rows of these layouts, on so many threads, each handed to `each` in order as soon as it is there.
     ///
     /// # Errors
     /// What `each` refuses with.
-    pub fn rows<E>(&self, first: usize, jobs: usize, mut each: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
-        let count = self.count().saturating_sub(first);
-        in_order(count, jobs, |i| self.row(first + i), &mut each)
+    pub fn rows<E>(&self, layouts: Range<usize>, jobs: usize, each: impl FnMut(Row) -> Result<(), E>) -> Result<(), E> {
+        in_order(layouts.len(), jobs, |i| self.row(layouts.start + i), each)
     }
 }
 

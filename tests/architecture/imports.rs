@@ -31,8 +31,8 @@ const MAY_IMPORT: [(&str, &[&str]); 24] = [
     ("explore", &["geometry", "space", "model", "input", "cspace", "field", "check", "motion", "engine"]),
     ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
-    ("study", &["space", "model", "input", "engine", "report"]),
     ("output", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine", "draw"]),
+    ("study", &["space", "model", "input", "engine", "report"]),
     ("grammar", &["model", "field", "planner", "motion", "engine"]),
     (
         "serve",

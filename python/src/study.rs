@@ -1,0 +1,245 @@
+//! Studies: one task in many layouts.
+
+use crate::error::{raised, refused};
+use crate::problem::{Arm, World};
+use crate::signals::interruptible;
+use cplan::study::{self, Row, Summary};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+/// One task in many layouts: a robot, a world, numbers of both that differ, and what is measured.
+#[pyclass(frozen, subclass, module = "cplan")]
+pub struct Study {
+    study: study::Study,
+}
+
+fn words(words: &[String]) -> Result<(cplan::Options, cplan::input::Overrides), String> {
+    cplan::cli::read_words(words)
+}
+
+#[pymethods]
+impl Study {
+    /// Reads a study file (TOML), and robot and world that it names. `sources` are the texts of a study that was pickled, in place of files.
+    #[new]
+    #[pyo3(signature = (path, sources = None))]
+    fn new(py: Python<'_>, path: PathBuf, sources: Option<&str>) -> PyResult<Self> {
+        let study = match sources {
+            Some(sources) => study::Study::from_sources(serde_json::from_str(sources).map_err(refused)?, &words),
+            // Absolute, so that a study that is pickled finds maps and meshes elsewhere.
+            None => {
+                let path = std::path::absolute(&path)?;
+                py.detach(|| study::Study::load(path, &words))
+            }
+        };
+        study.map(|study| Self { study }).map_err(|error| raised(py, &error))
+    }
+
+    /// The title.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.study.name
+    }
+
+    /// Names of the parameters.
+    #[getter]
+    fn parameters(&self) -> Vec<String> {
+        self.study.parameters.iter().map(|parameter| parameter.name.clone()).collect()
+    }
+
+    /// Layouts that the search may try beyond those that are listed and drawn.
+    #[getter]
+    fn searched(&self) -> usize {
+        self.study.searched
+    }
+
+    /// The number of layouts that are listed and drawn.
+    fn __len__(&self) -> usize {
+        self.study.count()
+    }
+
+    /// The values of a layout, by the names of the parameters.
+    fn values<'py>(&self, py: Python<'py>, layout: usize) -> PyResult<Bound<'py, PyDict>> {
+        if layout >= self.study.count() {
+            return Err(PyValueError::new_err(format!("the study has {} layouts, from 0 on", self.study.count())));
+        }
+        let values = PyDict::new(py);
+        for (parameter, value) in self.study.parameters.iter().zip(self.study.values(layout)) {
+            values.set_item(&parameter.name, value)?;
+        }
+        Ok(values)
+    }
+
+    /// Robot and world with the values of a row in place.
+    fn layout(&self, values: Vec<f64>) -> PyResult<(Arm, World)> {
+        if values.len() != self.study.parameters.len() {
+            return Err(PyValueError::new_err(format!("expected {} values", self.study.parameters.len())));
+        }
+        let [world, urdf] = self.study.layout(&values);
+        Ok((Arm::of(urdf), World::of(world)))
+    }
+
+    /// Rows of the layouts from `first` to before `last`, planned in on so many threads.
+    ///
+    /// Other threads run meanwhile; Ctrl-C ends it.
+    #[pyo3(signature = (first, last, jobs = 1))]
+    fn rows(&self, py: Python<'_>, first: usize, last: usize, jobs: usize) -> PyResult<Rows> {
+        let last = last.min(self.study.count());
+        let rows = interruptible(py, |raised| {
+            let mut rows = Vec::new();
+            let _ = self.study.rows(first..last.max(first), jobs, |row| {
+                rows.push(row);
+                cplan::interrupt::checkpoint();
+                if raised.is_any() { Err(()) } else { Ok(()) }
+            });
+            rows
+        })?;
+        Ok(Rows { rows })
+    }
+
+    /// Rows of the search that begins with these ones, on so many threads; `done` are rows of one that was stopped.
+    fn search(&self, py: Python<'_>, known: &Rows, done: &Rows, jobs: usize) -> PyResult<Rows> {
+        let rows = interruptible(py, |raised| {
+            let mut rows = Vec::new();
+            let _ = self.study.search(&known.rows, &done.rows, jobs, |row| {
+                rows.push(row);
+                cplan::interrupt::checkpoint();
+                if raised.is_any() { Err(()) } else { Ok(()) }
+            });
+            rows
+        })?;
+        Ok(Rows { rows })
+    }
+
+    /// Of these rows, in some lines for people.
+    fn summary(&self, rows: &Rows) -> String {
+        Summary::new(&self.study, &rows.rows).to_text()
+    }
+
+    /// The same as a JSON object.
+    fn summary_json(&self, rows: &Rows) -> String {
+        Summary::new(&self.study, &rows.rows).to_json().to_string()
+    }
+
+    /// Their table as CSV.
+    fn csv(&self, rows: &Rows) -> String {
+        self.study.csv(&rows.rows)
+    }
+
+    /// Their table as a Parquet file.
+    fn parquet<'py>(&self, py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.study.parquet(&rows.rows).map_err(refused)?))
+    }
+
+    /// Their page, with pictures of the best and the worst layout, and of one without a motion.
+    fn html(&self, py: Python<'_>, rows: &Rows) -> String {
+        py.detach(|| self.study.html(&rows.rows, &study::pictures(&self.study, &rows.rows)))
+    }
+
+    /// Their columns by name: numbers and flags as arrays, words as lists with None.
+    fn columns<'py>(&self, py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyDict>> {
+        let (columns, rows) = (PyDict::new(py), &rows.rows);
+        let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
+        columns.set_item("layout", PyArray1::from_iter(py, rows.iter().map(|row| row.layout as i64)))?;
+        for (k, parameter) in self.study.parameters.iter().enumerate() {
+            columns.set_item(&parameter.name, PyArray1::from_iter(py, rows.iter().map(|row| row.values[k])))?;
+        }
+        columns.set_item("outcome", rows.iter().map(|row| row.ending.name()).collect::<Vec<_>>())?;
+        columns.set_item("reason", rows.iter().map(|row| row.reason.as_deref()).collect::<Vec<_>>())?;
+        for (k, measure) in self.study.measures.iter().enumerate() {
+            columns.set_item(measure.name(), PyArray1::from_iter(py, rows.iter().map(|row| nan(row.measured[k]))))?;
+        }
+        columns.set_item("fits", PyArray1::from_iter(py, rows.iter().map(|row| row.fits)))?;
+        Ok(columns)
+    }
+
+    fn __repr__(&self) -> String {
+        let names: Vec<&str> = self.study.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
+        format!("<cplan.Study \"{}\": {} layouts over {}>", self.study.name, self.study.count(), names.join(", "))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (&'static str, String))> {
+        let sources = serde_json::to_string(&slf.get().study.sources()).map_err(refused)?;
+        Ok((slf.get_type().into_any(), ("", sources)))
+    }
+}
+
+/// Rows of a study.
+#[pyclass(frozen, eq, module = "cplan")]
+#[derive(PartialEq)]
+pub struct Rows {
+    rows: Vec<Row>,
+}
+
+#[pymethods]
+impl Rows {
+    /// Rows one after the other.
+    #[new]
+    #[pyo3(signature = (*parts))]
+    fn new(parts: Vec<PyRef<'_, Rows>>) -> Self {
+        Self { rows: parts.iter().flat_map(|part| part.rows.iter().cloned()).collect() }
+    }
+
+    fn __len__(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The first so many rows, and the others.
+    fn split(&self, count: usize) -> (Self, Self) {
+        let (first, others) = self.rows.split_at(count.min(self.rows.len()));
+        (Self { rows: first.to_vec() }, Self { rows: others.to_vec() })
+    }
+
+    /// The values of a row, in the order of the parameters.
+    fn values(&self, row: usize) -> PyResult<Vec<f64>> {
+        self.rows.get(row).map(|row| row.values.clone()).ok_or_else(|| PyValueError::new_err("there is no such row"))
+    }
+
+    #[staticmethod]
+    fn restored(data: &[u8]) -> PyResult<Self> {
+        serde_json::from_slice(data).map(|rows| Self { rows }).map_err(refused)
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let data = serde_json::to_vec(&slf.get().rows).map_err(refused)?;
+        Ok((slf.get_type().getattr("restored")?, (PyBytes::new(slf.py(), &data),)))
+    }
+}
+
+/// Rows of a study on disk while it runs.
+#[pyclass(frozen, module = "cplan")]
+pub struct Journal {
+    journal: Mutex<Option<study::Journal>>,
+}
+
+#[pymethods]
+impl Journal {
+    /// Opens the journal of a study, with the rows that an earlier run has left; `fresh` begins anew.
+    #[staticmethod]
+    fn open(path: PathBuf, study: &Study, fresh: bool) -> PyResult<(Self, Rows)> {
+        if fresh && path.exists() {
+            std::fs::remove_file(&path)?;
+        }
+        let (journal, rows) = study::Journal::open(&path, &study.study).map_err(failed)?;
+        Ok((Self { journal: Mutex::new(Some(journal)) }, Rows { rows }))
+    }
+
+    /// Adds the next rows; they are on disk then.
+    fn add(&self, rows: &Rows) -> PyResult<()> {
+        let mut journal = self.journal.lock().map_err(refused)?;
+        let journal = journal.as_mut().ok_or_else(|| PyValueError::new_err("the journal is removed"))?;
+        rows.rows.iter().try_for_each(|row| journal.add(row)).and_then(|()| journal.flush()).map_err(failed)
+    }
+
+    /// Removes it.
+    fn remove(&self) -> PyResult<()> {
+        self.journal.lock().map_err(refused)?.take().map_or(Ok(()), study::Journal::remove).map_err(failed)
+    }
+}
+
+fn failed(error: study::JournalError) -> PyErr {
+    PyOSError::new_err(error.to_string())
+}
