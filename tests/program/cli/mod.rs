@@ -20,6 +20,7 @@ mod outputs;
 mod path_kind;
 mod pressed;
 mod proof_sizes;
+mod reach;
 mod results;
 #[cfg(feature = "study")]
 mod study;

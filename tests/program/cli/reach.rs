@@ -1,0 +1,108 @@
+//! `cplan reach`, from outside: cells and solutions against kinematics of the tests' own, and against plans to them.
+
+use super::{Done, Place, shelf, shipped};
+use serde_json::Value;
+use std::f64::consts::{PI, TAU};
+
+fn reach(place: &Place, files: &[String; 2], options: &str) -> Done {
+    place.run(&["reach", &files[0], &files[1]], options)
+}
+
+struct Solution {
+    tip: [f64; 2],
+    joints: [f64; 2],
+    access: String,
+}
+
+fn solutions(csv: &str) -> Vec<Solution> {
+    let solution = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        let [x, y, a, b] = [0, 1, 2, 3].map(|k| fields[k].parse::<f64>().unwrap());
+        Solution { tip: [x, y], joints: [a, b], access: fields[4].to_owned() }
+    };
+    csv.lines().skip(1).map(solution).collect()
+}
+
+/// Links of `planar_2r`: where the tip is.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+#[test]
+fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
+    let place = Place::new();
+    let done = reach(&place, &shelf(), "--cell 0.07 --output r.csv --output r.json --picture r.svg --quiet");
+    assert_eq!((done.code, done.stdout.as_str()), (0, ""), "{}", done.stderr);
+    let all = solutions(&place.read("r.csv"));
+    for Solution { tip: [x, y], joints, .. } in &all {
+        let [at_x, at_y] = tip(*joints);
+        assert!((x - at_x).hypot(y - at_y) < 1e-9, "{joints:?}");
+    }
+    // Each cell's centre between the least and the greatest reach has two elbows, as far as the joints' limits allow.
+    let result: Value = serde_json::from_str(&place.read("r.json")).unwrap();
+    let within = |value: f64| value.abs() <= 2.9;
+    let number = |value: &Value| value.as_f64().unwrap();
+    let (cell, corner) = (number(&result["reach"]["cell"]), &result["reach"]["corner"]);
+    let size = [0, 1].map(|k| result["reach"]["size"][k].as_u64().unwrap());
+    let mut expected = 0;
+    for j in 0..size[1] {
+        for i in 0..size[0] {
+            let [x, y] = [(0, i), (1, j)].map(|(k, n)| number(&corner[k]) + cell * (n as f64 + 0.5));
+            let cos = (x * x + y * y - 1.0 - 0.64) / 1.6;
+            if cos.abs() < 1.0 {
+                for elbow in [cos.acos(), -cos.acos()] {
+                    let shoulder = (y.atan2(x) - (0.8 * elbow.sin()).atan2(1.0 + 0.8 * elbow.cos()) + PI).rem_euclid(TAU) - PI;
+                    expected += usize::from(within(shoulder) && within(elbow));
+                }
+            }
+        }
+    }
+    assert_eq!(all.len(), expected);
+    let picture = place.read("r.svg");
+    for part in ["Workspace", "Configuration space", "the tip can get there, one way"] {
+        assert!(picture.contains(part), "{part}");
+    }
+}
+
+#[test]
+fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
+    let place = Place::new();
+    let mut seen = std::collections::BTreeMap::<String, usize>::new();
+    for (robot, world) in [("planar_2r", "singular_closed"), ("planar_2r", "shelf"), ("polar", "polar_gate"), ("slide_arm", "slide_table")] {
+        let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
+        let done = reach(&place, &files, "--output r.csv --json");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let result = done.json();
+        let home = [0, 1].map(|k| result["reach"]["home"][k].as_f64().unwrap());
+        let all = solutions(&place.read("r.csv"));
+        for access in ["reachable", "unreachable", "blocked", "unknown"] {
+            let of: Vec<&Solution> = all.iter().filter(|solution| solution.access == access).collect();
+            for solution in of.iter().step_by((of.len() / 6).max(1)) {
+                let [a, b] = solution.joints;
+                let options = format!("--start={},{} --goal={a},{b} --planner first --quiet", home[0], home[1]);
+                let planned = place.run(&files, &options).code;
+                let codes: &[i32] = match access {
+                    "reachable" => &[0],
+                    "unreachable" => &[3],
+                    // Where a goal is no more than touched it is not free.
+                    "blocked" => &[1],
+                    _ => &[4],
+                };
+                assert!(codes.contains(&planned), "{world}: {access} {a} {b}, and planning ends with {planned}");
+                *seen.entry(access.to_owned()).or_default() += 1;
+            }
+        }
+    }
+    assert!(seen["reachable"] > 15 && seen["blocked"] > 15 && seen["unreachable"] > 4, "{seen:?}");
+}
+
+#[test]
+fn cells_and_homes_that_make_no_sense_are_refused() {
+    let place = Place::new();
+    reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose larger ones"]);
+    reach(&place, &shelf(), "--cell 0").refused(2, &["--cell"]);
+    reach(&place, &shelf(), "--home 0,9").refused(1, &["elbow"]);
+    reach(&place, &shelf(), "--output r.yaml").refused(2, &["written as .json or .csv"]);
+    reach(&place, &shelf(), "--picture r.html").refused(2, &["drawn as .svg or .png"]);
+    assert!(!place.path("r.yaml").exists());
+}
