@@ -1,0 +1,168 @@
+//! Curves as chords: corners on the curve, no point of it farther from its chord than a tolerance.
+//!
+//! A curve whose second derivative by its parameter stays within `bend` is at most `bend / 8` times the square of the
+//! parameter's step away from its chord.
+
+use crate::Point;
+use crate::map::Map;
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// More chords than this a curve does not have: its tolerance is finer than anyone can mean.
+const MOST_CHORDS: f64 = 1e5;
+
+/// A curve that would need too many chords.
+#[derive(Debug)]
+pub(crate) struct TooFine;
+
+/// Number of chords for a step of `range` of the parameter.
+fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFine> {
+    let count = (range * (bend / (8.0 * tolerance)).sqrt()).ceil().max(1.0);
+    if count <= MOST_CHORDS { Ok(count as usize) } else { Err(TooFine) }
+}
+
+/// Points of a curve by its parameter from 0 to 1, without the first, the last among them.
+fn along(count: usize, at: impl Fn(f64) -> Point) -> impl Iterator<Item = Point> {
+    (1..=count).map(move |k| at(k as f64 / count as f64))
+}
+
+/// Points `center + u cos t + v sin t`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ellipse {
+    pub center: Point,
+    pub u: Point,
+    pub v: Point,
+}
+
+impl Ellipse {
+    pub fn circle(center: Point, radius: f64) -> Self {
+        Self { center, u: [radius, 0.0], v: [0.0, radius] }
+    }
+
+    pub fn mapped(self, map: &Map) -> Self {
+        Self { center: map.point(self.center), u: map.vector(self.u), v: map.vector(self.v) }
+    }
+
+    pub fn at(self, t: f64) -> Point {
+        let (sin, cos) = t.sin_cos();
+        [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
+    }
+
+    /// Points of the arc from parameter `from` on by `by`, without the first.
+    pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+        // No direction is stretched by more than both together.
+        let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
+        let cross = self.u[0] * self.v[1] - self.u[1] * self.v[0];
+        let longest = (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt();
+        let count = chords(longest, by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
+        Ok(along(count, move |part| self.at(from + by * part)))
+    }
+
+    /// The whole of it.
+    pub fn ring(self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+        Ok(self.arc(0.0, TAU, tolerance)?.collect())
+    }
+}
+
+/// An arc from `a` to `b` that turns by four times the arc tangent of `bulge`, to the left if that is positive, without `a`.
+pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+    let end = map.point(b);
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+    // From the middle of the chord to the centre, in chords to the left of it.
+    let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
+    let center = [middle[0] - dy * aside, middle[1] + dx * aside];
+    if bulge == 0.0 || a == b || !center.iter().all(|x| x.is_finite()) {
+        return Ok(vec![end]);
+    }
+    let from = (a[1] - center[1]).atan2(a[0] - center[0]);
+    let radius = (a[0] - center[0]).hypot(a[1] - center[1]);
+    let arc = Ellipse::circle(center, radius).mapped(map).arc(from, 4.0 * bulge.atan(), tolerance)?;
+    let mut points: Vec<Point> = arc.collect();
+    if let Some(last) = points.last_mut() {
+        *last = end;
+    }
+    Ok(points)
+}
+
+/// A Bézier curve of degree 3 without its first point.
+pub(crate) fn cubic([a, b, c, d]: [Point; 4], tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+    let second = |p: Point, q: Point, r: Point| (p[0] - 2.0 * q[0] + r[0]).hypot(p[1] - 2.0 * q[1] + r[1]);
+    let count = chords(6.0 * second(a, b, c).max(second(b, c, d)), 1.0, tolerance)?;
+    Ok(along(count, move |t| {
+        let s = 1.0 - t;
+        let weights = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
+        [0, 1].map(|k| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k])
+    }))
+}
+
+/// A spline: degree, knots, control points and their weights.
+#[derive(Debug)]
+pub(crate) struct Spline {
+    pub degree: usize,
+    pub knots: Vec<f64>,
+    pub control: Vec<Point>,
+    pub weights: Vec<f64>,
+}
+
+/// Halvings of a span before a spline is given up.
+const MOST_HALVINGS: u32 = 14;
+
+impl Spline {
+    /// Whether the parts fit each other.
+    pub fn is_sound(&self) -> bool {
+        let Self { degree, knots, control, weights } = self;
+        (1..=16).contains(degree)
+            && control.len() > *degree
+            && knots.len() == control.len() + degree + 1
+            && knots.is_sorted()
+            && knots[*degree] < knots[control.len()]
+            && weights.len() == control.len()
+            && weights.iter().all(|&w| w > 0.0)
+    }
+
+    /// Its points. Spans are halved until the middles of all chords lie within half of the tolerance.
+    pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+        let (first, last) = (self.degree, self.control.len());
+        let mut points = vec![self.at(first, self.knots[first])];
+        for span in (first..last).filter(|&i| self.knots[i] < self.knots[i + 1]) {
+            let (from, to) = (self.knots[span], self.knots[span + 1]);
+            let at = |part: f64| self.at(span, from + (to - from) * part);
+            let fits = |count: &usize| {
+                let step = 1.0 / *count as f64;
+                (0..*count).all(|k| {
+                    let [a, m, b] = [0.0, 0.5, 1.0].map(|part| at((k as f64 + part) * step));
+                    distance(m, a, b) <= tolerance / 2.0
+                })
+            };
+            // Fewer than four would not see a curve that is the same on both sides of its middle.
+            let count = (2..MOST_HALVINGS).map(|k| 1_usize << k).find(fits).ok_or(TooFine)?;
+            points.extend(along(count, at));
+        }
+        Ok(points)
+    }
+
+    /// De Boor's algorithm, in projective coordinates.
+    fn at(&self, span: usize, t: f64) -> Point {
+        let Self { degree: p, knots, control, weights } = self;
+        let mut rows: Vec<[f64; 3]> =
+            (span - p..=span).map(|i| [control[i][0] * weights[i], control[i][1] * weights[i], weights[i]]).collect();
+        for level in 1..=*p {
+            for j in (level..=*p).rev() {
+                let (left, right) = (knots[j + span - p], knots[j + 1 + span - level]);
+                let part = if right > left { (t - left) / (right - left) } else { 0.0 };
+                rows[j] = [0, 1, 2].map(|k| rows[j - 1][k] * (1.0 - part) + rows[j][k] * part);
+            }
+        }
+        let [x, y, w] = rows[*p];
+        [x / w, y / w]
+    }
+}
+
+/// Distance of a point from a segment.
+fn distance(p: Point, a: Point, b: Point) -> f64 {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
+    let part = if square > 0.0 { part.clamp(0.0, 1.0) } else { 0.0 };
+    (p[0] - a[0] - along[0] * part).hypot(p[1] - a[1] - along[1] * part)
+}

@@ -1,0 +1,118 @@
+//! Sections of a DXF: the unit, layers, blocks and entities.
+
+use super::tags::{Record, Tag};
+use crate::{Error, Point, Unit};
+use std::collections::HashMap;
+
+/// An entity, with the records that belong to it: vertices of a polyline, attributes of an insertion.
+#[derive(Debug)]
+pub(super) struct Entity<'a> {
+    pub record: Record<'a>,
+    pub parts: Vec<Record<'a>>,
+}
+
+#[derive(Debug)]
+pub(super) struct Block<'a> {
+    pub name: &'a str,
+    pub base: Point,
+    pub entities: Vec<Entity<'a>>,
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Document<'a> {
+    /// None if the file does not say it.
+    pub unit: Option<Unit>,
+    /// Layers that are off, frozen or never printed, in capitals: names are the same in upper and lower case.
+    pub hidden: Vec<String>,
+    /// By name in capitals.
+    pub blocks: HashMap<String, Block<'a>>,
+    pub entities: Vec<Entity<'a>>,
+}
+
+/// What programs put definition points of dimensions on; it is never printed.
+const UNPRINTED: &str = "DEFPOINTS";
+
+impl<'a> Document<'a> {
+    /// The sections of interest; whatever else there is means nothing in the plane.
+    pub fn read(records: &[Record<'a>]) -> Result<Self, Error> {
+        let mut document = Self::default();
+        let mut rest = records.iter().copied().peekable();
+        let mut has_entities = false;
+        while let Some(record) = rest.next() {
+            if record.kind != "SECTION" {
+                continue;
+            }
+            let mut inside = Vec::new();
+            while let Some(next) = rest.next_if(|next| !["ENDSEC", "SECTION", "EOF"].contains(&next.kind)) {
+                inside.push(next);
+            }
+            if rest.peek().is_none_or(|next| next.kind != "ENDSEC") {
+                let message = "this section has no end, and shapes may be missing";
+                return Err(Error::new(record.line, message, "copy or export the drawing again"));
+            }
+            match record.text(2) {
+                Some("HEADER") => document.unit = unit(record.tags)?,
+                Some("TABLES") => document.hidden = hidden(&inside)?,
+                Some("BLOCKS") => document.blocks = blocks(&inside)?,
+                Some("ENTITIES") => {
+                    document.entities = entities(&inside);
+                    has_entities = true;
+                }
+                _ => {}
+            }
+        }
+        if !has_entities {
+            let message = "this DXF has no section ENTITIES";
+            return Err(Error::new(None, message, "export the drawing again, as an ASCII DXF"));
+        }
+        Ok(document)
+    }
+}
+
+/// `$INSUNITS`.
+fn unit(header: &[Tag]) -> Result<Option<Unit>, Error> {
+    let Some(at) = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS") else { return Ok(None) };
+    let value = header[at + 1..].iter().find(|tag| tag.code == 70);
+    let code = value.map(Tag::number).transpose()?.unwrap_or(0.0);
+    Ok(Unit::of_dxf(code as i64))
+}
+
+fn hidden(tables: &[Record]) -> Result<Vec<String>, Error> {
+    let mut hidden = vec![UNPRINTED.to_owned()];
+    for layer in tables.iter().filter(|record| record.kind == "LAYER") {
+        let is_off = layer.integer_or(62, 7)? < 0 || layer.flag(1)?;
+        hidden.extend(layer.text(2).filter(|_| is_off).map(str::to_uppercase));
+    }
+    Ok(hidden)
+}
+
+fn blocks<'a>(records: &[Record<'a>]) -> Result<HashMap<String, Block<'a>>, Error> {
+    let mut blocks = HashMap::new();
+    let mut rest = records.iter().copied().peekable();
+    while let Some(head) = rest.next() {
+        if head.kind != "BLOCK" {
+            continue;
+        }
+        let mut inside = Vec::new();
+        while let Some(next) = rest.next_if(|next| !["BLOCK", "ENDBLK"].contains(&next.kind)) {
+            inside.push(next);
+        }
+        let name = head.text(2).unwrap_or_default();
+        let base = [head.number_or(10, 0.0)?, head.number_or(20, 0.0)?];
+        blocks.insert(name.to_uppercase(), Block { name, base, entities: entities(&inside) });
+    }
+    Ok(blocks)
+}
+
+/// Entities with what follows them and is theirs.
+fn entities<'a>(records: &[Record<'a>]) -> Vec<Entity<'a>> {
+    let mut entities: Vec<Entity> = Vec::new();
+    for &record in records {
+        match (record.kind, entities.last_mut()) {
+            ("SEQEND", _) => {}
+            ("VERTEX" | "ATTRIB", Some(entity)) => entity.parts.push(record),
+            _ => entities.push(Entity { record, parts: Vec::new() }),
+        }
+    }
+    entities
+}

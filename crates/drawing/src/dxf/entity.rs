@@ -1,0 +1,169 @@
+//! Entities that lie in the plane.
+
+use super::document::Entity;
+use super::tags::Record;
+use super::{Place, Reader, oriented, upwards};
+use crate::curve::{Ellipse, Spline, bulge};
+use crate::map::Map;
+use crate::sheet::Origin;
+use crate::{Error, Point};
+use std::f64::consts::TAU;
+
+/// A corner of a polyline, and how the way to the next one bends.
+struct Corner {
+    at: Point,
+    bulge: f64,
+}
+
+impl<'a> Reader<'_, 'a> {
+    /// Puts an entity on the sheet, or says that it is left out.
+    pub(super) fn entity(&mut self, entity: &Entity<'a>, place: &Place<'a>, origin: &Origin) -> Result<(), Error> {
+        let record = entity.record;
+        if is_tilted(&record)? {
+            self.sheet.leave_out(&format!("{} across the plane", record.kind), Some(record.line));
+            return Ok(());
+        }
+        // Lines, ellipses and splines are in coordinates of the drawing.
+        let (world, own) = (place.map, place.map.after(&oriented(entity)?));
+        match record.kind {
+            "LINE" => {
+                let ends = [record.point(10)?, record.point(11)?].map(|p| world.point(p));
+                self.open(ends.to_vec(), place, origin)
+            }
+            "LWPOLYLINE" => self.polyline(&corners(&record)?, record.flag(1)?, &own, place, origin),
+            "POLYLINE" => self.old_polyline(entity, &own, place, origin),
+            "CIRCLE" => self.sheet.circle(record.point(10)?, size(&record, 40)?, &own, origin),
+            "ARC" => {
+                let circle = Ellipse::circle(record.point(10)?, size(&record, 40)?).mapped(&own);
+                let [from, to] = [record.needed(50)?.to_radians(), record.needed(51)?.to_radians()];
+                self.arc(&circle, from, to, place, origin)
+            }
+            "ELLIPSE" => {
+                let u = record.point(11)?;
+                let flat = size(&record, 40)? * upwards(entity);
+                let ellipse = Ellipse { center: record.point(10)?, u, v: [-u[1] * flat, u[0] * flat] }.mapped(&world);
+                let [from, to] = [record.number_or(41, 0.0)?, record.number_or(42, TAU)?];
+                self.arc(&ellipse, from, to, place, origin)
+            }
+            "SPLINE" => self.spline(&record, &world, place, origin),
+            // Their last two corners are in the order of reading, not round the shape.
+            "SOLID" | "TRACE" => {
+                let corners: [Point; 4] =
+                    [record.point(10)?, record.point(11)?, record.point(13).or(record.point(12))?, record.point(12)?];
+                self.sheet.closed(corners.map(|p| own.point(p)).to_vec(), origin)
+            }
+            kind => {
+                self.sheet.leave_out(kind, Some(record.line));
+                Ok(())
+            }
+        }
+    }
+
+    fn open(&mut self, points: Vec<Point>, place: &Place, origin: &Origin) -> Result<(), Error> {
+        let group = self.group(place, origin);
+        self.sheet.open(points, group, origin)
+    }
+
+    /// Corners joined by lines and arcs.
+    fn polyline(
+        &mut self,
+        corners: &[Corner],
+        is_closed: bool,
+        map: &Map,
+        place: &Place,
+        origin: &Origin,
+    ) -> Result<(), Error> {
+        let [first, ..] = corners else {
+            self.sheet.leave_out(&format!("{} without points", origin.kind), origin.line);
+            return Ok(());
+        };
+        let mut points = vec![map.point(first.at)];
+        let ways = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
+        let closing = corners.last().filter(|_| is_closed).map(|last| (last, first));
+        for (from, to) in ways.chain(closing) {
+            let arc = bulge(from.at, to.at, from.bulge, map, self.sheet.tolerance);
+            points.extend(self.sheet.chords(arc, origin)?);
+        }
+        if is_closed { self.sheet.closed(points, origin) } else { self.open(points, place, origin) }
+    }
+
+    /// The polyline of older programs: its vertices are records of their own.
+    fn old_polyline(&mut self, entity: &Entity, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
+        const MESHES: i64 = 16 | 64;
+        const CONTROL: i64 = 16;
+        let record = entity.record;
+        if record.flag(MESHES)? {
+            self.sheet.leave_out("POLYLINE that is a mesh", Some(record.line));
+            return Ok(());
+        }
+        let mut corners = Vec::new();
+        for vertex in entity.parts.iter().filter(|part| part.kind == "VERTEX") {
+            if !vertex.flag(CONTROL)? {
+                corners.push(Corner { at: vertex.point(10)?, bulge: vertex.number_or(42, 0.0)? });
+            }
+        }
+        self.polyline(&corners, record.flag(1)?, map, place, origin)
+    }
+
+    /// An arc by its parameters, or the whole.
+    fn arc(&mut self, ellipse: &Ellipse, from: f64, to: f64, place: &Place, origin: &Origin) -> Result<(), Error> {
+        const WHOLE: f64 = 1e-9;
+        let turn = (to - from).rem_euclid(TAU);
+        if turn < WHOLE || turn > TAU - WHOLE {
+            return self.sheet.ellipse(ellipse, origin);
+        }
+        let points = self.sheet.chords(ellipse.arc(from, turn, self.sheet.tolerance), origin)?;
+        let points = [ellipse.at(from)].into_iter().chain(points).collect();
+        self.open(points, place, origin)
+    }
+
+    fn spline(&mut self, record: &Record, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
+        let control: Vec<Point> = record.points(10)?.into_iter().map(|p| map.point(p)).collect();
+        let weights = record.numbers(41)?;
+        let weights = if weights.is_empty() { vec![1.0; control.len()] } else { weights };
+        let degree = usize::try_from(record.integer_or(71, 3)?).unwrap_or_default();
+        let spline = Spline { degree, knots: record.numbers(40)?, control, weights };
+        if spline.control.is_empty() && record.points(11)?.len() > 1 {
+            self.sheet.notes.add("SPLINE of fit points alone: straight from one to the next", origin.line);
+            let points = record.points(11)?.into_iter().map(|p| map.point(p)).collect();
+            return self.open(points, place, origin);
+        }
+        if !spline.is_sound() {
+            let message = "SPLINE whose degree, knots, weights and control points do not fit";
+            return Err(Error::new(record.line, message, "draw the spline again, or turn it into a polyline"));
+        }
+        let points = self.sheet.chords(spline.points(self.sheet.tolerance), origin)?;
+        self.open(points, place, origin)
+    }
+}
+
+/// A length that is none if it is not above 0.
+fn size(record: &Record, code: i32) -> Result<f64, Error> {
+    let size = record.needed(code)?;
+    if size > 0.0 {
+        return Ok(size);
+    }
+    let message = format!("{} of size {size}", record.kind);
+    Err(Error::new(record.line, message, "give it a size above 0, or remove it"))
+}
+
+/// Whether its own z axis is not that of the drawing.
+fn is_tilted(record: &Record) -> Result<bool, Error> {
+    const ALONG: f64 = 1e-6;
+    let [x, y] = [record.number_or(210, 0.0)?, record.number_or(220, 0.0)?];
+    Ok(x.hypot(y) > ALONG)
+}
+
+/// Corners of a polyline in one record.
+fn corners(record: &Record) -> Result<Vec<Corner>, Error> {
+    let mut corners: Vec<Corner> = record.points(10)?.into_iter().map(|at| Corner { at, bulge: 0.0 }).collect();
+    let mut count = 0;
+    for tag in record.tags {
+        match tag.code {
+            10 => count += 1,
+            42 if count > 0 => corners[count - 1].bulge = tag.number()?,
+            _ => {}
+        }
+    }
+    Ok(corners)
+}

@@ -1,0 +1,190 @@
+//! DXF, as text: what lies in the plane of model space.
+
+mod document;
+mod entity;
+mod tags;
+
+use crate::map::Map;
+use crate::sheet::{Origin, Sheet};
+use crate::{Drawing, Error, Settings, Unit};
+use document::{Document, Entity};
+use std::collections::HashMap;
+
+/// Insertions within each other, at most; programs allow fewer.
+const DEEPEST: usize = 64;
+/// Entities after all blocks are inserted, at most.
+const MOST_ENTITIES: usize = 1 << 20;
+
+/// Reads a DXF.
+///
+/// # Errors
+/// Text that is none, or is cut; numbers that are none; blocks that hold themselves.
+pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> {
+    let text = tags::decoded(bytes)?;
+    let tags = tags::tags(&text)?;
+    let records = tags::records(&tags);
+    let document = Document::read(&records)?;
+    let mut sheet = Sheet::new(settings);
+    let unit = settings.unit.or(document.unit).unwrap_or_else(|| {
+        sheet.notes.add("the drawing does not say its unit: read as mm", None);
+        Unit::MILLIMETRE
+    });
+    let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };
+    let scale = unit.metres();
+    let place = Place { map: Map::scaling(scale, scale), up: [scale, 0.0], ..Place::default() };
+    reader.all(&document.entities, &place, &mut Vec::new())?;
+    Ok(reader.sheet.finish())
+}
+
+/// Where the entities of a block go: all that an insertion says.
+#[derive(Debug, Clone)]
+struct Place<'a> {
+    map: Map,
+    /// Factor and offset of heights.
+    up: [f64; 2],
+    /// The block that came in first, if it has a name for people.
+    name: Option<&'a str>,
+    /// The layer of what lies on layer 0 in a block.
+    layer: Option<&'a str>,
+    /// Entities of one insertion are joined with each other only.
+    instance: usize,
+    is_hidden: bool,
+}
+
+impl Default for Place<'_> {
+    fn default() -> Self {
+        Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, is_hidden: false }
+    }
+}
+
+struct Reader<'d, 'a> {
+    document: &'d Document<'a>,
+    sheet: Sheet,
+    /// By insertion and layer.
+    groups: HashMap<(usize, String), usize>,
+    instances: usize,
+    entities: usize,
+}
+
+impl<'d, 'a> Reader<'d, 'a> {
+    /// Reads entities that lie in a place, `within` blocks of these names.
+    fn all(&mut self, entities: &'d [Entity<'a>], place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
+        for entity in entities {
+            self.entities += 1;
+            let record = entity.record;
+            if self.entities > MOST_ENTITIES {
+                let message = format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
+                return Err(Error::new(record.line, message, "leave out what no arm can meet"));
+            }
+            if record.integer_or(67, 0)? == 1 {
+                self.sheet.leave_out("what lies in paper space", Some(record.line));
+            } else if record.integer_or(60, 0)? == 1 {
+                self.sheet.leave_out("what is invisible", Some(record.line));
+            } else if record.kind == "INSERT" {
+                self.insert(entity, place, within)?;
+            } else {
+                let origin = self.origin(entity, place)?;
+                self.entity(entity, place, &origin)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whose an entity is.
+    fn origin(&self, entity: &Entity<'a>, place: &Place<'a>) -> Result<Origin, Error> {
+        let record = entity.record;
+        let layer = layer(entity, place);
+        let thickness = record.number_or(39, 0.0)?;
+        let elevation = if record.kind == "LWPOLYLINE" { record.number(38)? } else { record.number(30)? };
+        let foot = elevation.unwrap_or(0.0);
+        let height = [foot, foot + thickness].map(|z| place.up[0] * z * upwards(entity) + place.up[1]);
+        let [low, high] = [height[0].min(height[1]), height[0].max(height[1])];
+        Ok(Origin {
+            name: place.name.map(str::to_owned),
+            layer: Some(layer.to_owned()),
+            height: (low < high).then_some([low, high]),
+            is_hidden: place.is_hidden || self.document.hidden.contains(&layer.to_uppercase()),
+            kind: record.kind.to_owned(),
+            line: Some(record.line),
+        })
+    }
+
+    /// The group of what may be joined with the entities of a layer.
+    fn group(&mut self, place: &Place, origin: &Origin) -> usize {
+        let next = self.groups.len();
+        let layer = origin.layer.clone().unwrap_or_default();
+        *self.groups.entry((place.instance, layer)).or_insert(next)
+    }
+
+    /// Inserts a block, once or in rows and columns.
+    fn insert(&mut self, entity: &Entity<'a>, place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
+        let record = entity.record;
+        if !entity.parts.is_empty() {
+            self.sheet.leave_out("ATTRIB", Some(entity.parts[0].line));
+        }
+        let name = record.text(2).unwrap_or_default();
+        let key = name.to_uppercase();
+        let Some(block) = self.document.blocks.get(&key) else {
+            let message = format!("INSERT of block \"{name}\", which the file does not hold");
+            self.sheet.leave_out(&message, Some(record.line));
+            return Ok(());
+        };
+        if within.contains(&key) || within.len() == DEEPEST {
+            let what = if within.contains(&key) { "holds itself" } else { "lies in too many others" };
+            let message = format!("block \"{name}\" {what}");
+            return Err(Error::new(record.line, message, "explode the block, or draw it without itself"));
+        }
+        let scale = [record.number_or(41, 1.0)?, record.number_or(42, 1.0)?];
+        let map = place.map.after(&oriented(entity)?);
+        let at = Map::moving(record.point(10)?).after(&Map::turning(record.number_or(50, 0.0)?.to_radians()));
+        let own = Map::scaling(scale[0], scale[1]).after(&Map::moving(block.base.map(|x| -x)));
+        if !map.after(&at).after(&own).is_regular() {
+            let message = format!("INSERT of block \"{name}\" with scale {} by {}", scale[0], scale[1]);
+            return Err(Error::new(record.line, message, "give it a scale that is not 0"));
+        }
+        let up_scale = place.up[0] * upwards(entity);
+        let up = [up_scale * record.number_or(43, 1.0)?, up_scale * record.number_or(30, 0.0)? + place.up[1]];
+        let counts = [record.integer_or(70, 1)?.max(1), record.integer_or(71, 1)?.max(1)];
+        let spacing = [record.number_or(44, 0.0)?, record.number_or(45, 0.0)?];
+        let layer = layer(entity, place);
+        let is_hidden = place.is_hidden || self.document.hidden.contains(&layer.to_uppercase());
+        // Names of blocks that programs make up begin with a star.
+        let name = place.name.or(Some(block.name).filter(|name| !name.starts_with('*')));
+        within.push(key);
+        for row in 0..counts[1] {
+            for column in 0..counts[0] {
+                self.instances += 1;
+                // An empty block costs, too.
+                self.entities += 1;
+                if self.entities > MOST_ENTITIES {
+                    let message =
+                        format!("with all blocks inserted the drawing has more than {MOST_ENTITIES} entities");
+                    return Err(Error::new(record.line, message, "leave out what no arm can meet"));
+                }
+                let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
+                let map = map.after(&at).after(&shift).after(&own);
+                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, is_hidden };
+                self.all(&block.entities, &inner, within)?;
+            }
+        }
+        within.pop();
+        Ok(())
+    }
+}
+
+/// The layer of an entity: in blocks, layer 0 is that of the insertion.
+fn layer<'a>(entity: &Entity<'a>, place: &Place<'a>) -> &'a str {
+    let own = entity.record.text(8).unwrap_or("0");
+    if own == "0" { place.layer.unwrap_or(own) } else { own }
+}
+
+/// Which way the entity's own z axis points, as far as it is the plane's.
+fn upwards(entity: &Entity) -> f64 {
+    let down = entity.record.number(230).ok().flatten().is_some_and(|z| z < 0.0);
+    if down { -1.0 } else { 1.0 }
+}
+
+/// From an entity's own coordinates to those of the drawing: seen from below, x is turned round.
+fn oriented(entity: &Entity) -> Result<Map, Error> {
+    Ok(if upwards(entity) < 0.0 { Map::scaling(-1.0, 1.0) } else { Map::IDENTITY })
+}

@@ -1,0 +1,41 @@
+//! What rings surround.
+
+use crate::{Point, Ring};
+use i_overlay::core::fill_rule::FillRule as Rule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::core::solver::Solver;
+use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
+
+/// Which points are inside of rings that cross or surround each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FillRule {
+    /// Those that they go round, directions counted.
+    NonZero,
+    /// Those that an odd number of them goes round.
+    EvenOdd,
+}
+
+/// What rings surround, as polygons that do not cross themselves or each other: outer ring and holes of each. Corners are rounded to a
+/// grid of some 1e-17 of the rings' extent.
+#[must_use]
+pub fn filled(rings: &[Ring], rule: FillRule) -> Vec<(Ring, Vec<Ring>)> {
+    let rule = match rule {
+        FillRule::NonZero => Rule::NonZero,
+        FillRule::EvenOdd => Rule::EvenOdd,
+    };
+    let none: [Point; 0] = [];
+    let mut overlay = FloatOverlay::<Point, i64>::from_subj_and_clip_custom(
+        rings,
+        none.as_slice(),
+        OverlayOptions::ogc(),
+        Solver::default(),
+    );
+    let shapes = overlay.overlay(OverlayRule::Subject, rule);
+    shapes
+        .into_iter()
+        .filter_map(|shape| {
+            let mut rings = shape.into_iter();
+            Some((rings.next()?, rings.collect()))
+        })
+        .collect()
+}

@@ -1,0 +1,110 @@
+//! Ends that meet, two at a time.
+
+use crate::Point;
+use std::collections::HashMap;
+
+/// A chain of open curves, or of one.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Chain {
+    /// Which curves, in order; the first of them in the file need not be the first here.
+    pub curves: Vec<usize>,
+    /// Without the last point if that is the first.
+    pub points: Vec<Point>,
+    pub is_closed: bool,
+    /// How far the ends of neighbours that do not meet exactly are apart, at most.
+    pub gap: f64,
+}
+
+/// Places where curves end: those nearer than `reach` are one.
+struct Places {
+    reach: f64,
+    cells: HashMap<[i64; 2], Vec<usize>>,
+    at: Vec<Point>,
+}
+
+impl Places {
+    fn find(&mut self, p: Point) -> usize {
+        // Cells of twice the reach, so that coordinates of a drawing far away have room in their numbers.
+        let cell = p.map(|x| (x / (2.0 * self.reach)).floor().clamp(-9e18, 9e18) as i64);
+        for dx in -1..=1 {
+            for dy in -1..=1 {
+                let neighbor = [cell[0].saturating_add(dx), cell[1].saturating_add(dy)];
+                let known = self.cells.get(&neighbor).into_iter().flatten();
+                if let Some(&place) = known.into_iter().find(|&&i| apart(self.at[i], p) <= self.reach) {
+                    return place;
+                }
+            }
+        }
+        self.at.push(p);
+        self.cells.entry(cell).or_default().push(self.at.len() - 1);
+        self.at.len() - 1
+    }
+}
+
+fn apart(a: Point, b: Point) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Joins curves at places where two of them end; where three do nobody can say which belong together. Each has two points or more.
+pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
+    let mut places = Places { reach, cells: HashMap::new(), at: Vec::new() };
+    let ends: Vec<[usize; 2]> =
+        curves.iter().map(|curve| [curve[0], curve[curve.len() - 1]].map(|p| places.find(p))).collect();
+    let mut at_place: Vec<Vec<usize>> = vec![Vec::new(); places.at.len()];
+    for (curve, ends) in ends.iter().enumerate() {
+        ends.iter().for_each(|&place| at_place[place].push(curve));
+    }
+    let mut is_used = vec![false; curves.len()];
+    let mut chains = Vec::new();
+    // Chains with two ends first, from either of them; what is left goes round.
+    let is_end = |curve: usize| ends[curve].iter().position(|&place| at_place[place].len() != 2);
+    let starts = (0..curves.len()).filter_map(|curve| Some((curve, is_end(curve)?)));
+    for (first, side) in starts.chain((0..curves.len()).map(|curve| (curve, 0))) {
+        if !is_used[first] {
+            chains.push(chain(curves, &ends, &at_place, &mut is_used, first, side));
+        }
+    }
+    chains.sort_by_key(|chain| chain.curves.iter().min().copied());
+    chains
+}
+
+/// The chain that begins with an end of a curve.
+fn chain(
+    curves: &[Vec<Point>],
+    ends: &[[usize; 2]],
+    at_place: &[Vec<usize>],
+    is_used: &mut [bool],
+    first: usize,
+    side: usize,
+) -> Chain {
+    let begin = ends[first][side];
+    let (mut curve, mut place) = (first, begin);
+    let mut chain = Chain { curves: Vec::new(), points: Vec::new(), is_closed: false, gap: 0.0 };
+    loop {
+        is_used[curve] = true;
+        chain.curves.push(curve);
+        let is_backward = ends[curve][0] != place;
+        let mut points: Vec<Point> = curves[curve].clone();
+        if is_backward {
+            points.reverse();
+        }
+        if let Some(&last) = chain.points.last() {
+            chain.gap = chain.gap.max(apart(last, points[0]));
+            points.remove(0);
+        }
+        chain.points.extend(points);
+        place = if is_backward { ends[curve][0] } else { ends[curve][1] };
+        let next = at_place[place].iter().copied().find(|&other| !is_used[other]);
+        match next {
+            Some(next) if at_place[place].len() == 2 => curve = next,
+            _ => break,
+        }
+    }
+    // Two points there and back surround nothing.
+    if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
+        let last = chain.points.pop().expect("two points or more");
+        chain.gap = chain.gap.max(apart(last, chain.points[0]));
+        chain.is_closed = true;
+    }
+    chain
+}

@@ -1,0 +1,207 @@
+//! Where readers put what they find.
+
+use crate::curve::{Ellipse, TooFine};
+use crate::fill::{FillRule, filled};
+use crate::join::joined;
+use crate::map::Map;
+use crate::notes::Notes;
+use crate::{Drawing, Error, Geometry, Point, Ring, Settings, Shape};
+use std::collections::BTreeMap;
+
+/// More points a drawing does not have: neither a planner nor a person could make use of it.
+pub const MOST_POINTS: usize = 1 << 21;
+
+/// Whose a shape is.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Origin {
+    pub name: Option<String>,
+    pub layer: Option<String>,
+    pub height: Option<[f64; 2]>,
+    pub is_hidden: bool,
+    pub kind: String,
+    pub line: Option<usize>,
+}
+
+/// Shapes in the order of the file, and open curves that are still to be joined.
+pub(crate) struct Sheet {
+    pub tolerance: f64,
+    pub notes: Notes,
+    /// With the number of each in the file.
+    shapes: Vec<(usize, Shape)>,
+    /// By who may be joined with whom: number in the file, whose, points.
+    open: BTreeMap<usize, Vec<(usize, Origin, Vec<Point>)>>,
+    count: usize,
+    points: usize,
+}
+
+impl Sheet {
+    pub fn new(settings: &Settings) -> Self {
+        let (notes, shapes, open) = (Notes::default(), Vec::new(), BTreeMap::new());
+        Self { tolerance: settings.tolerance, notes, shapes, open, count: 0, points: 0 }
+    }
+
+    /// Says that something is not taken.
+    pub fn leave_out(&mut self, what: &str, line: Option<usize>) {
+        self.notes.add(format!("{what}: left out"), line);
+    }
+
+    /// A curve that needs too many chords.
+    pub fn too_fine(&self, origin: &Origin) -> Error {
+        let (kind, tolerance) = (&origin.kind, self.tolerance);
+        let message = format!("{kind}: within {tolerance} m of its chords it would have too many of them");
+        Error::new(origin.line, message, "take a larger tolerance, or look whether the unit is meant")
+    }
+
+    /// Chords of a curve, or the error that there would be too many.
+    pub fn chords<T>(&self, chords: Result<T, TooFine>, origin: &Origin) -> Result<T, Error> {
+        chords.map_err(|TooFine| self.too_fine(origin))
+    }
+
+    /// A closed outline.
+    pub fn closed(&mut self, ring: Ring, origin: &Origin) -> Result<(), Error> {
+        self.polygon(ring, Vec::new(), origin)
+    }
+
+    /// An outline with holes.
+    pub fn polygon(&mut self, outer: Ring, holes: Vec<Ring>, origin: &Origin) -> Result<(), Error> {
+        let outer = once(outer, true);
+        if has_no_area(&outer) {
+            return self.wall(outer, origin);
+        }
+        let holes: Vec<Ring> =
+            holes.into_iter().map(|hole| once(hole, true)).filter(|hole| !has_no_area(hole)).collect();
+        self.counted(outer.iter().chain(holes.iter().flatten()), origin)?;
+        self.put(Geometry::Polygon { outer, holes }, origin);
+        Ok(())
+    }
+
+    /// What several rings surround by a rule.
+    pub fn region(&mut self, rings: Vec<Ring>, rule: FillRule, origin: &Origin) -> Result<(), Error> {
+        if let [_] = &rings[..] {
+            return rings.into_iter().try_for_each(|ring| self.closed(ring, origin));
+        }
+        self.counted(rings.iter().flatten(), origin)?;
+        for (outer, holes) in filled(&rings, rule) {
+            self.polygon(outer, holes, origin)?;
+        }
+        Ok(())
+    }
+
+    /// A polyline that is joined with nothing.
+    pub fn wall(&mut self, points: Vec<Point>, origin: &Origin) -> Result<(), Error> {
+        let points = once(points, false);
+        if points.len() < 2 {
+            self.leave_out(&format!("{} without extent", origin.kind), origin.line);
+            return Ok(());
+        }
+        self.counted(points.iter(), origin)?;
+        self.put(Geometry::Polyline(points), origin);
+        Ok(())
+    }
+
+    /// A curve that is joined with others of its group, where their ends meet.
+    pub fn open(&mut self, points: Vec<Point>, group: usize, origin: &Origin) -> Result<(), Error> {
+        let points = once(points, false);
+        if points.len() < 2 {
+            return self.wall(points, origin);
+        }
+        self.counted(points.iter(), origin)?;
+        self.count += 1;
+        self.open.entry(group).or_default().push((self.count, origin.clone(), points));
+        Ok(())
+    }
+
+    /// A circle or, if the map stretches it, the ring that it becomes.
+    pub fn circle(&mut self, center: Point, radius: f64, map: &Map, origin: &Origin) -> Result<(), Error> {
+        match map.similarity() {
+            Some(scale) if radius * scale > 0.0 => {
+                let (center, radius) = (map.point(center), radius * scale);
+                self.counted([center, [radius, 0.0]].iter(), origin)?;
+                self.put(Geometry::Circle { center, radius }, origin);
+                Ok(())
+            }
+            _ => self.ellipse(&Ellipse::circle(center, radius).mapped(map), origin),
+        }
+    }
+
+    /// A whole ellipse, where the map has put it.
+    pub fn ellipse(&mut self, ellipse: &Ellipse, origin: &Origin) -> Result<(), Error> {
+        let ring = self.chords(ellipse.ring(self.tolerance), origin)?;
+        self.closed(ring, origin)
+    }
+
+    /// Holds coordinates to be numbers and, all together, to be not too many.
+    fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
+        for point in points {
+            self.points += 1;
+            if !point.iter().all(|x| x.is_finite()) {
+                let message = format!("{}: its coordinates are too large for numbers", origin.kind);
+                return Err(Error::new(origin.line, message, "look for a scale or a coordinate that is not meant"));
+            }
+        }
+        if self.points > MOST_POINTS {
+            let message = format!("the drawing has more than {MOST_POINTS} points");
+            return Err(Error::new(origin.line, message, "leave out what no arm can meet, or take a larger tolerance"));
+        }
+        Ok(())
+    }
+
+    fn put(&mut self, geometry: Geometry, origin: &Origin) {
+        self.count += 1;
+        self.put_at(self.count, geometry, origin);
+    }
+
+    fn put_at(&mut self, number: usize, geometry: Geometry, origin: &Origin) {
+        let Origin { name, layer, height, is_hidden, kind, line } = origin.clone();
+        self.shapes.push((number, Shape { name, layer, geometry, height, is_hidden, kind, line }));
+    }
+
+    /// The drawing, ends that meet joined.
+    pub fn finish(mut self) -> Drawing {
+        for curves in std::mem::take(&mut self.open).into_values() {
+            let (origins, curves): (Vec<_>, Vec<_>) = curves.into_iter().map(|(n, o, p)| ((n, o), p)).unzip();
+            for chain in joined(&curves, self.tolerance) {
+                let (number, origin) = &origins[*chain.curves.iter().min().expect("at least one")];
+                let mut origin = origin.clone();
+                if chain.curves.len() > 1 {
+                    origin.kind = format!("{} and {} more that it meets", origin.kind, chain.curves.len() - 1);
+                }
+                if chain.gap > 0.0 {
+                    let message = format!("ends less than {} m apart: joined", self.tolerance);
+                    self.notes.add(message, origin.line);
+                }
+                let points = once(chain.points, chain.is_closed);
+                let geometry = if chain.is_closed && !has_no_area(&points) {
+                    Geometry::Polygon { outer: points, holes: Vec::new() }
+                } else {
+                    Geometry::Polyline(points)
+                };
+                self.put_at(*number, geometry, &origin);
+            }
+        }
+        self.shapes.sort_by_key(|(number, _)| *number);
+        Drawing { shapes: self.shapes.into_iter().map(|(_, shape)| shape).collect(), notes: self.notes.into_list() }
+    }
+}
+
+/// Points without those that repeat the one before them; of a ring the first follows the last.
+fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
+    points.dedup();
+    while is_ring && points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    points
+}
+
+/// Whether all corners lie on one line, as far as their coordinates say.
+fn has_no_area(ring: &[Point]) -> bool {
+    let [a, rest @ ..] = ring else { return true };
+    let far = rest.iter().max_by(|p, q| apart(a, p).total_cmp(&apart(a, q)));
+    let Some(b) = far else { return true };
+    let [ux, uy] = [b[0] - a[0], b[1] - a[1]];
+    rest.iter().all(|p| (ux * (p[1] - a[1]) - uy * (p[0] - a[0])) == 0.0)
+}
+
+fn apart(a: &Point, b: &Point) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}

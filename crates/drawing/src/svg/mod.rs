@@ -1,0 +1,403 @@
+//! SVG: what it fills is solid, and what it strokes alone and leaves open is a wall.
+
+mod path;
+mod style;
+
+use crate::curve::Ellipse;
+use crate::map::Map;
+use crate::sheet::{Origin, Sheet};
+use crate::{Drawing, Error, Point, Settings, Unit};
+use path::{PathError, Stretch, stretches};
+use roxmltree::{Document, Node, ParsingOptions};
+use simplecss::StyleSheet;
+use std::collections::HashMap;
+use std::f64::consts::FRAC_PI_2;
+use std::str::FromStr;
+use style::Style;
+use svgtypes::{Align, AspectRatio, Length, LengthUnit, PointsParser, Transform, ViewBox};
+
+/// Elements within each other, at most.
+const DEEPEST: usize = 128;
+/// Elements after all uses are followed, at most.
+const MOST_ELEMENTS: usize = 1 << 20;
+const NAMESPACE: &str = "http://www.w3.org/2000/svg";
+const XLINK: &str = "http://www.w3.org/1999/xlink";
+const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+
+/// Reads an SVG. Its coordinates begin at the lower left corner of the page.
+///
+/// # Errors
+/// What is no XML, with its line, or no SVG.
+pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
+    const CURE: &str = "save the drawing again, as a plain SVG";
+    if text.trim().is_empty() {
+        return Err(Error::new(None, "the file is empty", CURE));
+    }
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text, options).map_err(|error| {
+        let (line, message) = (error.pos().row as usize, error.to_string());
+        let message = message.split(" at ").next().unwrap_or_default();
+        Error::new(line, format!("this is no well-formed XML: {message}"), CURE)
+    })?;
+    let root = document.root_element();
+    if !is_svg(root) || root.tag_name().name() != "svg" {
+        let message = format!("this is no SVG: the root element is <{}>", root.tag_name().name());
+        return Err(Error::new(1, message, "give an .svg file"));
+    }
+    let mut styles = StyleSheet::new();
+    let sheets = document.descendants().filter(|node| node.has_tag_name((NAMESPACE, "style")));
+    sheets.filter_map(|node| node.text()).for_each(|text| styles.parse_more(text));
+    let ends = text.bytes().zip(0..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at).collect();
+    let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
+    let mut reader = Reader { ends, ids, styles, sheet: Sheet::new(settings), elements: 0, groups: 0 };
+    let inside = reader.page(root, settings.unit)?;
+    reader.children(root, &inside, 0)?;
+    Ok(reader.sheet.finish())
+}
+
+fn is_svg(node: Node) -> bool {
+    node.is_element() && node.tag_name().namespace().is_none_or(|space| space == NAMESPACE)
+}
+
+/// What holds inside of an element.
+#[derive(Debug, Clone)]
+struct Inside {
+    map: Map,
+    style: Style,
+    /// Of the group that names what has no name.
+    name: Option<String>,
+    layer: Option<String>,
+    /// Size of the page in the units of its coordinates, for percentages.
+    page: [f64; 2],
+}
+
+struct Reader<'a, 'i> {
+    /// Where lines end, bytes.
+    ends: Vec<usize>,
+    ids: HashMap<&'a str, Node<'a, 'i>>,
+    styles: StyleSheet<'a>,
+    sheet: Sheet,
+    elements: usize,
+    groups: usize,
+}
+
+impl<'a, 'i> Reader<'a, 'i> {
+    fn line(&self, node: Node) -> usize {
+        self.ends.partition_point(|&end| end < node.range().start) + 1
+    }
+
+    /// The page: metres, y upwards, from its lower left corner.
+    fn page(&mut self, root: Node<'a, 'i>, unit: Option<Unit>) -> Result<Inside, Error> {
+        let pixel = Unit::PIXEL.metres();
+        let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
+        // Parts of a page that nobody has sized.
+        let view_size = view.map_or([100.0, 100.0], |view| [view.w, view.h]);
+        let lengths = ["width", "height"].map(|name| root.attribute(name).filter(|value| !value.contains('%')));
+        let mut size = [None; 2];
+        for k in 0..2 {
+            size[k] = match lengths[k] {
+                Some(_) => self.length(root, ["width", "height"][k], view_size[k])?,
+                None => None,
+            };
+        }
+        let (size, scale) = match (unit, view) {
+            (Some(unit), _) => (view.map(|view| [view.w, view.h]), unit.metres()),
+            (None, Some(view)) => {
+                // One side gives the other.
+                let ratio = view.h / view.w;
+                let size = match size {
+                    [Some(width), height] => [width, height.unwrap_or(width * ratio)],
+                    [None, Some(height)] => [height / ratio, height],
+                    [None, None] => [view.w, view.h],
+                };
+                (Some(size), pixel)
+            }
+            (None, None) => (size[1].map(|height| [size[0].unwrap_or(height), height]), pixel),
+        };
+        let says_unit = lengths.iter().flatten().any(|text| text.trim_end().ends_with(char::is_alphabetic));
+        if unit.is_none() && !says_unit {
+            self.sheet.notes.add("the drawing does not say its size: read as px, 96 to an inch", None);
+        }
+        let up = Map { u: [scale, 0.0], v: [0.0, -scale], o: [0.0, size.map_or(0.0, |[_, height]| height * scale)] };
+        let map = match (view, size) {
+            (Some(view), Some(size)) => up.after(&self.fitted(root, view, size)?),
+            _ => up,
+        };
+        self.regular(&map, root)?;
+        let page = view.map_or(size.unwrap_or(view_size), |view| [view.w, view.h]);
+        Ok(Inside { map, style: Style::default().of(root, &self.styles), name: None, layer: None, page })
+    }
+
+    /// The map that puts a view box into a space of this size.
+    fn fitted(&self, node: Node, view: ViewBox, size: [f64; 2]) -> Result<Map, Error> {
+        let ratio = self.parsed(node, "preserveAspectRatio")?;
+        let ratio = ratio.unwrap_or(AspectRatio { defer: false, align: Align::XMidYMid, slice: false });
+        let [x, y] = [size[0] / view.w, size[1] / view.h];
+        let [sx, sy] = match (ratio.align, ratio.slice) {
+            (Align::None, _) => [x, y],
+            (_, false) => [x.min(y); 2],
+            (_, true) => [x.max(y); 2],
+        };
+        use Align::{XMaxYMax, XMaxYMid, XMaxYMin, XMidYMax, XMidYMid, XMidYMin, XMinYMax, XMinYMid};
+        let right = match ratio.align {
+            XMidYMin | XMidYMid | XMidYMax => 0.5,
+            XMaxYMin | XMaxYMid | XMaxYMax => 1.0,
+            _ => 0.0,
+        };
+        let down = match ratio.align {
+            XMinYMid | XMidYMid | XMaxYMid => 0.5,
+            XMinYMax | XMidYMax | XMaxYMax => 1.0,
+            _ => 0.0,
+        };
+        let o = [right * (size[0] - sx * view.w) - sx * view.x, down * (size[1] - sy * view.h) - sy * view.y];
+        Ok(Map { o, ..Map::scaling(sx, sy) })
+    }
+
+    /// An attribute that has a grammar, if it is there.
+    fn parsed<T: FromStr>(&self, node: Node, name: &str) -> Result<Option<T>, Error> {
+        let Some(text) = node.attribute(name) else { return Ok(None) };
+        text.trim().parse().map(Some).map_err(|_| self.wrong(node, name, text))
+    }
+
+    fn wrong(&self, node: Node, name: &str, text: &str) -> Error {
+        let shown: String = text.chars().take(40).collect();
+        let message = format!("<{}> has {name}=\"{shown}\", which makes no sense", node.tag_name().name());
+        Error::new(self.line(node), message, "save the drawing again, as a plain SVG")
+    }
+
+    /// A length in units of its coordinates; percentages are parts of `whole`.
+    fn length(&self, node: Node, name: &str, whole: f64) -> Result<Option<f64>, Error> {
+        const INCH: f64 = 96.0;
+        let Some(Length { number, unit }) = self.parsed(node, name)? else { return Ok(None) };
+        let factor = match unit {
+            LengthUnit::None | LengthUnit::Px => 1.0,
+            LengthUnit::In => INCH,
+            LengthUnit::Cm => INCH / 2.54,
+            LengthUnit::Mm => INCH / 25.4,
+            LengthUnit::Pt => INCH / 72.0,
+            LengthUnit::Pc => INCH / 6.0,
+            LengthUnit::Percent => whole / 100.0,
+            LengthUnit::Em | LengthUnit::Ex => {
+                return Err(self.wrong(node, name, node.attribute(name).unwrap_or_default()));
+            }
+        };
+        Ok(Some(number * factor).filter(|length| length.is_finite()))
+    }
+
+    /// The same of one that is 0 if it is not there.
+    fn length_or_0(&self, node: Node, name: &str, whole: f64) -> Result<f64, Error> {
+        Ok(self.length(node, name, whole)?.unwrap_or(0.0))
+    }
+
+    fn regular(&self, map: &Map, node: Node) -> Result<(), Error> {
+        if map.is_regular() {
+            return Ok(());
+        }
+        let message = format!("<{}> is scaled by 0, or by more than numbers hold", node.tag_name().name());
+        Err(Error::new(self.line(node), message, "give it a scale (or a viewBox) that is not 0"))
+    }
+
+    fn children(&mut self, node: Node<'a, 'i>, inside: &Inside, depth: usize) -> Result<(), Error> {
+        node.children().filter(|child| is_svg(*child)).try_for_each(|child| self.element(child, inside, depth + 1))
+    }
+
+    fn element(&mut self, node: Node<'a, 'i>, around: &Inside, depth: usize) -> Result<(), Error> {
+        let (kind, line) = (node.tag_name().name(), self.line(node));
+        self.elements += 1;
+        if depth > DEEPEST {
+            let message = format!("<{kind}> is in more than {DEEPEST} others, or uses itself");
+            return Err(Error::new(line, message, "ungroup what is grouped, and take the loop out"));
+        }
+        if self.elements > MOST_ELEMENTS {
+            let message = format!("with all uses followed the drawing has more than {MOST_ELEMENTS} elements");
+            return Err(Error::new(line, message, "leave out what no arm can meet"));
+        }
+        let style = around.style.of(node, &self.styles);
+        if !style.is_displayed {
+            self.sheet.leave_out("what is not displayed", Some(line));
+            return Ok(());
+        }
+        if node.has_attribute("clip-path") || node.has_attribute("mask") {
+            self.sheet.notes.add("clip-path and mask: not applied, the whole is taken", Some(line));
+        }
+        let transform: Option<Transform> = self.parsed(node, "transform")?;
+        let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
+        let map = around.map.after(&Map { u: [a, b], v: [c, d], o: [e, f] });
+        self.regular(&map, node)?;
+        let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
+        let name = own_name.clone().or_else(|| around.name.clone());
+        let mut inside = Inside { map, style, name, ..around.clone() };
+        match kind {
+            "g" | "a" | "switch" => {
+                let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
+                if is_layer || inside.layer.is_none() && kind == "g" {
+                    inside.layer = own_name.clone();
+                }
+                // The name of a layer is nobody's name.
+                inside.name = if is_layer { None } else { inside.name };
+                self.children(node, &inside, depth)
+            }
+            "svg" => {
+                let inside = self.viewport(node, node, inside)?;
+                self.children(node, &inside, depth)
+            }
+            "use" => self.used(node, inside, depth),
+            "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if !style.is_visible => {
+                self.sheet.leave_out("what is not visible", Some(line));
+                Ok(())
+            }
+            "path" => {
+                let data = node.attribute("d").unwrap_or_default();
+                let origin = origin(kind, line, &inside);
+                let stretches = stretches(data, &inside.map, self.sheet.tolerance).map_err(|error| match error {
+                    PathError::TooFine => self.sheet.too_fine(&origin),
+                    PathError::Syntax(why) => {
+                        Error::new(line, format!("path data: {why}"), "save the drawing again, as a plain SVG")
+                    }
+                })?;
+                self.stretches(stretches, style, &origin)
+            }
+            "polygon" | "polyline" => {
+                let points = PointsParser::from(node.attribute("points").unwrap_or_default());
+                let points = points.map(|(x, y)| inside.map.point([x, y])).collect();
+                let stretch = Stretch { points, is_closed: kind == "polygon" };
+                self.stretches(vec![stretch], style, &origin(kind, line, &inside))
+            }
+            "line" => {
+                let mut ends = [[0.0; 2]; 2];
+                for (end, names) in ends.iter_mut().zip([["x1", "y1"], ["x2", "y2"]]) {
+                    for k in 0..2 {
+                        end[k] = self.length_or_0(node, names[k], inside.page[k])?;
+                    }
+                }
+                self.sheet.wall(ends.map(|p| inside.map.point(p)).to_vec(), &origin(kind, line, &inside))
+            }
+            "rect" => self.rect(node, &inside, &origin(kind, line, &inside)),
+            "circle" | "ellipse" => self.round(node, &inside, &origin(kind, line, &inside)),
+            "text" | "image" | "foreignObject" | "video" | "canvas" | "iframe" | "flowRoot" => {
+                self.sheet.leave_out(&format!("<{kind}>"), Some(line));
+                Ok(())
+            }
+            // What is not drawn itself: definitions, titles, animations.
+            _ => Ok(()),
+        }
+    }
+
+    /// The inside of an `svg` or a `symbol`, as wide and high as `sized` says.
+    fn viewport(&self, node: Node<'a, 'i>, sized: Node<'a, 'i>, mut inside: Inside) -> Result<Inside, Error> {
+        let corner = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
+        let [x, y] = corner;
+        inside.map = inside.map.after(&Map::moving([x?, y?]));
+        let mut size = inside.page;
+        for (k, name) in ["width", "height"].into_iter().enumerate() {
+            let own = self.length(node, name, inside.page[k])?;
+            size[k] = self.length(sized, name, inside.page[k])?.or(own).unwrap_or(size[k]);
+        }
+        inside.page = size;
+        if let Some(view) = self.parsed::<ViewBox>(node, "viewBox")? {
+            inside.map = inside.map.after(&self.fitted(node, view, size)?);
+            inside.page = [view.w, view.h];
+        }
+        self.regular(&inside.map, node)?;
+        Ok(inside)
+    }
+
+    /// What is drawn somewhere else, once more.
+    fn used(&mut self, node: Node<'a, 'i>, mut inside: Inside, depth: usize) -> Result<(), Error> {
+        let line = self.line(node);
+        let reference = node.attribute("href").or(node.attribute((XLINK, "href"))).unwrap_or_default();
+        let Some(&target) = reference.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
+            self.sheet.leave_out(&format!("<use> of \"{reference}\", which the file does not hold"), Some(line));
+            return Ok(());
+        };
+        let [x, y] = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
+        inside.map = inside.map.after(&Map::moving([x?, y?]));
+        if target.tag_name().name() != "symbol" {
+            return self.element(target, &inside, depth + 1);
+        }
+        if depth > DEEPEST {
+            return Err(Error::new(line, "<use> uses itself", "take the loop out"));
+        }
+        let inside = self.viewport(target, node, inside)?;
+        self.children(target, &inside, depth + 1)
+    }
+
+    fn rect(&mut self, node: Node, inside: &Inside, origin: &Origin) -> Result<(), Error> {
+        let page = inside.page;
+        let [x, y] = [self.length_or_0(node, "x", page[0])?, self.length_or_0(node, "y", page[1])?];
+        let [w, h] = [self.length_or_0(node, "width", page[0])?, self.length_or_0(node, "height", page[1])?];
+        if w <= 0.0 || h <= 0.0 {
+            self.sheet.leave_out("<rect> without extent", origin.line);
+            return Ok(());
+        }
+        let radius = |name: &str, whole: f64| match node.attribute(name) {
+            Some("auto") => Ok(None),
+            _ => self.length(node, name, whole),
+        };
+        let (rx, ry) = match (radius("rx", page[0])?, radius("ry", page[1])?) {
+            (None, None) => (0.0, 0.0),
+            (rx, ry) => (rx.or(ry).unwrap_or(0.0).min(w / 2.0), ry.or(rx).unwrap_or(0.0).min(h / 2.0)),
+        };
+        let mut ring: Vec<Point> = Vec::new();
+        // Corners in turn, each with its quarter of an ellipse.
+        let corners = [[x + w - rx, y + ry], [x + w - rx, y + h - ry], [x + rx, y + h - ry], [x + rx, y + ry]];
+        for (center, quarter) in corners.into_iter().zip([-1.0, 0.0, 1.0, 2.0]) {
+            if rx <= 0.0 || ry <= 0.0 {
+                ring.push(inside.map.point(center));
+                continue;
+            }
+            let ellipse = Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map);
+            let from = quarter * FRAC_PI_2;
+            ring.push(ellipse.at(from));
+            ring.extend(self.sheet.chords(ellipse.arc(from, FRAC_PI_2, self.sheet.tolerance), origin)?);
+        }
+        self.sheet.closed(ring, origin)
+    }
+
+    fn round(&mut self, node: Node, inside: &Inside, origin: &Origin) -> Result<(), Error> {
+        let page = inside.page;
+        let center = [self.length_or_0(node, "cx", page[0])?, self.length_or_0(node, "cy", page[1])?];
+        let [rx, ry] = match node.has_tag_name("circle") || node.has_tag_name((NAMESPACE, "circle")) {
+            true => [self.length_or_0(node, "r", (page[0].hypot(page[1])) / 2.0_f64.sqrt())?; 2],
+            false => [self.length_or_0(node, "rx", page[0])?, self.length_or_0(node, "ry", page[1])?],
+        };
+        if rx <= 0.0 || ry <= 0.0 {
+            self.sheet.leave_out(&format!("<{}> without extent", origin.kind), origin.line);
+            return Ok(());
+        }
+        if rx == ry {
+            return self.sheet.circle(center, rx, &inside.map, origin);
+        }
+        self.sheet.ellipse(&Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map), origin)
+    }
+
+    /// Stretches of one element: those that are closed or filled are solid together.
+    fn stretches(&mut self, stretches: Vec<Stretch>, style: Style, origin: &Origin) -> Result<(), Error> {
+        let mut rings = Vec::new();
+        for Stretch { points, is_closed } in stretches {
+            let comes_back = points.len() > 3 && points.first() == points.last();
+            if is_closed || comes_back {
+                rings.push(points);
+            } else if style.is_filled && points.len() > 2 {
+                self.sheet.notes.add("open outlines that are filled: closed as SVG fills them", origin.line);
+                rings.push(points);
+            } else {
+                // A group of its own: elements are not joined with each other.
+                self.groups += 1;
+                self.sheet.open(points, self.groups, origin)?;
+            }
+        }
+        if rings.is_empty() { Ok(()) } else { self.sheet.region(rings, style.rule, origin) }
+    }
+}
+
+fn origin(kind: &str, line: usize, inside: &Inside) -> Origin {
+    Origin {
+        name: inside.name.clone(),
+        layer: inside.layer.clone(),
+        height: None,
+        is_hidden: false,
+        kind: format!("<{kind}>"),
+        line: Some(line),
+    }
+}

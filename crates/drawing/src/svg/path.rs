@@ -1,0 +1,153 @@
+//! Path data as chords.
+
+use crate::Point;
+use crate::curve::{Ellipse, TooFine, cubic};
+use crate::map::Map;
+use std::f64::consts::TAU;
+use svgtypes::{PathParser, PathSegment};
+
+/// A stretch of a path without gaps.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Stretch {
+    pub points: Vec<Point>,
+    pub is_closed: bool,
+}
+
+/// Why path data is none.
+pub(super) enum PathError {
+    Syntax(String),
+    TooFine,
+}
+
+impl From<TooFine> for PathError {
+    fn from(_: TooFine) -> Self {
+        Self::TooFine
+    }
+}
+
+/// Where the pen is, before the map.
+struct Pen<'m> {
+    map: &'m Map,
+    tolerance: f64,
+    at: Point,
+    begin: Point,
+    /// The last control point, for curves that go on smoothly: of degree 3, and of degree 2.
+    control: [Option<Point>; 2],
+    stretches: Vec<Stretch>,
+    /// Whether the next segment begins a stretch.
+    is_up: bool,
+}
+
+/// The stretches of a path.
+pub(super) fn stretches(data: &str, map: &Map, tolerance: f64) -> Result<Vec<Stretch>, PathError> {
+    let (at, begin) = ([0.0; 2], [0.0; 2]);
+    let mut pen = Pen { map, tolerance, at, begin, control: [None; 2], stretches: Vec::new(), is_up: true };
+    for segment in PathParser::from(data) {
+        pen.draw(segment.map_err(|error| PathError::Syntax(error.to_string()))?)?;
+    }
+    Ok(pen.stretches)
+}
+
+impl Pen<'_> {
+    fn draw(&mut self, segment: PathSegment) -> Result<(), TooFine> {
+        let here = self.at;
+        let to = |abs: bool, x: f64, y: f64| if abs { [x, y] } else { [here[0] + x, here[1] + y] };
+        let reflected = |control: Option<Point>| control.map_or(here, |c| [0, 1].map(|k| 2.0 * here[k] - c[k]));
+        let controls = std::mem::take(&mut self.control);
+        match segment {
+            PathSegment::MoveTo { abs, x, y } => {
+                self.at = to(abs, x, y);
+                self.begin = self.at;
+                self.is_up = true;
+            }
+            PathSegment::LineTo { abs, x, y } => self.line(to(abs, x, y)),
+            PathSegment::HorizontalLineTo { abs, x } => self.line([to(abs, x, 0.0)[0], here[1]]),
+            PathSegment::VerticalLineTo { abs, y } => self.line([here[0], to(abs, 0.0, y)[1]]),
+            PathSegment::CurveTo { abs, x1, y1, x2, y2, x, y } => {
+                self.curve(to(abs, x1, y1), to(abs, x2, y2), to(abs, x, y))?;
+            }
+            PathSegment::SmoothCurveTo { abs, x2, y2, x, y } => {
+                self.curve(reflected(controls[0]), to(abs, x2, y2), to(abs, x, y))?;
+            }
+            PathSegment::Quadratic { abs, x1, y1, x, y } => self.quadratic(to(abs, x1, y1), to(abs, x, y))?,
+            PathSegment::SmoothQuadratic { abs, x, y } => self.quadratic(reflected(controls[1]), to(abs, x, y))?,
+            PathSegment::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
+                let end = to(abs, x, y);
+                match arc(here, end, [rx, ry], x_axis_rotation.to_radians(), large_arc, sweep) {
+                    Some((ellipse, from, by)) => {
+                        let mut points: Vec<Point> = ellipse.mapped(self.map).arc(from, by, self.tolerance)?.collect();
+                        points.pop();
+                        self.begin_stretch().points.extend(points);
+                        self.line(end);
+                    }
+                    None => self.line(end),
+                }
+            }
+            PathSegment::ClosePath { .. } => {
+                if !self.is_up {
+                    self.begin_stretch().is_closed = true;
+                }
+                self.at = self.begin;
+                self.is_up = true;
+            }
+        }
+        Ok(())
+    }
+
+    /// The stretch that is drawn; a new one where the last has ended.
+    fn begin_stretch(&mut self) -> &mut Stretch {
+        if std::mem::take(&mut self.is_up) {
+            self.begin = self.at;
+            self.stretches.push(Stretch { points: vec![self.map.point(self.at)], is_closed: false });
+        }
+        self.stretches.last_mut().expect("one was begun")
+    }
+
+    fn line(&mut self, end: Point) {
+        let point = self.map.point(end);
+        self.begin_stretch().points.push(point);
+        self.at = end;
+    }
+
+    fn curve(&mut self, b: Point, c: Point, d: Point) -> Result<(), TooFine> {
+        let points = cubic([self.at, b, c, d].map(|p| self.map.point(p)), self.tolerance)?;
+        self.begin_stretch().points.extend(points);
+        self.at = d;
+        self.control[0] = Some(c);
+        Ok(())
+    }
+
+    /// A curve of degree 2 is one of degree 3, too.
+    fn quadratic(&mut self, b: Point, c: Point) -> Result<(), TooFine> {
+        let towards = |p: Point| [0, 1].map(|k| p[k] + (b[k] - p[k]) * 2.0 / 3.0);
+        self.curve(towards(self.at), towards(c), c)?;
+        self.control = [None, Some(b)];
+        Ok(())
+    }
+}
+
+/// The ellipse of an arc, where on it the arc begins and how far it goes; none if it is a straight line.
+/// (SVG 2, implementation notes, B.2.4.)
+fn arc(a: Point, b: Point, radii: [f64; 2], turn: f64, large: bool, sweep: bool) -> Option<(Ellipse, f64, f64)> {
+    let [mut rx, mut ry] = radii.map(f64::abs);
+    if rx == 0.0 || ry == 0.0 || a == b {
+        return None;
+    }
+    let (sin, cos) = turn.sin_cos();
+    let half = [(a[0] - b[0]) / 2.0, (a[1] - b[1]) / 2.0];
+    let [x, y] = [cos * half[0] + sin * half[1], cos * half[1] - sin * half[0]];
+    // Radii that are too small to reach both ends grow.
+    let reach = (x / rx).powi(2) + (y / ry).powi(2);
+    if reach > 1.0 {
+        rx *= reach.sqrt();
+        ry *= reach.sqrt();
+    }
+    let square = (x / rx).powi(2) + (y / ry).powi(2);
+    let aside = (1.0 / square - 1.0).max(0.0).sqrt() * if large == sweep { -1.0 } else { 1.0 };
+    let [cx, cy] = [aside * rx * y / ry, -aside * ry * x / rx];
+    let center = [cos * cx - sin * cy + (a[0] + b[0]) / 2.0, sin * cx + cos * cy + (a[1] + b[1]) / 2.0];
+    let from = ((y - cy) / ry).atan2((x - cx) / rx);
+    let to = ((-y - cy) / ry).atan2((-x - cx) / rx);
+    let by = (to - from).rem_euclid(TAU) - if sweep { 0.0 } else { TAU };
+    Some((Ellipse { center, u: [rx * cos, rx * sin], v: [-ry * sin, ry * cos] }, from, by))
+}
