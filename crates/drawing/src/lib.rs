@@ -11,7 +11,8 @@
 //! assert_eq!(tray.name.as_deref(), Some("tray"));
 //! // Metres, and y upwards from the lower edge of the page.
 //! let Geometry::Polygon { outer, .. } = &tray.geometry else { panic!("a polygon") };
-//! assert_eq!(outer, &[[0.02, 0.03], [0.07, 0.03], [0.07, 0.0], [0.02, 0.0]]);
+//! let rounded: Vec<_> = outer.iter().map(|p| p.map(|x| (x * 1e9).round() / 1e9)).collect();
+//! assert_eq!(rounded, [[0.02, 0.03], [0.07, 0.03], [0.07, 0.0], [0.02, 0.0]]);
 //! ```
 //!
 //! # What becomes what

@@ -109,7 +109,7 @@ impl<'a> Reader<'_, 'a> {
     fn arc(&mut self, ellipse: &Ellipse, from: f64, to: f64, place: &Place, origin: &Origin) -> Result<(), Error> {
         const WHOLE: f64 = 1e-9;
         let turn = (to - from).rem_euclid(TAU);
-        if turn < WHOLE || turn > TAU - WHOLE {
+        if !(WHOLE..=TAU - WHOLE).contains(&turn) {
             return self.sheet.ellipse(ellipse, origin);
         }
         let points = self.sheet.chords(ellipse.arc(from, turn, self.sheet.tolerance), origin)?;

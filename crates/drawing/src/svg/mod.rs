@@ -340,8 +340,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let mut ring: Vec<Point> = Vec::new();
         // Corners in turn, each with its quarter of an ellipse.
-        let corners = [[x + w - rx, y + ry], [x + w - rx, y + h - ry], [x + rx, y + h - ry], [x + rx, y + ry]];
-        for (center, quarter) in corners.into_iter().zip([-1.0, 0.0, 1.0, 2.0]) {
+        let corners = [[x + rx, y + ry], [x + w - rx, y + ry], [x + w - rx, y + h - ry], [x + rx, y + h - ry]];
+        for (center, quarter) in corners.into_iter().zip([2.0, 3.0, 0.0, 1.0]) {
             if rx <= 0.0 || ry <= 0.0 {
                 ring.push(inside.map.point(center));
                 continue;

@@ -1,0 +1,271 @@
+//! Entities, units, blocks, layers and ends that meet.
+
+use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
+use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Unit, read};
+use std::f64::consts::PI;
+
+/// A DXF in millimetres: words in turn are codes and values.
+pub fn file(blocks: &str, entities: &str) -> String {
+    sections("9 $INSUNITS 70 4", "", blocks, entities)
+}
+
+fn sections(header: &str, tables: &str, blocks: &str, entities: &str) -> String {
+    let section = |name: &str, text: &str| format!("0 SECTION 2 {name} {text} 0 ENDSEC ");
+    let all = section("HEADER", header)
+        + &section("TABLES", tables)
+        + &section("BLOCKS", blocks)
+        + &section("ENTITIES", entities)
+        + "0 EOF";
+    all.split_whitespace().map(|word| format!("{word}\n")).collect()
+}
+
+fn dxf(entities: &str) -> Drawing {
+    drawing(&file("", entities), Format::Dxf)
+}
+
+const TOLERANCE: f64 = 1e-4;
+
+/// Holds points to lie on a circle, and the middles of their chords near it and inside.
+fn on_circle(points: &[Point], center: Point, radius: f64) {
+    for p in points {
+        near(apart(*p, center), radius, 1e-12);
+    }
+    for w in points.windows(2) {
+        let middle = [(w[0][0] + w[1][0]) / 2.0, (w[0][1] + w[1][1]) / 2.0];
+        let short = radius - apart(middle, center);
+        assert!((0.0..=TOLERANCE).contains(&short), "a chord is {short} m inside");
+    }
+}
+
+#[test]
+fn bulges_are_arcs_within_the_tolerance() {
+    // A belt 500 long with round ends of radius 60.
+    let belt = dxf("0 LWPOLYLINE 8 belt 90 4 70 1 10 150 20 240 10 650 20 240 42 1 10 650 20 360 10 150 20 360 42 1");
+    let shape = one(&belt);
+    assert_eq!((shape.layer.as_deref(), shape.kind.as_str(), shape.line), (Some("belt"), "LWPOLYLINE", Some(28)));
+    let ring = ring(shape);
+    let exact = 0.5 * 0.12 + PI * 0.06 * 0.06;
+    assert!(area(ring) <= exact && area(ring) > exact - PI * 0.12 * TOLERANCE, "{}", area(ring));
+    let right: Vec<Point> = ring.iter().copied().filter(|p| p[0] >= 0.65 - 1e-12).collect();
+    on_circle(&right, [0.65, 0.3], 0.06);
+    assert!(right.len() > 5 && ring.len() < 100, "{} corners", ring.len());
+    // Inwards: the same arcs to the other side.
+    let waist = dxf("0 LWPOLYLINE 8 belt 70 1 10 150 20 240 10 650 20 240 42 -1 10 650 20 360 10 150 20 360 42 -1");
+    let exact = 0.5 * 0.12 - PI * 0.06 * 0.06;
+    let given = area(super::ring(one(&waist)));
+    assert!(given >= exact && given < exact + PI * 0.12 * TOLERANCE, "{given}");
+}
+
+#[test]
+fn arcs_of_any_bulge_pass_where_they_must() {
+    for bulge in [-30.0_f64, -1.0, -0.4, -0.01, 1e-7, 0.01, 0.4, 1.0, 3.0] {
+        let arc = dxf(&format!("0 LWPOLYLINE 8 0 70 0 10 100 20 50 42 {bulge} 10 -200 20 450"));
+        let points = wall(one(&arc));
+        same(&[points[0], points[points.len() - 1]], &[[0.1, 0.05], [-0.2, 0.45]]);
+        // The arc's middle is `bulge` half chords to the right of the chord; its length follows from its angle.
+        let (chord, angle) = (0.5_f64, 4.0 * f64::atan(bulge.abs()));
+        let exact = if angle < 1e-4 { chord } else { chord / (2.0 * (angle / 2.0).sin()) * angle };
+        assert!(length(points) <= exact + 1e-12 && length(points) > exact * 0.98, "{bulge}: {}", length(points));
+        let middle = [-0.05 + bulge * 0.25 * 0.8, 0.25 + bulge * 0.25 * 0.6];
+        let nearest = points.iter().map(|p| apart(*p, middle)).fold(f64::INFINITY, f64::min);
+        let step = points.windows(2).map(|w| apart(w[0], w[1])).fold(0.0, f64::max);
+        assert!(nearest <= step / 2.0 + TOLERANCE, "{bulge}: {nearest}");
+    }
+}
+
+#[test]
+fn polylines_of_older_programs_are_the_same() {
+    let new = dxf("0 LWPOLYLINE 8 a 70 1 10 0 20 0 10 100 20 0 42 0.5 10 100 20 100");
+    let old = dxf("0 POLYLINE 8 a 66 1 70 1 0 VERTEX 8 a 10 0 20 0 0 VERTEX 10 100 20 0 42 0.5 \
+                   0 VERTEX 70 16 10 7 20 7 0 VERTEX 10 100 20 100 0 SEQEND");
+    same(ring(one(&old)), ring(one(&new)));
+    let mesh = dxf("0 POLYLINE 8 a 70 64 0 VERTEX 10 0 20 0 0 SEQEND 0 CIRCLE 8 a 10 0 20 0 40 1");
+    assert_eq!(notes(&mesh), ["POLYLINE that is a mesh: left out (line 28)"]);
+}
+
+#[test]
+fn circles_stay_circles_and_ellipses_are_within_the_tolerance() {
+    let disc = dxf("0 CIRCLE 8 a 10 30 20 -40 40 25");
+    assert_eq!(one(&disc).geometry, Geometry::Circle { center: [0.03, -0.04], radius: 0.025 });
+    // Half axes of 100 and 50, the longer one along (3, 4) / 5.
+    let ellipse = dxf("0 ELLIPSE 8 a 10 10 20 20 11 60 21 80 40 0.5 41 0 42 6.283185307179586");
+    let ring = ring(one(&ellipse));
+    let exact = PI * 0.1 * 0.05;
+    assert!(area(ring) < exact && area(ring) > exact - 0.5 * TOLERANCE, "{}", area(ring));
+    for p in ring {
+        let [x, y] = [p[0] - 0.01, p[1] - 0.02];
+        let [along, across] = [(0.6 * x + 0.8 * y) / 0.1, (0.6 * y - 0.8 * x) / 0.05];
+        near(along.hypot(across), 1.0, 1e-12);
+    }
+    // A quarter of it, from the end of the long axis to that of the short.
+    let quarter = dxf("0 ELLIPSE 8 a 10 0 20 0 11 60 21 80 40 0.5 41 0 42 1.5707963267948966");
+    let points = wall(one(&quarter));
+    same(&[points[0], points[points.len() - 1]], &[[0.06, 0.08], [-0.04, 0.03]]);
+}
+
+#[test]
+fn an_arc_runs_counter_clockwise_and_across_zero() {
+    let arc = dxf("0 ARC 8 a 10 100 20 0 40 50 50 350 51 100");
+    let points = wall(one(&arc));
+    on_circle(points, [0.1, 0.0], 0.05);
+    near(length(points), 0.05 * 110.0_f64.to_radians(), 1e-4);
+    let at = |degrees: f64| [0.1 + 0.05 * degrees.to_radians().cos(), 0.05 * degrees.to_radians().sin()];
+    same(&[points[0], points[points.len() - 1]], &[at(350.0), at(100.0)]);
+}
+
+#[test]
+fn splines_pass_where_their_definition_says() {
+    // A Bézier curve: knots at both ends alone.
+    let curve = dxf("0 SPLINE 8 a 70 8 71 3 72 8 73 4 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 \
+                     10 0 20 0 10 100 20 300 10 200 20 -300 10 300 20 0");
+    let points = wall(one(&curve));
+    let bernstein = |t: f64| {
+        let s = 1.0 - t;
+        [0.3 * (s * s * t + 2.0 * s * t * t + t * t * t), 0.9 * (s * s * t - s * t * t)]
+    };
+    for k in 0..=1000 {
+        let exact = bernstein(f64::from(k) / 1000.0);
+        let off = points.windows(2).map(|w| to_segment(exact, w[0], w[1])).fold(f64::INFINITY, f64::min);
+        assert!(off <= TOLERANCE, "{off}");
+    }
+    // A quarter of a circle as a rational spline of degree 2, another one to come back: closed, a lens.
+    let weight = 0.5_f64.sqrt();
+    let quarter =
+        |points: &str| format!("0 SPLINE 8 a 70 12 71 2 40 0 40 0 40 0 40 1 40 1 40 1 {points} 41 1 41 {weight} 41 1 ");
+    let lens = quarter("10 50 20 0 10 50 20 50 10 0 20 50") + &quarter("10 0 20 50 10 0 20 0 10 50 20 0");
+    let lens = dxf(&lens);
+    let exact = 2.0 * (PI / 4.0 - 0.5) * 0.05 * 0.05;
+    let given = area(ring(one(&lens)));
+    assert!(given <= exact && given > exact - 0.16 * TOLERANCE, "{given} against {exact}");
+}
+
+fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]];
+    let part = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
+    apart(p, [a[0] + part * u[0], a[1] + part * u[1]])
+}
+
+#[test]
+fn ends_that_meet_are_joined_two_at_a_time() {
+    // A D of three pieces in any order and direction, with a gap of a twentieth of a millimetre.
+    let d = dxf("0 LINE 8 a 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 360 \
+                 0 ARC 8 a 10 0 20 50.05 40 50 50 0 51 90");
+    let exact = PI * 0.05 * 0.05 / 2.0;
+    near(area(ring(one(&d))).abs(), exact, 3e-5);
+    assert_eq!(one(&d).kind, "LINE and 2 more that it meets");
+    assert_eq!(notes(&d), ["ends less than 0.0001 m apart: joined (line 28)"]);
+    // On another layer it is not part of it.
+    let d = dxf("0 LINE 8 b 10 0 20 0 11 0 21 100 0 ARC 8 a 10 0 20 50 40 50 50 270 51 90");
+    assert_eq!(d.shapes.len(), 2);
+    // A wall of two pieces; where three meet none is joined with another.
+    let bend = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0");
+    same(wall(one(&bend)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
+    let fork = dxf("0 LINE 8 a 10 0 20 0 11 100 21 0 0 LINE 8 a 10 100 20 100 11 100 21 0 \
+                    0 LINE 8 a 10 100 20 0 11 200 21 0 0 LINE 8 a 10 200 20 0 11 300 21 9");
+    let lengths: Vec<usize> = fork.shapes.iter().map(|shape| wall(shape).len()).collect();
+    assert_eq!(lengths, [2, 2, 3]);
+    // Farther apart than the tolerance.
+    let open = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.2");
+    assert_eq!(wall(one(&open)).len(), 4);
+    let shut = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 10 100 20 0 10 100 20 100 10 0 20 0.05");
+    same(ring(one(&shut)), &[[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]]);
+    // Shorter than the tolerance, and there and back.
+    assert_eq!(wall(one(&dxf("0 LINE 8 a 10 0 20 0 11 0.05 21 0"))).len(), 2);
+    assert_eq!(dxf("0 LINE 8 a 10 0 20 0 11 9 21 0 0 LINE 8 a 10 9 20 0 11 0 21 0").shapes.len(), 1);
+}
+
+#[test]
+fn blocks_go_where_their_insertions_say() {
+    let blocks = "0 BLOCK 2 screw 10 1 20 1 0 LINE 8 0 10 1 20 1 11 3 21 1 0 LINE 8 steel 10 1 20 1 11 1 21 2 0 ENDBLK \
+                  0 BLOCK 2 *U7 10 0 20 0 0 INSERT 8 0 2 SCREW 10 10 20 0 50 90 41 2 42 -3 0 ENDBLK";
+    // Once directly, once within another: by hand, (x, y) -> (10 + 3 (y - 1), 2 (x - 1)) there, then times 0.5 and moved.
+    let twice = drawing(
+        &file(blocks, "0 INSERT 8 fix 2 screw 10 100 20 200 0 INSERT 8 cell 2 *U7 10 -50 20 0 41 0.5 42 0.5"),
+        Format::Dxf,
+    );
+    let shapes: Vec<_> =
+        twice.shapes.iter().map(|s| (s.name.as_deref(), s.layer.as_deref(), wall(s).to_vec())).collect();
+    let mm = |points: [Point; 2]| points.map(|[x, y]| [x / 1000.0, y / 1000.0]);
+    let expected = [
+        (Some("screw"), Some("fix"), mm([[100.0, 200.0], [102.0, 200.0]])),
+        (Some("screw"), Some("steel"), mm([[100.0, 200.0], [100.0, 201.0]])),
+        (Some("SCREW"), Some("cell"), mm([[-45.0, 0.0], [-45.0, 2.0]])),
+        (Some("SCREW"), Some("steel"), mm([[-45.0, 0.0], [-43.5, 0.0]])),
+    ];
+    assert_eq!(shapes.len(), expected.len());
+    for ((name, layer, points), (expected_name, expected_layer, expected)) in shapes.iter().zip(&expected) {
+        assert_eq!(name.map(str::to_lowercase), expected_name.map(str::to_lowercase));
+        assert_eq!(layer, expected_layer);
+        same(points, expected);
+    }
+}
+
+#[test]
+fn rows_columns_stretching_and_mirrors() {
+    let blocks = "0 BLOCK 2 pin 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 10 0 ENDBLK";
+    let pins = drawing(&file(blocks, "0 INSERT 8 a 2 pin 10 100 20 0 50 90 70 3 71 2 44 30 45 50"), Format::Dxf);
+    let centers: Vec<Point> = pins
+        .shapes
+        .iter()
+        .map(|shape| match shape.geometry {
+            Geometry::Circle { center, .. } => center,
+            _ => panic!("{shape:?}"),
+        })
+        .collect();
+    // Turned by 90 degrees columns go up and rows to the left.
+    same(&centers, &[[0.1, 0.0], [0.1, 0.03], [0.1, 0.06], [0.05, 0.0], [0.05, 0.03], [0.05, 0.06]]);
+    let flat = drawing(&file(blocks, "0 INSERT 8 a 2 pin 10 0 20 0 41 3"), Format::Dxf);
+    near(area(ring(one(&flat))), PI * 0.03 * 0.01, 0.13 * TOLERANCE);
+    // Seen from below x is turned round: circles by their centre, arcs by their sense.
+    let below = dxf("0 CIRCLE 8 a 10 30 20 5 40 10 210 0 220 0 230 -1 0 ARC 8 b 10 50 20 0 40 20 50 0 51 90 230 -1");
+    assert_eq!(below.shapes[0].geometry, Geometry::Circle { center: [-0.03, 0.005], radius: 0.01 });
+    let points = wall(&below.shapes[1]);
+    same(&[points[0], points[points.len() - 1]], &[[-0.07, 0.0], [-0.05, 0.02]]);
+    let tilted = dxf("0 CIRCLE 8 a 10 30 20 5 40 10 210 1 220 0 230 0");
+    assert_eq!((tilted.shapes.len(), notes(&tilted)), (0, vec!["CIRCLE across the plane: left out (line 28)".into()]));
+}
+
+#[test]
+fn units_are_the_files_or_the_users() {
+    let line = "0 LINE 8 a 10 0 20 0 11 10 21 0";
+    for (code, metres) in [(1, 0.254), (2, 3.048), (4, 0.01), (5, 0.1), (6, 10.0), (14, 1.0)] {
+        let given = drawing(&sections(&format!("9 $INSUNITS 70 {code}"), "", "", line), Format::Dxf);
+        near(wall(one(&given))[1][0], metres, 1e-15);
+    }
+    let unsaid = drawing(&sections("9 $ACADVER 1 AC1015", "", "", line), Format::Dxf);
+    assert_eq!(notes(&unsaid), ["the drawing does not say its unit: read as mm"]);
+    let settings = Settings { unit: Some("in".parse::<Unit>().unwrap()), ..Settings::default() };
+    let inches = read(file("", line).as_bytes(), Format::Dxf, &settings).unwrap();
+    near(wall(one(&inches))[1][0], 0.254, 1e-15);
+    assert!("feet".parse::<Unit>().unwrap_err().to_string().contains("mm, cm"));
+}
+
+#[test]
+fn layers_may_be_off_and_thickness_is_height() {
+    let tables = "0 TABLE 2 LAYER 0 LAYER 2 Off 70 0 62 -3 0 LAYER 2 frozen 70 1 62 3 0 LAYER 2 on 70 0 62 3 0 ENDTAB";
+    let entities = "0 CIRCLE 8 OFF 10 0 20 0 40 1 0 CIRCLE 8 frozen 10 0 20 0 40 1 0 CIRCLE 8 Defpoints 10 0 20 0 40 1 \
+                    0 CIRCLE 8 on 10 0 20 0 30 20 39 80 40 1 0 LWPOLYLINE 8 on 38 5 39 -2 10 0 20 0 10 1 20 1";
+    let given = drawing(&sections("9 $INSUNITS 70 4", tables, "", entities), Format::Dxf);
+    let hidden: Vec<bool> = given.shapes.iter().map(|shape| shape.is_hidden).collect();
+    assert_eq!(hidden, [true, true, true, false, false]);
+    let heights: Vec<_> = given.shapes.iter().map(|shape| shape.height).collect();
+    assert_eq!(heights, [None, None, None, Some([0.02, 0.1]), Some([0.003, 0.005])]);
+}
+
+#[test]
+fn what_is_not_taken_is_told() {
+    let given = dxf("0 TEXT 8 a 10 0 20 0 1 HELLO 0 MTEXT 8 a 1 x 0 TEXT 8 a 1 y 0 HATCH 8 a 0 3DFACE 8 a \
+                     0 LINE 67 1 8 a 10 0 20 0 11 1 21 1 0 INSERT 8 a 2 NOWHERE 10 0 20 0 0 CIRCLE 8 a 10 0 20 0 40 1 \
+                     0 LINE 8 a 10 5 20 5 30 0 11 5 21 5 31 9");
+    let expected = [
+        "TEXT: left out (2 times, first in line 28)",
+        "MTEXT: left out (line 38)",
+        "HATCH: left out (line 50)",
+        "3DFACE: left out (line 54)",
+        "what lies in paper space: left out (line 58)",
+        "INSERT of block \"NOWHERE\", which the file does not hold: left out (line 72)",
+        "LINE without extent: left out (line 92)",
+    ];
+    assert_eq!(notes(&given), expected);
+    assert_eq!(given.shapes.len(), 1);
+}

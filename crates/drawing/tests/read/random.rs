@@ -1,0 +1,51 @@
+//! What the tests wrote themselves comes back as it was.
+
+use super::{drawing, dxf::file, one, ring};
+use cplan_drawing::{Format, Point, Settings, Unit, read};
+use proptest::prelude::*;
+
+/// Corners round the origin: a simple polygon.
+fn corners() -> impl Strategy<Value = Vec<Point>> {
+    prop::collection::vec(0.1_f64..1000.0, 3..40).prop_map(|radii| {
+        let step = std::f64::consts::TAU / radii.len() as f64;
+        radii.iter().enumerate().map(|(k, r)| [r * (k as f64 * step).cos(), r * (k as f64 * step).sin()]).collect()
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn polygons_come_back_from_every_format(corners in corners()) {
+        let metres = Settings { unit: Some(Unit::METRE), ..Settings::default() };
+        let pairs = |with: &str| corners.iter().map(|[x, y]| format!("{x}{with}{y}")).collect::<Vec<_>>();
+        let closed: String = corners.iter().map(|[x, y]| format!("10 {x} 20 {y} ")).collect();
+        let lines: String = corners.iter().zip(corners.iter().cycle().skip(1))
+            .map(|(p, q)| format!("0 LINE 8 a 10 {} 20 {} 11 {} 21 {} ", p[0], p[1], q[0], q[1])).collect();
+        for entities in [format!("0 LWPOLYLINE 8 a 70 1 {closed}"), lines] {
+            let given = read(file("", &entities).as_bytes(), Format::Dxf, &metres).unwrap();
+            prop_assert_eq!(ring(one(&given)), &corners);
+        }
+        let json = format!("{{\"type\":\"Polygon\",\"coordinates\":[[[{}],[{}]]]}}", pairs(",").join("],["), pairs(",")[0]);
+        let given = drawing(&json, Format::GeoJson);
+        prop_assert_eq!(ring(one(&given)), &corners);
+        let svg = format!("<svg><g transform='scale(1 -1)'><path d='M{}z'/></g></svg>", pairs(" ").join("L"));
+        let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
+        prop_assert_eq!(ring(one(&given)), &corners);
+    }
+
+    /// Whatever of a file is missing, it is refused, or at least read without a panic.
+    #[test]
+    fn nothing_makes_a_reader_panic(bytes in prop::collection::vec(any::<u8>(), 0..400), at in 0_usize..20_000) {
+        let cell = include_bytes!("../../../../workspaces/drawings/cell.dxf");
+        let at = at.min(cell.len());
+        let spoiled: Vec<u8> = [&cell[..at], &bytes, &cell[at..]].concat();
+        for format in [Format::Dxf, Format::Svg, Format::GeoJson] {
+            for bytes in [&bytes, &spoiled] {
+                if let Err(error) = read(bytes, format, &Settings::default()) {
+                    prop_assert!(!error.message.is_empty() && !error.cure.is_empty());
+                }
+            }
+        }
+    }
+}
