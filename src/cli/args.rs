@@ -5,6 +5,7 @@ use super::completions::CompletionsArgs;
 use super::converge::ConvergeArgs;
 use super::demo::DemoArgs;
 use super::explore::ExploreArgs;
+use super::import::ImportArgs;
 use super::init::InitArgs;
 use super::man::ManArgs;
 use super::message_args::MessageArgs;
@@ -87,6 +88,8 @@ pub enum Command {
     Explore(ExploreArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.
     Check(CheckArgs),
+    /// Make a world of a drawing: DXF, SVG or GeoJSON.
+    Import(ImportArgs),
     /// Tell what is made of a robot: tree, plane, limits, outlines, and what keeps it from being planned with.
     Inspect(InspectArgs),
     /// Tell where the tip can get, with which IK solutions: certified, or proven out of reach.

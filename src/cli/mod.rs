@@ -10,6 +10,7 @@ mod error_json;
 mod explore;
 mod failure;
 mod fresh;
+mod import;
 mod init;
 mod inspect;
 mod inspect_text;
@@ -79,6 +80,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Converge(args)), _) => converge::run(args),
         (Some(Command::Explore(args)), _) => explore::run(args),
+        (Some(Command::Import(args)), _) => import::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),
         (Some(Command::Reach(args)), _) => reach::run(args),
         (Some(Command::Recheck(args)), _) => recheck::run(args),

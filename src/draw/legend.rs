@@ -2,7 +2,7 @@
 
 use super::color::{BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
-use super::view::{PathView, View};
+use super::view::{ObstacleView, PathView, View};
 use super::{boxes, cspace, preferences, reach, shapes, trace};
 
 /// Height of a row, pixels.
@@ -53,12 +53,16 @@ pub fn keys(view: &View) -> Vec<Key> {
     keys.extend(preferences::keys(&world.regions));
     keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
-    let lying = world.obstacles.iter().filter(|obstacle| obstacle.lies());
-    if lying.clone().count() <= NAMED {
-        keys.extend(lying.map(|o| (Sign::Swatch(o.color), o.name.clone())));
-    }
+    keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())));
     keys.extend(world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object))));
     keys
+}
+
+/// Obstacles by their colours, unless they are too many.
+#[must_use]
+pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
+    let count = shown.clone().count();
+    shown.filter(|_| count <= NAMED).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
 /// Paths by their names; those of a task by whether something is carried.

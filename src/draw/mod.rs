@@ -23,6 +23,7 @@ mod figure;
 mod frames;
 mod grid;
 mod legend;
+mod obstacles;
 mod page;
 #[cfg(feature = "png")]
 mod png_writer;
@@ -37,6 +38,7 @@ mod view;
 mod workspace;
 
 pub use exploration::exploration_page;
+pub use obstacles::{extent, obstacles, still_page};
 pub use view::{AxesFrame, Picture, TaskPicture, View, drawing, page, shell};
 
 /// Why there is no picture.

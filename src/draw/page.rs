@@ -56,6 +56,18 @@ pub fn compose(view: &View) -> Figure {
     Figure { width: WIDTH, height, items }
 }
 
+/// A page with a single panel, which fills the part that it is given, and a legend below.
+#[must_use]
+pub fn alone(title: &[String], keys: Vec<Key>, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
+    let mut items = titles(title, "");
+    let top = 44.0 + 18.0 * title.len().max(1) as f64;
+    let keys = legend::layout(keys, WIDTH - 2.0 * MARGIN);
+    let below = HEIGHT - 14.0 - legend::ROW * keys.len() as f64;
+    items.extend(panel(Rect { y: top, width: WIDTH - LEFT.x - MARGIN, height: below - AXES - top, ..LEFT }));
+    items.extend(legend::items(&keys, WIDTH / 2.0, below));
+    Figure { width: WIDTH, height: HEIGHT, items }
+}
+
 /// The workspace, a configuration space for each payload state, and the steps; returns the height of the page.
 fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &mut Vec<Item>) -> f64 {
     let going = panels.iter().filter(|panel| panel.fails.is_none());

@@ -72,8 +72,8 @@ pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 use world::RobotTable;
-pub use world::World;
 pub(crate) use world::in_toml_words;
+pub use world::{LARGEST, World};
 
 use crate::model::{Arm, AssumedLimits, Goal, MotionProblem, RobotJoints, Scene};
 use serde::{Deserialize, Serialize};
@@ -156,6 +156,22 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let scene = Scene::new(standing(&arm, &world), world.at_first())
         .map_err(|error| refused(error.to_string(), "make the arm of numbers that are finite, and sizes above 0"))?;
     Ok(LoadedScene { scene, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
+}
+
+/// Reads a world alone.
+///
+/// # Errors
+/// [`InputError`] for everything that is wrong with it but what depends on the arm.
+pub fn world_from(world: Source) -> Result<World, InputError> {
+    world::read(world)
+}
+
+/// A file's content.
+///
+/// # Errors
+/// I/O, and a file larger than 256 MiB.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
+    Ok(source::read_bytes(path)?)
 }
 
 impl LoadedScene {

@@ -65,6 +65,18 @@ impl JointValues {
     }
 }
 
+impl JointValues {
+    /// As the world file has them.
+    #[must_use]
+    pub fn in_toml(&self) -> String {
+        let value = |i: usize| match (self.numbers[i], self.degrees[i]) {
+            (degrees, true) => format!("\"{degrees}deg\""),
+            (number, false) => format!("{number:?}"),
+        };
+        format!("[{}, {}]", value(0), value(1))
+    }
+}
+
 impl FromStr for JointValues {
     type Err = String;
 

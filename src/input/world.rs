@@ -223,7 +223,7 @@ pub(super) struct GoalTable {
 
 /// Greatest length or coordinate, metres: beyond it products of coordinates lose the last micrometre, and no arm is
 /// that large.
-pub(super) const LARGEST: f64 = 1e6;
+pub const LARGEST: f64 = 1e6;
 
 /// Reads a world.
 ///

@@ -13,6 +13,7 @@ const CRATE: &str = "cplan_";
 /// Who may import whom, besides [`EVERYWHERE`].
 const MAY_IMPORT: [(&str, &[&str]); 24] = [
     (EVERYWHERE[0], &[]),
+    ("cplan_drawing", &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),
     ("cplan_harmonic", &["cplan_multigrid"]),
@@ -41,8 +42,25 @@ const MAY_IMPORT: [(&str, &[&str]); 24] = [
     (
         "cli",
         &[
-            "geometry", "space", "model", "input", "cspace", "field", "planner", "check", "search", "motion", "engine",
-            "explore", "draw", "report", "study", "output", "grammar", "serve",
+            "cplan_drawing",
+            "geometry",
+            "space",
+            "model",
+            "input",
+            "cspace",
+            "field",
+            "planner",
+            "check",
+            "search",
+            "motion",
+            "engine",
+            "explore",
+            "draw",
+            "report",
+            "study",
+            "output",
+            "grammar",
+            "serve",
         ],
     ),
 ];

@@ -32,7 +32,7 @@ pub use task::TaskPicture;
 
 pub(super) use extent::around;
 pub(super) use motion::PathView;
-pub(super) use numbers::Chain;
+pub(super) use numbers::{Chain, Grain};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
 pub(super) use trace::TraceView;

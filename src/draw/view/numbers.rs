@@ -43,6 +43,12 @@ impl Grain {
         Self { lengths: grains(arm.reach()), joints }
     }
 
+    /// That of what lies within a box of this size, where there is no arm.
+    #[must_use]
+    pub fn within(size: f64) -> Self {
+        Self { lengths: grains(size), joints: [grains(1.0); 2] }
+    }
+
     /// A length or coordinate.
     #[must_use]
     pub fn length(self, value: f64) -> f64 {

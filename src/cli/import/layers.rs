@@ -1,0 +1,122 @@
+//! Which parts of a drawing are taken, and as what.
+
+use super::Failure;
+use super::obstacles::Taken;
+use crate::text::counted;
+use cplan_drawing::{Geometry, Shape};
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+/// `NAME=LOW:HIGH`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LayerHeight {
+    name: String,
+    height: [f64; 2],
+}
+
+impl FromStr for LayerHeight {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        const FORM: &str = "expected NAME=LOW:HIGH in metres, such as conveyor=0:0.2";
+        let (name, range) = text.rsplit_once('=').ok_or(FORM)?;
+        let (low, high) = range.split_once(':').ok_or(FORM)?;
+        let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.is_finite()));
+        match height {
+            [Some(low), Some(high)] if low <= high => Ok(Self { name: name.to_owned(), height: [low, high] }),
+            [Some(_), Some(_)] => Err("the lower end comes first".into()),
+            _ => Err(FORM.into()),
+        }
+    }
+}
+
+/// What the options say of layers and names.
+pub(super) struct Layers<'a> {
+    pub only: &'a [String],
+    pub heights: &'a [LayerHeight],
+    pub walls: &'a [String],
+}
+
+/// Whether a shape, or what it lies on, has this name.
+fn is_called(shape: &Shape, name: &str) -> bool {
+    [&shape.layer, &shape.name].into_iter().flatten().any(|own| own.to_lowercase() == name.to_lowercase())
+}
+
+impl Layers<'_> {
+    /// Refuses names that the drawing does not have.
+    pub fn check(&self, shapes: &[Shape]) -> Result<(), Failure> {
+        let only = self.only.iter().map(|name| ("--layer", name));
+        let heights = self.heights.iter().map(|height| ("--height", &height.name));
+        let walls = self.walls.iter().map(|name| ("--walls", name));
+        let unknown = |(_, name): &(&str, &String)| !shapes.iter().any(|shape| is_called(shape, name));
+        let Some((option, name)) = only.chain(heights).chain(walls).find(unknown) else { return Ok(()) };
+        let mut known: Vec<String> = Vec::new();
+        for name in shapes.iter().flat_map(|shape| [&shape.layer, &shape.name]).flatten() {
+            let name = format!("\"{name}\"");
+            if !known.contains(&name) {
+                known.push(name);
+            }
+        }
+        const SHOWN: usize = 24;
+        let more = known.len().saturating_sub(SHOWN);
+        known.truncate(SHOWN);
+        let known = match (known.is_empty(), more) {
+            (true, _) => "nothing that is taken of the drawing has a name or a layer".to_owned(),
+            (false, 0) => format!("the drawing has {}", known.join(", ")),
+            (false, more) => format!("the drawing has {} and {more} more", known.join(", ")),
+        };
+        Err(Failure::Option(format!("{option}: the drawing has nothing called \"{name}\"\n  cure: {known}")))
+    }
+
+    /// The shapes that are taken, with what the options say of them.
+    pub fn chosen(&self, shapes: impl Iterator<Item = Shape>, notes: &mut Vec<String>) -> Vec<Shape> {
+        let mut hidden = BTreeMap::<String, usize>::new();
+        let mut chosen = Vec::new();
+        for mut shape in shapes {
+            let is_named = self.only.iter().any(|name| is_called(&shape, name));
+            if shape.is_hidden && !is_named {
+                *hidden.entry(shape.layer.clone().unwrap_or_default()).or_default() += 1;
+            }
+            if !is_named && (shape.is_hidden || !self.only.is_empty()) {
+                continue;
+            }
+            if let Some(height) = self.heights.iter().rev().find(|height| is_called(&shape, &height.name)) {
+                shape.height = Some(height.height);
+            }
+            if self.walls.iter().any(|name| is_called(&shape, name)) {
+                chosen.extend(walls(shape));
+            } else {
+                chosen.push(shape);
+            }
+        }
+        if self.only.is_empty() {
+            let told = |(layer, count): (String, usize)| {
+                format!("layer \"{layer}\" is switched off: {} left out; --layer takes it", counted(count, "shape"))
+            };
+            notes.extend(hidden.into_iter().map(told));
+        }
+        chosen
+    }
+}
+
+/// The outlines of a shape as thin walls.
+fn walls(shape: Shape) -> Vec<Shape> {
+    let Geometry::Polygon { outer, holes } = shape.geometry.clone() else { return vec![shape] };
+    let wall = |mut ring: Vec<[f64; 2]>| {
+        ring.extend(ring.first().copied());
+        Shape { geometry: Geometry::Polyline(ring), ..shape.clone() }
+    };
+    [outer].into_iter().chain(holes).map(wall).collect()
+}
+
+/// What was taken of each layer, in the order of the drawing.
+pub(super) fn lines(taken: &[Taken]) -> Vec<String> {
+    let mut layers: Vec<(&str, usize)> = Vec::new();
+    for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {
+        match layers.iter_mut().find(|(known, _)| *known == layer) {
+            Some((_, count)) => *count += 1,
+            None => layers.push((layer, 1)),
+        }
+    }
+    layers.into_iter().map(|(layer, count)| format!("{layer}: {}", counted(count, "obstacle"))).collect()
+}

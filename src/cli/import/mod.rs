@@ -1,0 +1,240 @@
+//! `cplan import`: a drawing becomes a world.
+
+mod layers;
+mod obstacles;
+mod world_file;
+
+use super::DONE;
+use super::args::QueryArgs;
+use super::failure::Failure;
+use super::fresh::word;
+use super::print_args::PrintArgs;
+use super::sinks::{self, Sink};
+use crate::draw;
+use crate::grammar::{finite, positive};
+use crate::input::{self, Diagnostic, Position, Source, TipPoint, World};
+use crate::motion::{check_writable, write_whole};
+use crate::output::laid_out;
+use crate::text::counted;
+use clap::{Args, ValueHint};
+use cplan_drawing::{Drawing, Format, Note, Settings, Shape, Unit};
+use layers::{LayerHeight, Layers};
+use obstacles::{Placement, Taken};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `import`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+What is closed is solid, what is open is a thin wall, and what cannot be taken is told. NAME is a layer or the name of something drawn:
+in DXF of a block, in SVG of an element or a group, in GeoJSON of a feature. The drawing is scaled, then turned, then moved.
+
+Examples:
+  cplan import workspaces/drawings/cell.dxf --output cell.toml --picture cell.svg
+  cplan import workspaces/drawings/cell.dxf --layer fence --layer conveyor --height conveyor=0:0.2 --start 0.4,0.5 --goal 2,-0.5
+  cplan import workspaces/drawings/bench.svg --output bench.toml --move 0.1,-0.3 --turn 90deg
+  cplan import workspaces/drawings/hall.geojson --output hall.toml --walls hall --json
+
+Exit codes: 0 the world is written, 1 bad input or I/O, 2 wrong command line.")]
+pub struct ImportArgs {
+    /// The drawing: .dxf (as text), .svg, .geojson or .json.
+    #[arg(value_name = "DRAWING", value_hint = ValueHint::FilePath)]
+    pub drawing: PathBuf,
+    /// Write the world: .toml; by default it is printed.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+    /// Draw what was read: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    /// Take only this, even if its layer is switched off. Can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub layer: Vec<String>,
+    /// Where it is along the plane's normal, metres, such as conveyor=0:0.2. Can be repeated.
+    #[arg(long, value_name = "NAME=LOW:HIGH")]
+    pub height: Vec<LayerHeight>,
+    /// Its closed outlines are thin walls, too, not solid: the border of a room. Can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub walls: Vec<String>,
+    /// Unit of the drawing's numbers instead of what it says: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<Unit>,
+    /// Greatest distance of curves from their chords, and of ends that meet, metres.
+    #[arg(long, value_name = "METRES", value_parser = positive, default_value_t = Settings::default().tolerance)]
+    pub tolerance: f64,
+    /// Scale it about its origin.
+    #[arg(long, value_name = "FACTOR", value_parser = positive, default_value_t = 1.0)]
+    pub scale: f64,
+    /// Turn it about its origin, radians or such as 90deg.
+    #[arg(long, value_name = "ANGLE", value_parser = angle, allow_hyphen_values = true, default_value_t = 0.0)]
+    pub turn: f64,
+    /// Move it, metres: where the drawing's origin comes to lie.
+    #[arg(long = "move", value_name = "x,y", allow_hyphen_values = true)]
+    pub shift: Option<TipPoint>,
+    #[command(flatten)]
+    pub query: QueryArgs,
+    #[command(flatten)]
+    pub print: PrintArgs,
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    match text.strip_suffix("deg") {
+        Some(degrees) => Ok(finite(degrees.trim_end())?.to_radians()),
+        None => finite(text),
+    }
+}
+
+/// What was made of the drawing, for scripts.
+#[derive(Serialize)]
+struct Json<'a> {
+    /// Always `imported`.
+    status: &'static str,
+    drawing: String,
+    output: Option<String>,
+    obstacles: Vec<Entry<'a>>,
+    /// What was not taken, or not as it is written.
+    notes: &'a [String],
+    /// The world, if it is written nowhere else.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    world: Option<&'a str>,
+}
+
+/// An obstacle, and where it comes from.
+#[derive(Serialize)]
+struct Entry<'a> {
+    name: &'a str,
+    layer: Option<&'a str>,
+    kind: &'a str,
+    line: Option<usize>,
+    height: Option<[f64; 2]>,
+}
+
+impl<'a> From<&'a Taken> for Entry<'a> {
+    fn from(Taken { name, shape }: &'a Taken) -> Self {
+        let layer = shape.layer.as_deref();
+        Self { name, layer, kind: &shape.kind, line: shape.line, height: shape.height }
+    }
+}
+
+/// Reads the drawing and writes the world.
+///
+/// # Errors
+/// A drawing that cannot be read, or of which nothing is taken; I/O.
+pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
+    let format = Format::from_path(&args.drawing).ok_or_else(|| {
+        let file = args.drawing.display();
+        Failure::Usage(format!("{file}: a drawing's name must end in .dxf, .svg, .geojson or .json"))
+    })?;
+    let pictures = sinks(args)?;
+    let bytes = input::read_bytes(&args.drawing)?;
+    sinks::spare_inputs(pictures.iter().map(Sink::path).chain(args.output.as_deref()))?;
+    let settings = Settings { tolerance: args.tolerance / args.scale, unit: args.unit };
+    let drawing = cplan_drawing::read(&bytes, format, &settings).map_err(|error| {
+        let position = error.line.map(|line| Position { line, column: 1 });
+        refused(args, Diagnostic { position, ..Diagnostic::new("", error.message).help(error.cure) })
+    })?;
+    let Drawing { shapes, notes } = drawing;
+    let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let shift = args.shift.map_or([0.0; 2], |TipPoint(point)| point.into());
+    let placement = Placement { scale: args.scale, turn: args.turn, shift };
+    let layers = Layers { only: &args.layer, heights: &args.height, walls: &args.walls };
+    layers.check(&shapes)?;
+    let scaled = |shape: Shape| Shape { height: shape.height.map(|ends| ends.map(|z| placement.length(z))), ..shape };
+    let shapes = layers.chosen(shapes.into_iter().map(scaled), &mut notes);
+    let taken = obstacles::taken(shapes, &placement, &mut notes).map_err(|diagnostic| refused(args, diagnostic))?;
+    if taken.is_empty() {
+        let cure = "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take";
+        let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();
+        let message = format!("nothing of this drawing is an obstacle{}", why.concat());
+        return Err(refused(args, Diagnostic::new("", message).help(cure)));
+    }
+    let text = world_file::text(args, &taken, &notes);
+    let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
+    // What is written can be read, and what is drawn is what was read.
+    let world = input::world_from(Source::in_memory(name, text.as_str()))?;
+    for sink in &pictures {
+        let Sink::Picture(format, path) = sink else { continue };
+        write_whole(
+            path,
+            &format.bytes_of(|| picture(args, &world), || draw::still_page(&title(args), &picture(args, &world)))?,
+        )?;
+    }
+    if let Some(path) = &args.output {
+        write_whole(path, text.as_bytes())?;
+    }
+    tell(args, &taken, &notes, &world, &text)?;
+    Ok(DONE)
+}
+
+/// The pictures, once all that is to be written has been found to be no other file.
+fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
+    if let Some(path) = &args.output {
+        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
+            return Err(Failure::Usage(format!("{}: a world's name must end in .toml", path.display())));
+        }
+        check_writable(path)?;
+    }
+    let pictures = sinks::sinks(&[], &args.picture)?;
+    sinks::distinct(pictures.iter().map(Sink::path).chain(args.output.as_deref()))?;
+    Ok(pictures)
+}
+
+/// A diagnostic of the drawing.
+fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
+    Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
+}
+
+/// The file's name, without folder and extension.
+fn title(args: &ImportArgs) -> String {
+    args.drawing.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}
+
+fn picture(args: &ImportArgs, world: &World) -> String {
+    let obstacles = &world.workspace.obstacles;
+    let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
+    draw::obstacles(&[title(args), below], obstacles)
+}
+
+/// Says what was made: on stdout, or on stderr where stdout has the world.
+fn tell(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World, text: &str) -> Result<(), Failure> {
+    let json = || {
+        sinks::pretty(&Json {
+            status: "imported",
+            drawing: args.drawing.display().to_string(),
+            output: args.output.as_ref().map(|path| path.display().to_string()),
+            obstacles: taken.iter().map(Entry::from).collect(),
+            notes,
+            world: args.output.is_none().then_some(text),
+        })
+    };
+    if args.output.is_some() || args.print.json {
+        return args.print.tell(json, || summary(args, taken, notes, world));
+    }
+    args.print.say(summary(args, taken, notes, world).trim_end());
+    sinks::print(text)
+}
+
+/// What was taken and what was not, and what to do next.
+fn summary(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World) -> String {
+    let [x, y] = draw::extent(&world.workspace.obstacles);
+    let size = |(low, high): (f64, f64)| format!("{low:.3} to {high:.3}");
+    let mut lines = vec![
+        ("drawing", format!("{}: {}", args.drawing.display(), counted(taken.len(), "obstacle"))),
+        ("extent", format!("x {} m, y {} m", size(x), size(y))),
+    ];
+    lines.extend(layers::lines(taken).into_iter().map(|line| ("layer", line)));
+    lines.extend(notes.iter().map(|note| ("note", note.clone())));
+    let outputs = args.output.iter().chain(&args.picture);
+    lines.extend(outputs.map(|path| ("file", path.display().to_string())));
+    if let Some(path) = &args.output {
+        lines.push(("next", next(args, path)));
+    }
+    laid_out(&lines)
+}
+
+/// The command that plans in the world; what it lacks is in capitals.
+fn next(args: &ImportArgs, path: &Path) -> String {
+    let query = &args.query;
+    let start = if query.start.is_none() { " --start Q1,Q2" } else { "" };
+    let goal = if query.goal.is_none() && query.goal_tip.is_none() { " --goal-tip X,Y" } else { "" };
+    format!("cplan ROBOT.urdf {}{start}{goal}", word(path))
+}

@@ -1,0 +1,90 @@
+//! The world as text.
+
+use super::obstacles::Taken;
+use super::{ImportArgs, title};
+use crate::text::plain_line;
+use cplan_drawing::Geometry;
+use std::fmt::Write;
+
+/// Points in a line of the file.
+const IN_LINE: usize = 6;
+
+/// The world: head, start and goal, obstacles.
+pub(super) fn text(args: &ImportArgs, taken: &[Taken], notes: &[String]) -> String {
+    let file = args.drawing.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let mut text = format!("# {}, by `cplan import`. Lengths in metres, angles in radians.\n", plain_line(&file));
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "# Curves are chords, at most {} m away from them.", args.tolerance);
+    for note in notes {
+        let _ = writeln!(text, "# Note: {}", plain_line(note));
+    }
+    let _ = writeln!(text, "name = {}", quoted(&title(args)));
+    let query = &args.query;
+    if let Some(clearance) = query.clearance {
+        let _ = writeln!(text, "clearance = {clearance:?}");
+    }
+    match &query.start {
+        Some(start) => {
+            let _ = writeln!(text, "\n[start]\njoints = {}", start.in_toml());
+        }
+        None => text += "\n# Where the arm is at first:\n#[start]\n#joints = [0.0, 0.0]\n",
+    }
+    match (&query.goal, &query.goal_tip) {
+        (Some(goal), _) => {
+            let _ = writeln!(text, "\n[goal]\njoints = {}", goal.in_toml());
+        }
+        (None, Some(tip)) => {
+            let _ = writeln!(text, "\n[goal]\ntip = {:?}", [tip.0.x, tip.0.y]);
+        }
+        (None, None) => text += "\n# Where it is to go; or joints = [q1, q2]:\n#[goal]\n#tip = [0.3, 0.2]\n",
+    }
+    taken.iter().for_each(|taken| text += &obstacle(taken));
+    text
+}
+
+fn obstacle(Taken { name, shape }: &Taken) -> String {
+    let mut text = format!("\n# {}", plain_line(&shape.kind));
+    if let Some(line) = shape.line {
+        let _ = write!(text, ", line {line}");
+    }
+    if let Some(layer) = &shape.layer {
+        let _ = write!(text, ", layer {}", quoted(layer));
+    }
+    let _ = writeln!(text, "\n[[obstacle]]\nname = {}", quoted(name));
+    match &shape.geometry {
+        Geometry::Polygon { outer, holes } => {
+            let _ = writeln!(text, "polygon = {}", points(outer));
+            if !holes.is_empty() {
+                let holes: Vec<String> = holes.iter().map(|hole| points(hole)).collect();
+                let _ = writeln!(text, "holes = [{}]", holes.join(", "));
+            }
+        }
+        Geometry::Polyline(wall) => {
+            let _ = writeln!(text, "polyline = {}", points(wall));
+        }
+        Geometry::Circle { center, radius } => {
+            let _ = writeln!(text, "circle = {{ center = {center:?}, radius = {radius:?} }}");
+        }
+    }
+    if let Some(height) = shape.height {
+        let _ = writeln!(text, "height = {height:?}");
+    }
+    text
+}
+
+/// Points in lines that can be read.
+fn points(points: &[[f64; 2]]) -> String {
+    let lines: Vec<String> = points
+        .chunks(IN_LINE)
+        .map(|line| line.iter().map(|point| format!("{point:?}")).collect::<Vec<_>>().join(", "))
+        .collect();
+    match &lines[..] {
+        [line] => format!("[{line}]"),
+        _ => format!("[\n  {},\n]", lines.join(",\n  ")),
+    }
+}
+
+/// A name as TOML has it.
+fn quoted(name: &str) -> String {
+    toml::Value::from(name).to_string()
+}
