@@ -36,6 +36,7 @@ Examples:
   cplan robots/planar_2r.urdf workspaces/shelf.toml --planner wavefront --search astar --neighbors 8
   cplan robots/planar_2r.urdf workspaces/u_trap.toml --planner harmonic --field oriented --epsilon 0.5 --direction 0,-1
   cplan robots/scara.urdf workspaces/tasks/kitting_cell.toml --output kit.json
+  cplan import workspaces/drawings/cell.dxf --output cell.toml
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml

@@ -246,6 +246,62 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
     assert!(load_scene(&path, &world).unwrap_err().to_string().contains("does not fit its number of triangles"));
 }
 
+/// A triangle in a node that is turned and moved within another one, in centimetres: (x, y, z) -> (1 - y, x, z) metres.
+const COLLADA: &str = r##"<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+  <library_geometries><geometry id="g"><mesh>
+    <source id="p"><float_array id="a" count="9">0 1 0 0 -1 0 1 1 0.5</float_array>
+      <technique_common><accessor source="#a" count="3" stride="3"/></technique_common></source>
+    <source id="n"><float_array count="3">7 7 7</float_array></source>
+    <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+    <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
+  <library_nodes><node id="inner"><matrix>100 0 0 0 0 100 0 0 0 0 100 0 0 0 0 1</matrix><instance_geometry url="#g"/></node></library_nodes>
+  <library_visual_scenes><visual_scene id="s"><node><translate>100 0 0</translate><rotate>0 0 1 90</rotate>
+    <instance_node url="#inner"/></node></visual_scene></library_visual_scenes>
+  <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>"##;
+
+#[test]
+fn meshes_of_collada_and_obj_are_those_of_stl() {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
+    fs::write(&world, "").unwrap();
+    let load = |mesh: &str, text: &str| {
+        fs::write(folder.path().join(mesh), text).unwrap();
+        fs::write(&urdf, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"0.1 -0.1 1\"/></geometry>")))
+            .unwrap();
+        load_scene(&urdf, &world)
+    };
+    let obj = "# by hand\no triangle\nv 9 9 9\nv 0 0 0\nv 2 0 0 1.0\nvn 0 0 1\nv 0 1 0.5\nf 2/1/1 3//1 -1\n";
+    for (mesh, text) in [("t.obj", obj), ("t.dae", COLLADA)] {
+        let arm = load(mesh, text).unwrap_or_else(|e| panic!("{e}")).scene.into_parts().0;
+        let part = &arm.links[0].parts[0];
+        assert!((part.shape.area() - 0.01).abs() < 1e-12, "{mesh}: {:?}", part.shape);
+        assert!(part.shape.core().iter().all(|p| p.y <= 1e-12 && p.x >= -1e-12), "{mesh}: {:?}", part.shape);
+        assert!((part.heights.lower.abs(), part.heights.upper) <= (1e-12, 0.5), "{mesh}: {:?}", part.heights);
+    }
+    let spoilt = |this: &str, that: &str| COLLADA.replace(this, that);
+    for (mesh, text, message) in [
+        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: there is no vertex \"2\""),
+        ("t.obj", "v 0 0\n".to_owned(), "line 1: a vertex needs three numbers"),
+        ("t.obj", "v 0 0 0\n".to_owned(), "no face"),
+        ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),
+        ("t.dae", "<svg/>".to_owned(), "no Collada"),
+        ("t.dae", "<COLLADA>".to_owned(), "no well-formed XML"),
+        ("t.dae", spoilt("0.01", "-1"), "makes no sense"),
+        ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is no number"),
+        ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "make no positions"),
+        ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
+        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "hold themselves"),
+        ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", ""), "no mesh"),
+        ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
+    ] {
+        let error = load(mesh, &text).unwrap_err().to_string();
+        assert!(error.contains(message) && error.contains("cure: "), "{message}: {error}");
+    }
+}
+
 #[test]
 fn a_speed_that_is_all_but_infinite_makes_no_infinite_acceleration() {
     let joints = ["a", "b"].map(|name| format!("{name} = 1e308")).join(", ");

@@ -177,7 +177,7 @@ const PUBLISHED: [Expected; 18] = [
     ("drake_acrobot", true, Some(["shoulder", "elbow"]), &[]),
     ("drake_double_pendulum", false, Some(["shaft1", "shaft2"]), &["has collision or visual geometry", "bar = 0.05"]),
     ("drake_pendulum_1dof", false, None, &["only one, \"theta\" (continuous)"]),
-    ("gepetto_asr_twodof", false, None, &["no STL file"]),
+    ("gepetto_asr_twodof", false, None, &["qb_c_flange_m.dae\" is not there"]),
     ("gepetto_double_pendulum", false, Some(["joint1", "joint2"]), &["has no range", "link1.stl\" is not there"]),
     ("gepetto_double_pendulum_continuous", false, Some(["joint1", "joint2"]), &["is not there"]),
     ("gepetto_double_pendulum_simple", false, Some(["joint1", "joint2"]), &["has no range"]),

@@ -11,6 +11,7 @@ mod fields;
 mod first;
 mod free_joint;
 pub mod help;
+mod import;
 mod inputs;
 mod large_turns;
 mod many_corners;

@@ -64,8 +64,9 @@ fn is_svg(node: Node) -> bool {
 struct Inside {
     map: Map,
     style: Style,
-    /// Of the group that names what has no name.
+    /// Of the group that names what has no name, or of the use that names all it shows.
     name: Option<String>,
+    is_used: bool,
     layer: Option<String>,
     /// Size of the page in the units of its coordinates, for percentages.
     page: [f64; 2],
@@ -125,7 +126,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         self.regular(&map, root)?;
         let page = view.map_or(size.unwrap_or(view_size), |view| [view.w, view.h]);
-        Ok(Inside { map, style: Style::default().of(root, &self.styles), name: None, layer: None, page })
+        Ok(Inside {
+            map,
+            style: Style::default().of(root, &self.styles),
+            name: None,
+            is_used: false,
+            layer: None,
+            page,
+        })
     }
 
     /// The map that puts a view box into a space of this size.
@@ -225,6 +233,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let map = around.map.after(&Map { u: [a, b], v: [c, d], o: [e, f] });
         self.regular(&map, node)?;
         let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
+        let own_name = own_name.filter(|_| !around.is_used);
         let name = own_name.clone().or_else(|| around.name.clone());
         let mut inside = Inside { map, style, name, ..around.clone() };
         match kind {
@@ -241,7 +250,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let inside = self.viewport(node, node, inside)?;
                 self.children(node, &inside, depth)
             }
-            "use" => self.used(node, inside, depth),
+            "use" => self.used(node, inside, own_name.is_some(), depth),
             "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if !style.is_visible => {
                 self.sheet.leave_out("what is not visible", Some(line));
                 Ok(())
@@ -303,7 +312,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// What is drawn somewhere else, once more.
-    fn used(&mut self, node: Node<'a, 'i>, mut inside: Inside, depth: usize) -> Result<(), Error> {
+    fn used(&mut self, node: Node<'a, 'i>, mut inside: Inside, is_named: bool, depth: usize) -> Result<(), Error> {
         let line = self.line(node);
         let reference = node.attribute("href").or(node.attribute((XLINK, "href"))).unwrap_or_default();
         let Some(&target) = reference.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
@@ -312,6 +321,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let [x, y] = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
         inside.map = inside.map.after(&Map::moving([x?, y?]));
+        inside.is_used |= is_named;
         if target.tag_name().name() != "symbol" {
             return self.element(target, &inside, depth + 1);
         }

@@ -4,8 +4,10 @@ mod cell;
 mod dxf;
 mod geojson;
 mod hostile;
+#[path = "../../../../tests/common/random.rs"]
 mod random;
 mod svg;
+mod written;
 
 use cplan_drawing::{Drawing, Format, Geometry, Point, Ring, Settings, Shape, read};
 

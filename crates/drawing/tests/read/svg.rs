@@ -173,7 +173,7 @@ fn names_layers_uses_and_what_is_not_shown() {
         (Some("post"), Some("walls")),
         (Some("rack"), Some("walls")),
         (Some("tile"), Some("fixtures")),
-        (Some("dot"), Some("fixtures")),
+        (Some("lamp"), Some("fixtures")),
     ];
     assert_eq!(named, expected);
     same(ring(&given.shapes[2]), &up(&[[100.0, 0.0], [110.0, 0.0], [110.0, 20.0], [100.0, 20.0]]));

@@ -1,8 +1,11 @@
 //! Mesh files: where they are, and their vertices.
 
+mod dae;
+mod obj;
+mod stl;
+
 use crate::input::source::{Source, read_bounded};
 use nalgebra::Point3;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 /// Vertices of a mesh, scaled, in the geometry's frame.
@@ -10,16 +13,26 @@ use std::path::{Path, PathBuf};
 /// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
 ///
 /// # Errors
-/// In words, with the places that were searched: the file is missing, the URDF is no file, of another format than STL, or broken.
+/// In words, with the places that were searched: the file is missing, the URDF is no file, of a format that is not read, or broken.
 pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Vec<Point3<f64>>, String> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if extension != "stl" {
-        return Err(format!("mesh \"{filename}\" is no STL file, and cplan reads no other mesh format"));
+    if !["stl", "dae", "obj"].contains(&extension.as_str()) {
+        return Err(format!(
+            "mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format"
+        ));
     }
     let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
     let path = find(filename, anchor)?;
     let bytes = read_bounded(&path).map_err(|e| format!("mesh {} cannot be read: {e}", path.display()))?;
-    let points = read_stl(bytes).map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    let points = match extension.as_str() {
+        "stl" => stl::read(bytes),
+        "dae" => dae::read(&bytes),
+        _ => obj::read(&bytes),
+    };
+    let points = points.map_err(|e| format!("mesh {}: {e}", path.display()))?;
+    if points.iter().any(|p| !p.iter().all(|c| c.is_finite())) {
+        return Err(format!("mesh {}: a vertex is not finite", path.display()));
+    }
     Ok(points.into_iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect())
 }
 
@@ -67,29 +80,4 @@ fn candidates(filename: &str, urdf: &Path) -> Vec<PathBuf> {
 fn search_path(variable: &str) -> Vec<PathBuf> {
     let paths = std::env::var_os(variable).unwrap_or_default();
     std::env::split_paths(&paths).filter(|p| !p.as_os_str().is_empty()).collect()
-}
-
-/// Bytes of a binary STL before its triangles, and of each triangle.
-const HEADER: usize = 84;
-const TRIANGLE: usize = 50;
-
-fn read_stl(mut bytes: Vec<u8>) -> Result<Vec<Point3<f64>>, String> {
-    let count = bytes.get(80..HEADER).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
-    let binary = count.is_some_and(|n| bytes.len() as u64 == HEADER as u64 + TRIANGLE as u64 * u64::from(n));
-    if binary {
-        // Exporters begin binary headers with "solid" too, by which readers tell text; the header means nothing else.
-        bytes[..5].fill(0);
-    } else if !bytes.starts_with(b"solid") {
-        return Err("the file is no STL: its length does not fit its number of triangles".into());
-    }
-    let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
-    if mesh.faces.is_empty() {
-        return Err("the mesh has no triangle".into());
-    }
-    let points: Vec<Point3<f64>> =
-        mesh.vertices.iter().map(|v| Point3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))).collect();
-    if points.iter().any(|p| !p.iter().all(|c| c.is_finite())) {
-        return Err("a vertex is not finite".into());
-    }
-    Ok(points)
 }

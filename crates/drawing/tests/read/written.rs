@@ -1,4 +1,4 @@
-//! What the tests wrote themselves comes back as it was.
+//! What the tests wrote themselves comes back as it was, and anything is read without a panic.
 
 use super::{drawing, dxf::file, one, ring};
 use cplan_drawing::{Format, Point, Settings, Unit, read};
@@ -13,7 +13,7 @@ fn corners() -> impl Strategy<Value = Vec<Point>> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::random::cases(64))]
 
     #[test]
     fn polygons_come_back_from_every_format(corners in corners()) {

@@ -1,0 +1,144 @@
+//! Collada: geometries, and the scene of nodes in which they lie, in the unit of the file.
+//!
+//! As RViz and MoveIt have it, coordinates are the file's own, whatever axis it calls up.
+
+use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
+use roxmltree::{Document, Node, ParsingOptions};
+use std::collections::HashMap;
+
+/// Nodes within each other, and nodes of the scene, at most.
+const DEEPEST: usize = 64;
+const MOST_NODES: usize = 1 << 16;
+/// Vertices of all instances of geometries, at most.
+const MOST_POINTS: usize = 1 << 24;
+
+/// Vertices of all geometries of the scene, metres.
+pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "the file is no UTF-8 text".to_owned())?;
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(text.trim_start_matches('\u{feff}'), options)
+        .map_err(|error| format!("the file is no well-formed XML: {error}"))?;
+    let root = document.root_element();
+    if root.tag_name().name() != "COLLADA" {
+        return Err(format!("the file is no Collada: its root element is <{}>", root.tag_name().name()));
+    }
+    let metres = child(root, "asset").and_then(|asset| child(asset, "unit")).and_then(|unit| unit.attribute("meter"));
+    let metres: f64 = match metres {
+        Some(text) => {
+            let number = text.trim().parse().ok().filter(|x: &f64| *x > 0.0);
+            number.ok_or_else(|| format!("a unit of \"{text}\" metres makes no sense"))?
+        }
+        None => 1.0,
+    };
+    let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
+    let mut scene = Scene { ids, points: Vec::new(), nodes: 0 };
+    let shown = child(root, "scene").and_then(|scene| child(scene, "instance_visual_scene"));
+    let shown = shown.and_then(|instance| scene.target(instance));
+    let shown = shown.or_else(|| named(document.root_element(), "visual_scene").next());
+    let shown = shown.ok_or("the file has no visual scene")?;
+    scene.children(shown, &Matrix4::new_scaling(metres), 0)?;
+    if scene.points.is_empty() {
+        return Err("the scene has no mesh".into());
+    }
+    Ok(scene.points)
+}
+
+/// The first child of that name.
+fn child<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
+    node.children().find(|child| child.tag_name().name() == name)
+}
+
+/// All elements of that name below.
+fn named<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterator<Item = Node<'a, 'i>> {
+    node.descendants().filter(move |node| node.tag_name().name() == name)
+}
+
+struct Scene<'a, 'i> {
+    ids: HashMap<&'a str, Node<'a, 'i>>,
+    points: Vec<Point3<f64>>,
+    nodes: usize,
+}
+
+impl<'a, 'i> Scene<'a, 'i> {
+    /// What an element refers to by `url` or `source`.
+    fn target(&self, node: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
+        let id = node.attribute("url").or(node.attribute("source"))?.strip_prefix('#')?;
+        self.ids.get(id).copied()
+    }
+
+    /// Nodes and geometries of a node, whose coordinates `pose` takes to those of the file.
+    fn children(&mut self, node: Node<'a, 'i>, pose: &Matrix4<f64>, depth: usize) -> Result<(), String> {
+        self.nodes += 1;
+        if depth > DEEPEST || self.nodes > MOST_NODES {
+            return Err("its nodes hold themselves, or too many others".into());
+        }
+        for child in node.children().filter(Node::is_element) {
+            match child.tag_name().name() {
+                "node" => self.children(child, &(pose * transform(child)?), depth + 1)?,
+                "instance_node" => {
+                    let target = self.target(child).ok_or("a node refers to none that the file has")?;
+                    self.children(target, &(pose * transform(target)?), depth + 1)?;
+                }
+                "instance_geometry" => {
+                    let geometry = self.target(child).ok_or("a node shows a geometry that the file does not have")?;
+                    self.geometry(geometry, pose)?;
+                }
+                "instance_controller" => {
+                    return Err("its meshes are bent by controllers, which cplan does not read".into());
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// The positions that the mesh of a geometry has.
+    fn geometry(&mut self, geometry: Node<'a, 'i>, pose: &Matrix4<f64>) -> Result<(), String> {
+        for vertices in named(geometry, "vertices") {
+            let mut inputs = vertices.children().filter(|input| input.attribute("semantic") == Some("POSITION"));
+            let source = inputs.next().and_then(|input| self.target(input)).ok_or("a mesh has no positions")?;
+            let array = child(source, "float_array").ok_or("a mesh has no positions")?;
+            let numbers = numbers(array)?;
+            let accessor = named(source, "accessor").next();
+            let stride = accessor.and_then(|accessor| accessor.attribute("stride")?.trim().parse().ok()).unwrap_or(3);
+            if stride < 3 || numbers.len() % stride != 0 {
+                return Err(format!("{} numbers of a mesh make no positions", numbers.len()));
+            }
+            if self.points.len() + numbers.len() / stride > MOST_POINTS {
+                return Err("its scene shows too many meshes".into());
+            }
+            self.points.extend(numbers.chunks(stride).map(|p| pose.transform_point(&Point3::new(p[0], p[1], p[2]))));
+        }
+        Ok(())
+    }
+}
+
+/// The numbers of an element's text.
+fn numbers(node: Node) -> Result<Vec<f64>, String> {
+    let words = node.text().unwrap_or_default().split_whitespace();
+    words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is no number"))).collect()
+}
+
+/// From a node's coordinates to those of the one around it: its transformations, the first of them outermost.
+fn transform(node: Node) -> Result<Matrix4<f64>, String> {
+    let mut all = Matrix4::identity();
+    for part in node.children() {
+        let kind = part.tag_name().name();
+        if !["matrix", "translate", "rotate", "scale", "lookat", "skew"].contains(&kind) {
+            continue;
+        }
+        all *= match (kind, &numbers(part)?[..]) {
+            ("matrix", values) if values.len() == 16 => Matrix4::from_row_slice(values),
+            ("translate", &[x, y, z]) => Matrix4::new_translation(&Vector3::new(x, y, z)),
+            ("rotate", &[x, y, z, degrees]) => {
+                let axis = Unit::try_new(Vector3::new(x, y, z), 0.0);
+                axis.map_or_else(Matrix4::identity, |axis| {
+                    Rotation3::from_axis_angle(&axis, degrees.to_radians()).to_homogeneous()
+                })
+            }
+            ("scale", &[x, y, z]) => Matrix4::new_nonuniform_scaling(&Vector3::new(x, y, z)),
+            _ => return Err(format!("a node has a <{kind}> that cplan does not read")),
+        };
+    }
+    Ok(all)
+}

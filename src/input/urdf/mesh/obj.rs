@@ -1,0 +1,36 @@
+//! Wavefront OBJ: lines of vertices, and of faces by the numbers of their vertices.
+
+use nalgebra::Point3;
+
+/// Vertices of the faces.
+pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
+    let (mut vertices, mut points) = (Vec::new(), Vec::new());
+    for (line, number) in bytes.split(|&byte| byte == b'\n').zip(1..) {
+        // Names may be in any encoding; what is of interest is ASCII.
+        let line = String::from_utf8_lossy(line);
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let numbers: Vec<f64> = words.take(3).filter_map(|word| word.parse().ok()).collect();
+                let [x, y, z] = numbers[..] else { return Err(format!("line {number}: a vertex needs three numbers")) };
+                vertices.push(Point3::new(x, y, z));
+            }
+            Some("f") => {
+                for word in words {
+                    // Numbers of textures and normals follow after slashes; negative numbers count from the end.
+                    let vertex = word.split('/').next().and_then(|word| word.parse::<i64>().ok());
+                    let index =
+                        vertex.and_then(|k| if k < 0 { vertices.len() as i64 + k } else { k - 1 }.try_into().ok());
+                    let point = index.and_then(|index: usize| vertices.get(index));
+                    points
+                        .push(*point.ok_or_else(|| format!("line {number}: there is no vertex \"{word}\" before it"))?);
+                }
+            }
+            _ => {}
+        }
+    }
+    if points.is_empty() {
+        return Err("the mesh has no face".into());
+    }
+    Ok(points)
+}
