@@ -24,8 +24,7 @@ struct Places {
 
 impl Places {
     fn find(&mut self, p: Point) -> usize {
-        // Cells of twice the reach, so that coordinates of a drawing far away have room in their numbers.
-        let cell = p.map(|x| (x / (2.0 * self.reach)).floor().clamp(-9e18, 9e18) as i64);
+        let cell = p.map(|x| (x / self.reach).floor() as i64);
         for dx in -1..=1 {
             for dy in -1..=1 {
                 let neighbor = [cell[0].saturating_add(dx), cell[1].saturating_add(dy)];
@@ -94,11 +93,11 @@ fn chain(
         }
         chain.points.extend(points);
         place = if is_backward { ends[curve][0] } else { ends[curve][1] };
-        let next = at_place[place].iter().copied().find(|&other| !is_used[other]);
-        match next {
-            Some(next) if at_place[place].len() == 2 => curve = next,
+        curve = match at_place[place][..] {
+            [other, _] if !is_used[other] => other,
+            [_, other] if !is_used[other] => other,
             _ => break,
-        }
+        };
     }
     // Two points there and back surround nothing.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {

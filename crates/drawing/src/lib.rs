@@ -44,7 +44,7 @@ mod svg;
 mod unit;
 
 pub use fill::{FillRule, filled};
-pub use notes::Note;
+pub use notes::{Note, Notes};
 pub use sheet::MOST_POINTS;
 pub use unit::{Unit, UnknownUnit};
 
@@ -62,7 +62,7 @@ pub struct Drawing {
     /// In the order of the file; what was joined stands where its first piece does.
     pub shapes: Vec<Shape>,
     /// What was not taken, or not as it is written.
-    pub notes: Vec<Note>,
+    pub notes: Notes,
 }
 
 /// Something drawn.
@@ -108,7 +108,7 @@ pub enum Geometry {
 /// How a file is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Greatest distance of a curve from its chords, and of ends that meet, metres.
+    /// Greatest distance of a curve from its chords, and of ends that meet, metres; at least [`FINEST`].
     pub tolerance: f64,
     /// The unit of the file's numbers; by default what the file says.
     pub unit: Option<Unit>,
@@ -120,6 +120,9 @@ impl Default for Settings {
         Self { tolerance: 1e-4, unit: None }
     }
 }
+
+/// Tolerances are not finer than this, metres: a micrometre.
+pub const FINEST: f64 = 1e-6;
 
 /// A format of drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -168,6 +171,7 @@ impl Error {
 /// # Errors
 /// A file that is broken, or not of that format.
 pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing, Error> {
+    let settings = &Settings { tolerance: settings.tolerance.max(FINEST), ..*settings };
     match format {
         Format::Dxf => dxf::read(bytes, settings),
         Format::Svg => svg::read(text(bytes)?, settings),

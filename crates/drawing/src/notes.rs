@@ -25,20 +25,27 @@ impl fmt::Display for Note {
     }
 }
 
+/// More kinds than this are counted as one: nobody reads them.
+const MOST_KINDS: usize = 48;
+
 /// Notes in the order in which their kinds came up.
-#[derive(Debug, Default)]
-pub(crate) struct Notes(Vec<Note>);
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Notes(Vec<Note>);
 
 impl Notes {
+    /// Notes something, and the line that it is in.
     pub fn add(&mut self, message: impl Into<String>, line: Option<usize>) {
         let message = message.into();
-        match self.0.iter_mut().find(|note| note.message == message) {
-            Some(note) => note.count += 1,
-            None => self.0.push(Note { message, count: 1, line }),
+        match self.0.iter_mut().position(|note| note.message == message) {
+            Some(known) => self.0[known].count += 1,
+            None if self.0.len() < MOST_KINDS => self.0.push(Note { message, count: 1, line }),
+            None if self.0.len() == MOST_KINDS => self.0.push(Note { message: "other things".into(), count: 1, line }),
+            None => self.0[MOST_KINDS].count += 1,
         }
     }
 
-    pub fn into_list(self) -> Vec<Note> {
-        self.0
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Note> {
+        self.0.iter()
     }
 }

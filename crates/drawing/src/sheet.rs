@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 /// More points a drawing does not have: neither a planner nor a person could make use of it.
 pub const MOST_POINTS: usize = 1 << 21;
 
+/// Greatest coordinate, metres: beyond it numbers lose what tolerances are about.
+const LARGEST: f64 = 1e12;
+
 /// Whose a shape is.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Origin {
@@ -130,12 +133,12 @@ impl Sheet {
         self.closed(ring, origin)
     }
 
-    /// Holds coordinates to be numbers and, all together, to be not too many.
+    /// Holds coordinates to a range and, all together, to a number.
     fn counted<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;
-            if !point.iter().all(|x| x.is_finite()) {
-                let message = format!("{}: its coordinates are too large for numbers", origin.kind);
+            if !point.iter().all(|x| x.abs() <= LARGEST) {
+                let message = format!("{}: its coordinates are too large (beyond {LARGEST:e} m)", origin.kind);
                 return Err(Error::new(origin.line, message, "look for a scale or a coordinate that is not meant"));
             }
         }
@@ -180,7 +183,7 @@ impl Sheet {
             }
         }
         self.shapes.sort_by_key(|(number, _)| *number);
-        Drawing { shapes: self.shapes.into_iter().map(|(_, shape)| shape).collect(), notes: self.notes.into_list() }
+        Drawing { shapes: self.shapes.into_iter().map(|(_, shape)| shape).collect(), notes: self.notes }
     }
 }
 

@@ -3,8 +3,8 @@
 use super::Failure;
 use super::obstacles::Taken;
 use crate::text::counted;
-use cplan_drawing::{Geometry, Shape};
-use std::collections::BTreeMap;
+use cplan_drawing::{Geometry, Notes, Shape};
+use std::collections::{BTreeMap, BTreeSet};
 use std::str::FromStr;
 
 /// `NAME=LOW:HIGH`.
@@ -50,16 +50,10 @@ impl Layers<'_> {
         let walls = self.walls.iter().map(|name| ("--walls", name));
         let unknown = |(_, name): &(&str, &String)| !shapes.iter().any(|shape| is_called(shape, name));
         let Some((option, name)) = only.chain(heights).chain(walls).find(unknown) else { return Ok(()) };
-        let mut known: Vec<String> = Vec::new();
-        for name in shapes.iter().flat_map(|shape| [&shape.layer, &shape.name]).flatten() {
-            let name = format!("\"{name}\"");
-            if !known.contains(&name) {
-                known.push(name);
-            }
-        }
+        let known: BTreeSet<&String> = shapes.iter().flat_map(|shape| [&shape.layer, &shape.name]).flatten().collect();
         const SHOWN: usize = 24;
         let more = known.len().saturating_sub(SHOWN);
-        known.truncate(SHOWN);
+        let known: Vec<String> = known.into_iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
         let known = match (known.is_empty(), more) {
             (true, _) => "nothing that is taken of the drawing has a name or a layer".to_owned(),
             (false, 0) => format!("the drawing has {}", known.join(", ")),
@@ -69,13 +63,13 @@ impl Layers<'_> {
     }
 
     /// The shapes that are taken, with what the options say of them.
-    pub fn chosen(&self, shapes: impl Iterator<Item = Shape>, notes: &mut Vec<String>) -> Vec<Shape> {
-        let mut hidden = BTreeMap::<String, usize>::new();
+    pub fn chosen(&self, shapes: impl Iterator<Item = Shape>, notes: &mut Notes) -> Vec<Shape> {
         let mut chosen = Vec::new();
         for mut shape in shapes {
             let is_named = self.only.iter().any(|name| is_called(&shape, name));
-            if shape.is_hidden && !is_named {
-                *hidden.entry(shape.layer.clone().unwrap_or_default()).or_default() += 1;
+            if shape.is_hidden && self.only.is_empty() {
+                let layer = shape.layer.as_deref().unwrap_or_default();
+                notes.add(format!("layer \"{layer}\" is switched off: left out, --layer takes it"), shape.line);
             }
             if !is_named && (shape.is_hidden || !self.only.is_empty()) {
                 continue;
@@ -88,12 +82,6 @@ impl Layers<'_> {
             } else {
                 chosen.push(shape);
             }
-        }
-        if self.only.is_empty() {
-            let told = |(layer, count): (String, usize)| {
-                format!("layer \"{layer}\" is switched off: {} left out; --layer takes it", counted(count, "shape"))
-            };
-            notes.extend(hidden.into_iter().map(told));
         }
         chosen
     }
@@ -109,14 +97,11 @@ fn walls(shape: Shape) -> Vec<Shape> {
     [outer].into_iter().chain(holes).map(wall).collect()
 }
 
-/// What was taken of each layer, in the order of the drawing.
+/// What was taken of each layer.
 pub(super) fn lines(taken: &[Taken]) -> Vec<String> {
-    let mut layers: Vec<(&str, usize)> = Vec::new();
+    let mut layers = BTreeMap::<&str, usize>::new();
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {
-        match layers.iter_mut().find(|(known, _)| *known == layer) {
-            Some((_, count)) => *count += 1,
-            None => layers.push((layer, 1)),
-        }
+        *layers.entry(layer).or_default() += 1;
     }
     layers.into_iter().map(|(layer, count)| format!("{layer}: {}", counted(count, "obstacle"))).collect()
 }

@@ -11,13 +11,13 @@ use super::fresh::word;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use crate::draw;
-use crate::grammar::{finite, positive};
+use crate::grammar::{finite, number_in, positive};
 use crate::input::{self, Diagnostic, Position, Source, TipPoint, World};
 use crate::motion::{check_writable, write_whole};
 use crate::output::laid_out;
 use crate::text::counted;
 use clap::{Args, ValueHint};
-use cplan_drawing::{Drawing, Format, Note, Settings, Shape, Unit};
+use cplan_drawing::{Drawing, FINEST, Format, Note, Settings, Shape, Unit};
 use layers::{LayerHeight, Layers};
 use obstacles::{Placement, Taken};
 use serde::Serialize;
@@ -59,7 +59,7 @@ pub struct ImportArgs {
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,
     /// Greatest distance of curves from their chords, and of ends that meet, metres.
-    #[arg(long, value_name = "METRES", value_parser = positive, default_value_t = Settings::default().tolerance)]
+    #[arg(long, value_name = "METRES", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
     pub tolerance: f64,
     /// Scale it about its origin.
     #[arg(long, value_name = "FACTOR", value_parser = positive, default_value_t = 1.0)]
@@ -74,6 +74,10 @@ pub struct ImportArgs {
     pub query: QueryArgs,
     #[command(flatten)]
     pub print: PrintArgs,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    number_in(text, |x| x.is_finite() && x >= FINEST, &format!("of metres, finite and at least {FINEST}"))
 }
 
 fn angle(text: &str) -> Result<f64, String> {
@@ -132,8 +136,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
         let position = error.line.map(|line| Position { line, column: 1 });
         refused(args, Diagnostic { position, ..Diagnostic::new("", error.message).help(error.cure) })
     })?;
-    let Drawing { shapes, notes } = drawing;
-    let mut notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let Drawing { shapes, mut notes } = drawing;
     let shift = args.shift.map_or([0.0; 2], |TipPoint(point)| point.into());
     let placement = Placement { scale: args.scale, turn: args.turn, shift };
     let layers = Layers { only: &args.layer, heights: &args.height, walls: &args.walls };
@@ -141,6 +144,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let scaled = |shape: Shape| Shape { height: shape.height.map(|ends| ends.map(|z| placement.length(z))), ..shape };
     let shapes = layers.chosen(shapes.into_iter().map(scaled), &mut notes);
     let taken = obstacles::taken(shapes, &placement, &mut notes).map_err(|diagnostic| refused(args, diagnostic))?;
+    let notes: Vec<String> = notes.iter().map(Note::to_string).collect();
     if taken.is_empty() {
         let cure = "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take";
         let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();

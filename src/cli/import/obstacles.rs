@@ -1,8 +1,8 @@
 //! Shapes as obstacles: where they come to lie, sound, each with a name of its own.
 
 use crate::geometry::{Point, Polygon};
-use crate::input::{Diagnostic, LARGEST};
-use cplan_drawing::{FillRule, Geometry, Ring, Shape, filled};
+use crate::input::{Diagnostic, LARGEST, Position};
+use cplan_drawing::{FillRule, Geometry, Notes, Ring, Shape, filled};
 use std::collections::HashMap;
 
 /// An obstacle of the world.
@@ -50,11 +50,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// The obstacles. An outline that crosses itself is what it goes round, or thin walls where even that is too narrow.
-pub(super) fn taken(
-    shapes: Vec<Shape>,
-    placement: &Placement,
-    notes: &mut Vec<String>,
-) -> Result<Vec<Taken>, Diagnostic> {
+pub(super) fn taken(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Result<Vec<Taken>, Diagnostic> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
         let geometries = match shape.geometry.clone() {
@@ -63,7 +59,7 @@ pub(super) fn taken(
                 if radius > 0.0 {
                     vec![Geometry::Circle { center, radius }]
                 } else {
-                    notes.push(note(&shape, "has no extent: left out"));
+                    notes.add("what has no extent: left out", shape.line);
                     Vec::new()
                 }
             }
@@ -73,7 +69,7 @@ pub(super) fn taken(
                 if points.len() > 1 {
                     vec![Geometry::Polyline(points)]
                 } else {
-                    notes.push(note(&shape, "has no extent: left out"));
+                    notes.add("what has no extent: left out", shape.line);
                     Vec::new()
                 }
             }
@@ -87,12 +83,15 @@ pub(super) fn taken(
             sound.push(Shape { geometry, ..shape.clone() });
         }
     }
-    notes.extend(border(&sound));
+    if let Some(border) = border(&sound) {
+        let name = border.name.as_ref().or(border.layer.as_ref()).map_or("an outline", String::as_str);
+        notes.add(format!("\"{name}\" is solid and lies around all else: --walls makes a wall of it"), border.line);
+    }
     Ok(named(sound))
 }
 
 /// Rings as polygons that do not cross themselves.
-fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Vec<String>) -> Vec<Geometry> {
+fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) -> Vec<Geometry> {
     if is_sound(&outer, &holes) {
         return vec![Geometry::Polygon { outer, holes }];
     }
@@ -100,10 +99,10 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Vec<Strin
     let rings: Vec<Ring> = [outer].into_iter().chain(holes).collect();
     let parts = filled(&rings, rule);
     if !parts.is_empty() && parts.iter().all(|(outer, holes)| is_sound(outer, holes)) {
-        notes.push(note(shape, "crosses or touches itself: what it goes round is solid"));
+        notes.add("outlines that cross or touch themselves: what they go round is solid", shape.line);
         return parts.into_iter().map(|(outer, holes)| Geometry::Polygon { outer, holes }).collect();
     }
-    notes.push(note(shape, "is no outline of a solid: taken as thin walls"));
+    notes.add("outlines that surround nothing: taken as thin walls", shape.line);
     let closed = |mut ring: Ring| {
         ring.extend(ring.first().copied());
         ring
@@ -116,21 +115,16 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
     Polygon::new(points(outer), holes.iter().map(|hole| points(hole)).collect()).is_ok()
 }
 
-/// A note on a single shape.
-fn note(shape: &Shape, what: &str) -> String {
-    let line = shape.line.map_or_else(String::new, |line| format!(" (line {line})"));
-    let name = shape.name.as_ref().or(shape.layer.as_ref()).map_or_else(String::new, |name| format!(" of \"{name}\""));
-    format!("{}{name} {what}{line}", shape.kind)
-}
-
 /// Refuses what lies where no arm can be.
 fn within_reach(geometry: &Geometry, shape: &Shape) -> Result<(), Diagnostic> {
     let farthest = coordinates(geometry).flatten().map(f64::abs).fold(0.0, f64::max);
     if farthest <= LARGEST {
         return Ok(());
     }
-    let message = format!("a coordinate is {farthest:e} m from the origin (at most {LARGEST:e})");
-    Err(Diagnostic::new("", note(shape, &message)).help("bring the drawing to the arm by --move, or say its --unit"))
+    let message = format!("{} has a coordinate of {farthest:e} m (at most {LARGEST:e})", shape.kind);
+    let position = shape.line.map(|line| Position { line, column: 1 });
+    let help = "bring the drawing to the arm by --move, or say its --unit";
+    Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
 }
 
 /// Points as far out as the shape.
@@ -144,8 +138,8 @@ fn coordinates(geometry: &Geometry) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
     }
 }
 
-/// Says so if one solid lies around all others: people draw the walls of a room like that.
-fn border(shapes: &[Shape]) -> Option<String> {
+/// The solid that lies around all others, if one does: people draw the walls of a room like that.
+fn border(shapes: &[Shape]) -> Option<&Shape> {
     let around = |shape: &Shape| {
         let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
         for p in coordinates(&shape.geometry) {
@@ -163,9 +157,7 @@ fn border(shapes: &[Shape]) -> Option<String> {
         width(i).total_cmp(&width(j))
     })?;
     let is_border = shapes.len() > 1 && is_solid(widest) && others(widest).all(|j| holds(widest, j));
-    is_border.then(|| {
-        note(&shapes[widest], "is solid and lies around all else: if it is a room, --walls makes a wall of it")
-    })
+    is_border.then(|| &shapes[widest])
 }
 
 /// Gives each a name of its own: that of what is drawn, or of its layer, with a number where several have it.

@@ -68,7 +68,7 @@ fn without_a_file_the_world_is_printed() {
     );
     toml::from_str::<toml::Table>(told["world"].as_str().unwrap()).unwrap();
     let notes: Vec<&str> = told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
-    assert!(notes.contains(&"layer \"old\" is switched off: 1 shape left out; --layer takes it"), "{notes:?}");
+    assert!(notes.contains(&"layer \"old\" is switched off: left out, --layer takes it (line 3218)"), "{notes:?}");
 }
 
 #[test]
@@ -102,9 +102,11 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     let done = place.run(&["import", "odd.dxf"], "--output w.toml");
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert_eq!(names(&world(&place, "w.toml")), ["tie 1", "tie 2", "loop", "room"]);
-    for part in
-        ["of \"tie\" crosses or touches itself", "of \"loop\" is no outline of a solid", "--walls makes a wall of it"]
-    {
+    for part in [
+        "outlines that cross or touch themselves: what they go round is solid (line 18)",
+        "outlines that surround nothing: taken as thin walls (line 40)",
+        "--walls makes a wall of it",
+    ] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
     }
     let done = place.run(&["import", "odd.dxf"], "--walls room --output w.toml");
@@ -132,7 +134,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         &["text.dxf: nothing of this drawing is an obstacle; TEXT: left out", "cure: draw outlines"],
     );
     refused("nan.dxf", "", &["nan.dxf: line 24, column 1: group 10 needs a number", "cure: "]);
-    refused("far.dxf", "", &["1e12 m from the origin", "--move"]);
+    refused("far.dxf", "", &["far.dxf: line 18, column 1: CIRCLE has a coordinate of 1e12 m", "--move"]);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "no well-formed XML"]);
     refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
