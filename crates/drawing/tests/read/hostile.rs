@@ -81,7 +81,7 @@ fn blocks_without_end() {
 
 #[test]
 fn broken_svg_files() {
-    let deep = "<g>".repeat(5000) + &"</g>".repeat(5000);
+    let deep = "<g>".repeat(300_000) + &"</g>".repeat(300_000);
     let loops = "<g id='a'><use href='#a'/></g>";
     let doubled: String =
         (0..40).map(|k| format!("<g id='g{}'><use href='#g{k}'/><use href='#g{k}'/></g>", k + 1)).collect();
@@ -111,6 +111,15 @@ fn broken_svg_files() {
     let lol: String = (1..20).map(|k| format!("<!ENTITY l{k} '&l{0};&l{0};&l{0};'>", k - 1)).collect();
     let bomb = format!("<!DOCTYPE svg [<!ENTITY l0 'l'>{lol}]><svg><text>&l19;</text></svg>");
     assert!(refused(&bomb, Format::Svg).message.contains("XML"));
+}
+
+#[test]
+fn many_lines_that_meet_in_one_place() {
+    let star: String = (1..100_000).map(|k| format!("0 LINE 8 a 10 0 20 0 11 {k} 21 1 ")).collect();
+    let begin = Instant::now();
+    let drawing = read(file("", &star).as_bytes(), Format::Dxf, &Settings::default()).unwrap();
+    assert_eq!(drawing.shapes.len(), 99_999);
+    assert!(begin.elapsed() < Duration::from_secs(20), "{:?}", begin.elapsed());
 }
 
 #[test]
