@@ -23,7 +23,8 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
         sheet.notes.add("GeoJSON does not say its unit: read as m", None);
         Unit::METRE
     });
-    let mut reader = Reader { sheet, map: Map::scaling(unit.metres(), unit.metres()) };
+    let scale = unit.metres() * settings.scale;
+    let mut reader = Reader { sheet, map: Map::scaling(scale, scale) };
     reader.object(&value, "", &Origin::default())?;
     Ok(reader.sheet.finish())
 }
@@ -145,7 +146,7 @@ impl Reader {
     }
 }
 
-/// What a feature says of itself. `height` is how high it is, or from where to where; `unit` is in metres.
+/// What a feature says of itself. `height` is how high it is, or from where to where; `unit` is in metres, scaled.
 fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
     let property = |key: &str| value.get("properties").and_then(|properties| properties.get(key));
     let text = |value: &Value| match value {

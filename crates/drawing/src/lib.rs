@@ -112,12 +112,14 @@ pub struct Settings {
     pub tolerance: f64,
     /// The unit of the file's numbers; by default what the file says.
     pub unit: Option<Unit>,
+    /// What everything is scaled by besides, about the drawing's origin; above 0.
+    pub scale: f64,
 }
 
 impl Default for Settings {
-    /// A tenth of a millimetre.
+    /// A tenth of a millimetre, and what the file says.
     fn default() -> Self {
-        Self { tolerance: 1e-4, unit: None }
+        Self { tolerance: 1e-4, unit: None, scale: 1.0 }
     }
 }
 

@@ -63,7 +63,7 @@ impl Layers<'_> {
     }
 
     /// The shapes that are taken, with what the options say of them.
-    pub fn chosen(&self, shapes: impl Iterator<Item = Shape>, notes: &mut Notes) -> Vec<Shape> {
+    pub fn chosen(&self, shapes: Vec<Shape>, notes: &mut Notes) -> Vec<Shape> {
         let mut chosen = Vec::new();
         for mut shape in shapes {
             let is_named = self.only.iter().any(|name| is_called(&shape, name));

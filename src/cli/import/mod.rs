@@ -13,11 +13,11 @@ use super::sinks::{self, Sink};
 use crate::draw;
 use crate::grammar::{finite, number_in, positive};
 use crate::input::{self, Diagnostic, Position, Source, TipPoint, World};
-use crate::motion::{check_writable, write_whole};
+use crate::motion::{check_writable, write_whole_set};
 use crate::output::laid_out;
 use crate::text::counted;
 use clap::{Args, ValueHint};
-use cplan_drawing::{Drawing, FINEST, Format, Note, Settings, Shape, Unit};
+use cplan_drawing::{Drawing, FINEST, Format, Note, Settings, Unit};
 use layers::{LayerHeight, Layers};
 use obstacles::{Placement, Taken};
 use serde::Serialize;
@@ -131,18 +131,17 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let pictures = sinks(args)?;
     let bytes = input::read_bytes(&args.drawing)?;
     sinks::spare_inputs(pictures.iter().map(Sink::path).chain(args.output.as_deref()))?;
-    let settings = Settings { tolerance: args.tolerance / args.scale, unit: args.unit };
+    let settings = Settings { tolerance: args.tolerance, unit: args.unit, scale: args.scale };
     let drawing = cplan_drawing::read(&bytes, format, &settings).map_err(|error| {
         let position = error.line.map(|line| Position { line, column: 1 });
         refused(args, Diagnostic { position, ..Diagnostic::new("", error.message).help(error.cure) })
     })?;
     let Drawing { shapes, mut notes } = drawing;
     let shift = args.shift.map_or([0.0; 2], |TipPoint(point)| point.into());
-    let placement = Placement { scale: args.scale, turn: args.turn, shift };
+    let placement = Placement { turn: args.turn, shift };
     let layers = Layers { only: &args.layer, heights: &args.height, walls: &args.walls };
     layers.check(&shapes)?;
-    let scaled = |shape: Shape| Shape { height: shape.height.map(|ends| ends.map(|z| placement.length(z))), ..shape };
-    let shapes = layers.chosen(shapes.into_iter().map(scaled), &mut notes);
+    let shapes = layers.chosen(shapes, &mut notes);
     let taken = obstacles::taken(shapes, &placement, &mut notes).map_err(|diagnostic| refused(args, diagnostic))?;
     let notes: Vec<String> = notes.iter().map(Note::to_string).collect();
     if taken.is_empty() {
@@ -155,16 +154,14 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
     // What is written can be read, and what is drawn is what was read.
     let world = input::world_from(Source::in_memory(name, text.as_str()))?;
+    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
         let Sink::Picture(format, path) = sink else { continue };
-        write_whole(
-            path,
-            &format.bytes_of(|| picture(args, &world), || draw::still_page(&title(args), &picture(args, &world)))?,
-        )?;
+        let svg = || picture(args, &world);
+        files.push((path.clone(), format.bytes_of(svg, || draw::still_page(&title(args), &svg()))?));
     }
-    if let Some(path) = &args.output {
-        write_whole(path, text.as_bytes())?;
-    }
+    files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
+    write_whole_set(&files)?;
     tell(args, &taken, &notes, &world, &text)?;
     Ok(DONE)
 }

@@ -12,9 +12,8 @@ pub(super) struct Taken {
     pub shape: Shape,
 }
 
-/// Where a drawing comes to lie: scaled, turned, moved.
+/// Where a drawing comes to lie: turned, then moved.
 pub(super) struct Placement {
-    pub scale: f64,
     pub turn: f64,
     pub shift: [f64; 2],
 }
@@ -23,15 +22,10 @@ pub(super) struct Placement {
 const GRAINS: f64 = 1e9;
 
 impl Placement {
-    /// A length or a height.
-    pub fn length(&self, length: f64) -> f64 {
-        rounded(length * self.scale)
-    }
-
     fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (sin, cos) = self.turn.sin_cos();
         let turned = [cos * x - sin * y, sin * x + cos * y];
-        [0, 1].map(|k| rounded(turned[k] * self.scale + self.shift[k]))
+        [0, 1].map(|k| rounded(turned[k] + self.shift[k]))
     }
 
     fn ring(&self, ring: Ring) -> Ring {
@@ -44,8 +38,8 @@ impl Placement {
     }
 }
 
-/// Without a negative zero.
-fn rounded(value: f64) -> f64 {
+/// A length of the file, without a negative zero.
+pub(super) fn rounded(value: f64) -> f64 {
     (value * GRAINS).round() / GRAINS + 0.0
 }
 
@@ -55,7 +49,7 @@ pub(super) fn taken(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
     for shape in shapes {
         let geometries = match shape.geometry.clone() {
             Geometry::Circle { center, radius } => {
-                let (center, radius) = (placement.point(center), placement.length(radius));
+                let (center, radius) = (placement.point(center), rounded(radius));
                 if radius > 0.0 {
                     vec![Geometry::Circle { center, radius }]
                 } else {

@@ -1,6 +1,6 @@
 //! The world as text.
 
-use super::obstacles::Taken;
+use super::obstacles::{Taken, rounded};
 use super::{ImportArgs, title};
 use crate::text::plain_line;
 use cplan_drawing::Geometry;
@@ -67,7 +67,7 @@ fn obstacle(Taken { name, shape }: &Taken) -> String {
         }
     }
     if let Some(height) = shape.height {
-        let _ = writeln!(text, "height = {height:?}");
+        let _ = writeln!(text, "height = {:?}", height.map(rounded));
     }
     text
 }

@@ -68,7 +68,7 @@ fn without_a_file_the_world_is_printed() {
     );
     toml::from_str::<toml::Table>(told["world"].as_str().unwrap()).unwrap();
     let notes: Vec<&str> = told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
-    assert!(notes.contains(&"layer \"old\" is switched off: left out, --layer takes it (line 3218)"), "{notes:?}");
+    assert!(notes.contains(&"layer \"old\" is switched off: left out, --layer takes it (line 3186)"), "{notes:?}");
 }
 
 #[test]

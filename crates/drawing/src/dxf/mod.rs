@@ -30,7 +30,7 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
         Unit::MILLIMETRE
     });
     let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };
-    let scale = unit.metres();
+    let scale = unit.metres() * settings.scale;
     let place = Place { map: Map::scaling(scale, scale), up: [scale, 0.0], ..Place::default() };
     reader.all(&document.entities, &place, &mut Vec::new())?;
     Ok(reader.sheet.finish())

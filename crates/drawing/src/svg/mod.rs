@@ -50,7 +50,7 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     let ends = text.bytes().zip(0..).filter(|(byte, _)| *byte == b'\n').map(|(_, at)| at).collect();
     let ids = document.descendants().filter_map(|node| Some((node.attribute("id")?, node))).collect();
     let mut reader = Reader { ends, ids, styles, sheet: Sheet::new(settings), elements: 0, groups: 0 };
-    let inside = reader.page(root, settings.unit)?;
+    let inside = reader.page(root, settings)?;
     reader.children(root, &inside, 0)?;
     Ok(reader.sheet.finish())
 }
@@ -88,8 +88,8 @@ impl<'a, 'i> Reader<'a, 'i> {
     }
 
     /// The page: metres, y upwards, from its lower left corner.
-    fn page(&mut self, root: Node<'a, 'i>, unit: Option<Unit>) -> Result<Inside, Error> {
-        let pixel = Unit::PIXEL.metres();
+    fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<Inside, Error> {
+        let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
         // Parts of a page that nobody has sized.
         let view_size = view.map_or([100.0, 100.0], |view| [view.w, view.h]);
@@ -101,8 +101,8 @@ impl<'a, 'i> Reader<'a, 'i> {
                 None => None,
             };
         }
-        let (size, scale) = match (unit, view) {
-            (Some(unit), _) => (view.map(|view| [view.w, view.h]), unit.metres()),
+        let (size, unit_of_page) = match (unit, view) {
+            (Some(unit), _) => (view.map(|view| [view.w, view.h]), unit),
             (None, Some(view)) => {
                 // One side gives the other.
                 let ratio = view.h / view.w;
@@ -111,10 +111,11 @@ impl<'a, 'i> Reader<'a, 'i> {
                     [None, Some(height)] => [height / ratio, height],
                     [None, None] => [view.w, view.h],
                 };
-                (Some(size), pixel)
+                (Some(size), Unit::PIXEL)
             }
-            (None, None) => (size[1].map(|height| [size[0].unwrap_or(height), height]), pixel),
+            (None, None) => (size[1].map(|height| [size[0].unwrap_or(height), height]), Unit::PIXEL),
         };
+        let scale = unit_of_page.metres() * settings.scale;
         let says_unit = lengths.iter().flatten().any(|text| text.trim_end().ends_with(char::is_alphabetic));
         if unit.is_none() && !says_unit {
             self.sheet.notes.add("the drawing does not say its size: read as px, 96 to an inch", None);
