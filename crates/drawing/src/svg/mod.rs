@@ -93,7 +93,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
         // Parts of a page that nobody has sized.
         let view_size = view.map_or([100.0, 100.0], |view| [view.w, view.h]);
-        let lengths = ["width", "height"].map(|name| root.attribute(name).filter(|value| !value.contains('%')));
+        let lengths = ["width", "height"]
+            .map(|name| root.attribute(name).filter(|value| !value.contains('%') && *value != "auto"));
         let mut size = [None; 2];
         for k in 0..2 {
             size[k] = match lengths[k] {

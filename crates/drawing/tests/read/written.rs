@@ -1,6 +1,6 @@
 //! What the tests wrote themselves comes back as it was, and anything is read without a panic.
 
-use super::{drawing, dxf::file, one, ring};
+use super::{drawing, dxf::file, one, ring, wall};
 use cplan_drawing::{Format, Point, Settings, Unit, read};
 use proptest::prelude::*;
 
@@ -32,6 +32,37 @@ proptest! {
         let svg = format!("<svg><g transform='scale(1 -1)'><path d='M{}z'/></g></svg>", pairs(" ").join("L"));
         let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
         prop_assert_eq!(ring(one(&given)), &corners);
+    }
+
+    /// Elliptical arcs of paths against kurbo's: its ellipse, its angle.
+    #[test]
+    fn arcs_are_those_of_another_library(
+        from in (0.0..500.0, 0.0..500.0), to in (0.0..500.0, 0.0..500.0), radii in (5.0..400.0, 5.0..400.0),
+        degrees in -180.0..180.0, large in any::<bool>(), sweep in any::<bool>(),
+    ) {
+        let [large_arc, sweep_flag] = [large, sweep].map(u8::from);
+        let d = format!("M{} {}A{} {} {degrees} {large_arc} {sweep_flag} {} {}", from.0, from.1, radii.0, radii.1, to.0, to.1);
+        let metres = Settings { unit: Some(Unit::METRE), tolerance: 0.01, ..Settings::default() };
+        let svg = format!("<svg><path fill='none' transform='scale(1 -1)' d='{d}'/></svg>");
+        let given = read(svg.as_bytes(), Format::Svg, &metres).unwrap();
+        let points = wall(one(&given));
+        let arc = kurbo::SvgArc {
+            from: from.into(), to: to.into(), radii: radii.into(), x_rotation: f64::to_radians(degrees), large_arc: large, sweep,
+        };
+        let arc = kurbo::Arc::from_svg_arc(&arc).expect("two ends and two radii");
+        let (sin, cos) = arc.x_rotation.sin_cos();
+        let angle = |p: &Point| {
+            let [x, y] = [p[0] - arc.center.x, p[1] - arc.center.y];
+            let [u, v] = [(cos * x + sin * y) / arc.radii.x, (cos * y - sin * x) / arc.radii.y];
+            (v.atan2(u), u.hypot(v))
+        };
+        // Both solve for the centre by a difference that may be all but zero.
+        prop_assert!(points.iter().all(|p| (angle(p).1 - 1.0).abs() < 1e-5), "{points:?} on {arc:?}");
+        let turned: f64 = points.windows(2).map(|w| {
+            let step = angle(&w[1]).0 - angle(&w[0]).0;
+            step - std::f64::consts::TAU * (step / std::f64::consts::TAU).round()
+        }).sum();
+        prop_assert!((turned - arc.sweep_angle).abs() < 1e-4, "{turned} against {arc:?}");
     }
 
     /// Whatever of a file is missing, it is refused, or at least read without a panic.
