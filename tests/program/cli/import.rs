@@ -103,8 +103,8 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     assert_eq!(names(&world(&place, "w.toml")), ["tie 1", "tie 2", "loop", "room"]);
     for part in [
-        "outlines that cross or touch themselves: what they go round is solid (line 18)",
-        "outlines that surround nothing: taken as thin walls (line 40)",
+        "outlines that cross or touch themselves: what they go round is solid (line 16)",
+        "outlines that surround nothing: taken as thin walls (line 38)",
         "--walls makes a wall of it",
     ] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
@@ -133,8 +133,8 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         "--output w.toml",
         &["text.dxf: nothing of this drawing is an obstacle; TEXT: left out", "cure: draw outlines"],
     );
-    refused("nan.dxf", "", &["nan.dxf: line 24, column 1: group 10 needs a number", "cure: "]);
-    refused("far.dxf", "", &["far.dxf: line 18, column 1: CIRCLE has a coordinate of 1e12 m", "--move"]);
+    refused("nan.dxf", "", &["nan.dxf: line 20, column 1: group 10 needs a number", "cure: "]);
+    refused("far.dxf", "", &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1e12 m", "--move"]);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "no well-formed XML"]);
     refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
@@ -153,6 +153,6 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         place.run(&["import", file], options).refused(2, &[part]);
     }
     let error = serde_json::from_str::<Value>(&place.run(&["import", "nan.dxf"], "--json").stdout).unwrap();
-    assert_eq!((&error["file"], &error["line"]), (&"nan.dxf".into(), &24.into()));
+    assert_eq!((&error["file"], &error["line"]), (&"nan.dxf".into(), &20.into()));
     place.run(&["import", "broken.svg"], "--picture broken.svg").refused(1, &["the output broken.svg is the input"]);
 }
