@@ -14,6 +14,9 @@ pub const MOST_POINTS: usize = 1 << 21;
 /// Greatest coordinate, metres: beyond it numbers lose what tolerances are about.
 const LARGEST: f64 = 1e12;
 
+/// Ends that are nearer than this were meant to meet, metres: turns and scales are rounded.
+const ROUNDING: f64 = 1e-9;
+
 /// Whose a shape is.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Origin {
@@ -169,7 +172,7 @@ impl Sheet {
                 if chain.curves.len() > 1 {
                     origin.kind = format!("{} and {} more that it meets", origin.kind, chain.curves.len() - 1);
                 }
-                if chain.gap > 0.0 {
+                if chain.gap > ROUNDING {
                     let message = format!("ends less than {} m apart: joined", self.tolerance);
                     self.notes.add(message, origin.line);
                 }

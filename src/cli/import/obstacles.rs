@@ -154,10 +154,14 @@ fn border(shapes: &[Shape]) -> Option<&Shape> {
     is_border.then(|| &shapes[widest])
 }
 
+/// No names: that of the layer which every DXF has is none, either.
+const UNNAMED: [&str; 2] = ["", "0"];
+
 /// Gives each a name of its own: that of what is drawn, or of its layer, with a number where several have it.
 fn named(shapes: Vec<Shape>) -> Vec<Taken> {
     let base = |shape: &Shape| {
-        let name = shape.name.as_deref().or(shape.layer.as_deref()).map(str::trim).filter(|name| !name.is_empty());
+        let name =
+            shape.name.as_deref().or(shape.layer.as_deref()).map(str::trim).filter(|name| !UNNAMED.contains(name));
         name.unwrap_or("obstacle").to_owned()
     };
     let mut counts = HashMap::<String, usize>::new();
