@@ -90,6 +90,16 @@ fn scaled_then_turned_then_moved() {
 }
 
 #[test]
+fn each_obstacle_has_a_name_of_its_own() {
+    let place = Place::new();
+    let disc = |layer: &str| format!("0 CIRCLE 8 {layer} 10 {} 20 0 40 1 ", 10 * layer.len());
+    place.write("discs.dxf", dxf(&["0", "a", "post", "a", "0", "a-2"].map(disc).concat()));
+    assert_eq!(place.run(&["import", "discs.dxf"], "--output w.toml --quiet").code, 0);
+    let made = world(&place, "w.toml");
+    assert_eq!(names(&made), ["obstacle 1", "a 1", "post", "a 2", "obstacle 2", "a-2"]);
+}
+
+#[test]
 fn outlines_that_are_none_are_taken_as_what_they_surround() {
     let place = Place::new();
     // A bow tie, a loop that retraces itself, and a room around both.
