@@ -1,5 +1,6 @@
 //! The command line's words.
 
+use super::batch::BatchArgs;
 use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
 use super::converge::ConvergeArgs;
@@ -83,6 +84,8 @@ impl Cli {
 pub enum Command {
     /// Run every planner on the same problem, or on many, side by side.
     Compare(CompareArgs),
+    /// Answer problems as JSON lines, a result a line: one process for thousands.
+    Batch(BatchArgs),
     /// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
     Converge(ConvergeArgs),
     /// Plan in a world that is only seen bit by bit: what the sensor has not seen is solid.

@@ -1,6 +1,7 @@
 //! The command line: arguments to library calls, results to files, summaries and exit codes.
 
 mod args;
+mod batch;
 mod check;
 mod compare;
 mod completions;
@@ -77,6 +78,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         };
     let done = match (&mut cli.command, &cli.files) {
         (Some(Command::Compare(args)), _) => compare::run(args, meter),
+        (Some(Command::Batch(args)), _) => batch::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Converge(args)), _) => converge::run(args),
         (Some(Command::Explore(args)), _) => explore::run(args),

@@ -57,7 +57,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
 fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<String>, Failure> {
-    let mut written = files.write(plan.report())?;
+    let mut written = files.write(plan)?;
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {
         match sink {

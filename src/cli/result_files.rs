@@ -2,8 +2,9 @@
 
 use super::failure::Failure;
 use super::sinks::{self, Sink};
-use crate::engine::Report;
+use crate::engine::Plan;
 use crate::motion::{Format, check_writable, write_whole_set};
+use crate::output::FileFormat;
 use std::path::{Path, PathBuf};
 
 /// Digits of a step's number in file names, at least: so that names sort as the steps follow.
@@ -49,7 +50,8 @@ impl ResultFiles {
     ///
     /// # Errors
     /// I/O.
-    pub fn write(&self, report: &Report) -> Result<Vec<String>, Failure> {
+    pub fn write(&self, plan: &Plan) -> Result<Vec<String>, Failure> {
+        let report = plan.report();
         let mut files = Vec::new();
         let mut names = Vec::new();
         for (format, path) in &self.results {
@@ -59,7 +61,7 @@ impl ResultFiles {
                 files.extend(parts.into_iter().zip(1..).map(|(bytes, number)| (self.part(path, number), bytes)));
                 names.push(self.span(path));
                 self.warn_of_more(path);
-            } else if let Some(bytes) = report.bytes(*format) {
+            } else if let Some(bytes) = plan.bytes(FileFormat::Result(*format))? {
                 files.push((path.clone(), bytes));
                 names.push(path.display().to_string());
             } else {

@@ -24,15 +24,32 @@ struct Words {
     options: PlannerArgs,
 }
 
+/// What words ask for.
+#[derive(Debug, Clone)]
+pub(super) struct Asked {
+    pub options: Options,
+    pub overrides: Overrides,
+    /// What the planner was told, which may need something of the world.
+    pub planner: PlannerArgs,
+}
+
 /// Reads words such as `--planner=harmonic` and `--cells=80`.
 ///
 /// # Errors
 /// What is wrong with them, in a line or two.
 pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
-    let words = Words::try_parse_from(words).map_err(|error| told(&error))?;
-    let Words { planner, query, motion, message, options } = words;
-    let options = self::options(planner, &options, &motion, &message).map_err(|failure| failure.to_string())?;
-    Ok((options, query.overrides()))
+    asked(words).map(|asked| (asked.options, asked.overrides)).map_err(|failure| failure.to_string())
+}
+
+/// The same with all that they ask for.
+///
+/// # Errors
+/// What is wrong with them, in a line or two.
+pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
+    let words = Words::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
+    let Words { planner, query, motion, message, options: given } = words;
+    let options = self::options(planner, &given, &motion, &message)?;
+    Ok(Asked { options, overrides: query.overrides(), planner: given })
 }
 
 /// What is wrong with words, without the usage of a program.

@@ -15,7 +15,7 @@ mod arm;
 mod axes;
 mod boxes;
 mod chart;
-mod color;
+pub(crate) mod color;
 mod copies;
 mod cspace;
 mod exploration;

@@ -11,6 +11,7 @@
 //! | CSV | tables, plots, other planners | cubics through positions and velocities |
 //! | YAML, MCAP `/joint_trajectory` | `joint_trajectory_controller` | cubics through positions and velocities |
 //! | the same with accelerations | `joint_trajectory_controller` | quintics |
+//! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
 //! The cubics are the certified motion: on straight pieces exactly, on blends within [`crate::space::HAIR`], which the
@@ -77,7 +78,7 @@ mod whole_file;
 mod tests;
 
 #[cfg(feature = "mcap")]
-pub use self::mcap::mcap;
+pub use self::mcap::{Body, Solid, Stage, mcap};
 pub use crate::space::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use clock::whole_nanoseconds;
 pub(crate) use clock::{nanoseconds, seconds};

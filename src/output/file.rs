@@ -68,6 +68,10 @@ impl Plan {
     /// A picture that cannot be made of pixels.
     pub fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
         match format {
+            #[cfg(feature = "mcap")]
+            FileFormat::Result(Format::Mcap) => {
+                Ok(self.stage().and_then(|stage| self.report().recording(Some(&stage))))
+            }
             FileFormat::Result(format) => Ok(self.report().bytes(format)),
             FileFormat::CSpace(format) => Ok(Some(format.text(&self.cspaces()).into_bytes())),
             FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),

@@ -7,6 +7,8 @@ mod cspace;
 mod file;
 mod motion_summary;
 mod picture;
+#[cfg(feature = "mcap")]
+mod stage;
 mod step_lines;
 mod summary;
 mod task_summary;

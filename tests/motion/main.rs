@@ -9,6 +9,8 @@ mod jerk;
 mod mcap;
 mod optimum;
 mod played;
+#[cfg(feature = "mcap")]
+mod recorded_scene;
 mod sampled;
 mod trajectory;
 

@@ -10,18 +10,18 @@ use proptest::prelude::*;
 use ::mcap as mcap_reader;
 
 /// Takes values off the front of a message.
-struct Decoder<'a> {
+pub struct Decoder<'a> {
     message: &'a [u8],
     at: usize,
 }
 
 impl<'a> Decoder<'a> {
-    fn new(message: &'a [u8]) -> Self {
+    pub fn new(message: &'a [u8]) -> Self {
         assert_eq!(message[..4], [0, 1, 0, 0], "plain CDR, little endian");
         Self { message, at: 4 }
     }
 
-    fn take<const N: usize>(&mut self) -> [u8; N] {
+    pub fn take<const N: usize>(&mut self) -> [u8; N] {
         while !(self.at - 4).is_multiple_of(N) {
             assert_eq!(self.message[self.at], 0, "filling");
             self.at += 1;
@@ -30,15 +30,15 @@ impl<'a> Decoder<'a> {
         self.message[self.at - N..self.at].try_into().unwrap()
     }
 
-    fn word(&mut self) -> u32 {
+    pub fn word(&mut self) -> u32 {
         u32::from_le_bytes(self.take())
     }
 
-    fn numbers(&mut self) -> Vec<f64> {
+    pub fn numbers(&mut self) -> Vec<f64> {
         (0..self.word()).map(|_| f64::from_le_bytes(self.take())).collect()
     }
 
-    fn string(&mut self) -> String {
+    pub fn string(&mut self) -> String {
         let length = self.word() as usize;
         let bytes: Vec<u8> = (0..length).map(|_| self.take::<1>()[0]).collect();
         let (end, text) = bytes.split_last().expect("a zero at least");
@@ -51,13 +51,13 @@ impl<'a> Decoder<'a> {
     }
 
     /// A time in whole nanoseconds.
-    fn time(&mut self) -> u64 {
+    pub fn time(&mut self) -> u64 {
         let (seconds, rest) = (self.word(), self.word());
         assert!(seconds <= i32::MAX as u32 && rest < 1_000_000_000);
         u64::from(seconds) * 1_000_000_000 + u64::from(rest)
     }
 
-    fn end(self) {
+    pub fn end(self) {
         assert_eq!(self.at, self.message.len(), "nothing is left");
     }
 }
@@ -90,6 +90,10 @@ pub fn read(file: &[u8]) -> (Vec<State>, Vec<Motion>) {
         assert_eq!((channel.message_encoding.as_str(), schema.encoding.as_str()), ("cdr", "ros2msg"));
         assert_eq!(message.publish_time, message.log_time);
         let log = message.log_time;
+        if !channel.topic.starts_with("/joint_") {
+            // What shows the motion: `recorded_scene`.
+            continue;
+        }
         let mut from = Decoder::new(&message.data);
         let stamp = from.time();
         assert_eq!(from.string(), "", "no frame");
@@ -140,7 +144,7 @@ fn names() -> [String; 2] {
 #[test]
 fn the_file_says_what_it_is() {
     let motion = trajectory(&names(), &[0.0, 0.5], &[[0.0; 6]; 2]);
-    let file = mcap(&[(&motion, 0.0)]);
+    let file = mcap(&[(&motion, 0.0)], None);
     let Some(Ok(Record::Header(header))) = LinearReader::new(&file).unwrap().next() else { panic!("no header") };
     assert_eq!(header.profile, "ros2");
     assert_eq!(header.library, format!("cplan {}", env!("CARGO_PKG_VERSION")));
@@ -157,7 +161,7 @@ fn the_file_says_what_it_is() {
 fn several_motions_follow_each_other() {
     let there = trajectory(&names(), &[0.0, 0.25, 0.25], &[[0.0; 6], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [2.0; 6]]);
     let back = trajectory(&names(), &[0.0, 1.0], &[[2.0; 6], [0.0; 6]]);
-    let (states, motions) = read(&mcap(&[(&there, 0.0), (&back, 2.5)]));
+    let (states, motions) = read(&mcap(&[(&there, 0.0), (&back, 2.5)], None));
     let logs: Vec<u64> = states.iter().map(|state| state.log).collect();
     assert_eq!(logs, [0, 250_000_000, 500_000_000, 2_500_000_000, 3_500_000_000]);
     assert!(states.iter().all(|state| state.stamp == state.log && state.joints == names()));
@@ -170,7 +174,7 @@ fn several_motions_follow_each_other() {
 fn motions_without_a_pause_between_them_share_a_state() {
     let there = trajectory(&names(), &[0.0, 0.5], &[[0.0; 6], [2.0; 6]]);
     let cubic = JointMotion { acceleration: None, ..trajectory(&names(), &[0.0, 1.0], &[[2.0; 6], [0.0; 6]]) };
-    let (states, motions) = read(&mcap(&[(&there, 0.0), (&cubic, 0.5)]));
+    let (states, motions) = read(&mcap(&[(&there, 0.0), (&cubic, 0.5)], None));
     let logs: Vec<u64> = states.iter().map(|state| state.log).collect();
     assert_eq!(logs, [0, 500_000_000, 1_500_000_000]);
     assert_eq!(motions[1].points[0], [vec![2.0; 2], vec![2.0; 2], vec![]]);
@@ -182,7 +186,7 @@ fn a_file_of_many_chunks() {
     let many = 20_000;
     let values: Vec<[f64; 6]> = (0..many).map(|k| [k as f64; 6]).collect();
     let motion = trajectory(&names(), &vec![1e-3; many], &values);
-    let file = mcap(&[(&motion, 0.0)]);
+    let file = mcap(&[(&motion, 0.0)], None);
     assert!(Summary::read(&file).unwrap().expect("a summary").chunk_indexes.len() > 2);
     let (states, motions) = read(&file);
     assert_eq!((states.len(), motions.len(), motions[0].points.len()), (many, 1, many));
@@ -200,8 +204,8 @@ proptest! {
     ) {
         let (steps, values): (Vec<f64>, Vec<[f64; 6]>) = rows.into_iter().unzip();
         let motion = trajectory(&joints, &steps, &values);
-        let file = mcap(&[(&motion, 0.0)]);
-        prop_assert_eq!(&file, &mcap(&[(&motion, 0.0)]));
+        let file = mcap(&[(&motion, 0.0)], None);
+        prop_assert_eq!(&file, &mcap(&[(&motion, 0.0)], None));
         let (states, motions) = read(&file);
         prop_assert_eq!((states.len(), motions.len()), (values.len(), 1));
         for (k, state) in states.iter().enumerate() {

@@ -3,11 +3,14 @@
     read_mcap.py RESULT.json RESULT.mcap
 
 The messages are decoded by the definitions in the file alone. Positions and velocities of the planned joints must be the same
-doubles, times the same nanoseconds; other joints stand still, and there are no accelerations. Exit code 0 if all of it agrees.
+doubles, times the same nanoseconds; other joints stand still, and there are no accelerations. The links' frames turn as the joints
+do, and each has a surface and points. Exit code 0 if all of it agrees.
 """
 
 import json
+import math
 import sys
+from collections import defaultdict
 
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
@@ -25,6 +28,42 @@ def same(what, found, expected):
         sys.exit(f"{what}: {found} in the recording, {expected} expected")
 
 
+def turn(orientation):
+    """The angle of a rotation about z, radians."""
+    same("axis", [orientation.x, orientation.y], [0.0, 0.0])
+    return 2 * math.atan2(orientation.z, orientation.w)
+
+
+def same_scene(messages, result, times):
+    """Compares what there is to see; returns it in words."""
+    frames = defaultdict(dict)
+    for name, message, moved in messages["/tf"]:
+        same("type", name, "tf2_msgs/msg/TFMessage")
+        for transform in moved.transforms:
+            same("stamp", nanoseconds(transform.header.stamp), message.log_time)
+            frames[transform.child_frame_id][message.log_time] = transform.transform
+    links = [frames[name] for name in frames if name.startswith("link/")]
+    same("links", len(links), 2)
+    for link, joints in zip(links, (1, 2)):
+        # Joints that turn clockwise, or slide, make other angles: all of them have the same sign, or none.
+        turned = [turn(link[time].rotation) - turn(link[times[0]].rotation) for time in times if time in link]
+        asked = [sum(q[:joints]) - sum(result["trajectory"]["position"][0][:joints])
+                 for time, q in zip(times, result["trajectory"]["position"]) if time in link]
+        wrong = max(abs(math.remainder(a - b, 2 * math.pi)) for a, b in zip(turned, asked))
+        if result["units"] == ["rad", "rad"] and wrong > 1e-9:
+            sys.exit(f"frame of link {joints}: it turns by {wrong} rad more than its joints")
+    [(name, message, scene)] = messages["/scene"]
+    same("type", name, "visualization_msgs/msg/MarkerArray")
+    for marker in scene.markers:
+        same(f"whole triangles of {marker.id}", len(marker.points) % 3, 0)
+        same(f"frame of {marker.id}", marker.header.frame_id in frames, True)
+    for topic in (topic for topic in messages if topic.startswith("/outlines/")):
+        [(name, message, cloud)] = messages[topic]
+        same("type", name, "sensor_msgs/msg/PointCloud2")
+        same(f"bytes of {topic}", len(cloud.data), cloud.width * cloud.point_step)
+    return f"{len(scene.markers)} surfaces in {len(frames)} frames"
+
+
 def main(json_file, mcap_file):
     with open(json_file, encoding="utf-8") as file:
         result = json.load(file)
@@ -34,7 +73,7 @@ def main(json_file, mcap_file):
     with open(mcap_file, "rb") as file:
         reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
         header, summary = reader.get_header(), reader.get_summary()
-        messages = {"/joint_states": [], "/joint_trajectory": []}
+        messages = defaultdict(list)
         for schema, channel, message, content in reader.iter_decoded_messages():
             messages[channel.topic].append((schema.name, message, content))
 
@@ -49,7 +88,6 @@ def main(json_file, mcap_file):
         same(f"{what} of the others", [found[k] for k in others], standing)
 
     same("profile", header.profile, "ros2")
-    same("messages", summary.statistics.message_count, len(times) + 1)
     same("start and end", [summary.statistics.message_start_time, summary.statistics.message_end_time], [0, times[-1]])
 
     states = messages["/joint_states"]
@@ -74,9 +112,10 @@ def main(json_file, mcap_file):
         same(f"acceleration of point {k}", point.accelerations, [])
         same("effort", point.effort, [])
 
+    shown = same_scene(messages, result, times)
     first, last = (state.position for _, _, state in (states[0], states[-1]))
     motion = f"{len(names)} joints, {len(states)} states from {first} to {last} in {times[-1] * 1e-9:.3f} s"
-    print(f"{mcap_file}: {header.library}, {motion}: as in {json_file}")
+    print(f"{mcap_file}: {header.library}, {motion}, {shown}: as in {json_file}")
 
 
 if __name__ == "__main__":

@@ -2,9 +2,9 @@
 
 use super::{Report, TaskFigures};
 use crate::engine::task::Messages;
-#[cfg(feature = "mcap")]
-use crate::motion::mcap;
 use crate::motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
+#[cfg(feature = "mcap")]
+use crate::motion::{Stage, mcap};
 
 impl Report {
     /// The result as a file in this format holds it; none if the format holds nothing but a trajectory and there is none. All but
@@ -23,11 +23,16 @@ impl Report {
             }
             Format::Yaml => ros_yaml(&self.messages()?.whole).into_bytes(),
             #[cfg(feature = "mcap")]
-            Format::Mcap => {
-                let steps = self.messages()?.steps;
-                mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>())
-            }
+            Format::Mcap => self.recording(None)?,
         })
+    }
+
+    /// The result as a recording, with what there is to see if that is given.
+    #[cfg(feature = "mcap")]
+    #[must_use]
+    pub fn recording(&self, stage: Option<&Stage>) -> Option<Vec<u8>> {
+        let steps = self.messages()?.steps;
+        Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
     /// The same for the motion of each step of a task alone, on a clock of its own and without standing still. None of a single

@@ -6,11 +6,17 @@ use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
 /// Fields one after the other.
-struct Fields<M>(M);
+struct Fields<'a, M> {
+    map: M,
+    /// Those that are written; all if there are none.
+    only: &'a [String],
+}
 
-impl<M: SerializeMap> Fields<M> {
+impl<M: SerializeMap> Fields<'_, M> {
     fn put(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
-        self.0.serialize_entry(name, value)
+        debug_assert!(Report::FIELDS.contains(&name), "{name} is not listed");
+        let is_written = self.only.is_empty() || self.only.iter().any(|only| only == name);
+        if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
     /// Leaves it out if there is none.
@@ -37,10 +43,71 @@ impl Serialize for Stages<'_> {
     }
 }
 
-impl Serialize for Report {
-    /// The path of a single motion stands before what is proven of it, that of a task behind its steps.
+/// Some fields of a result.
+struct Only<'a> {
+    report: &'a Report,
+    fields: &'a [String],
+}
+
+impl Serialize for Only<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut fields = Fields(serializer.serialize_map(None)?);
+        self.report.write(self.fields, serializer)
+    }
+}
+
+impl Serialize for Report {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.write(&[], serializer)
+    }
+}
+
+impl Report {
+    /// The names of all fields that results can have.
+    pub const FIELDS: [&str; 33] = [
+        "status",
+        "name",
+        "planner",
+        "search",
+        "space",
+        "joints",
+        "units",
+        "assumed",
+        "reason",
+        "proof",
+        "failed",
+        "path_exists",
+        "path_kind",
+        "path",
+        "free_joints",
+        "length",
+        "optimum",
+        "certified",
+        "clearance",
+        "closest",
+        "field",
+        "size",
+        "duration",
+        "lower_bound",
+        "gap",
+        "choice",
+        "motions",
+        "steps",
+        "events",
+        "timings",
+        "blends",
+        "interpolation",
+        "trajectory",
+    ];
+
+    /// The result with these fields alone, in their usual order; with all where none is named.
+    #[must_use]
+    pub fn only<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
+        Only { report: self, fields }
+    }
+
+    /// The path of a single motion stands before what is proven of it, that of a task behind its steps.
+    fn write<S: Serializer>(&self, only: &[String], serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = Fields { map: serializer.serialize_map(None)?, only };
         fields.put("status", &self.status)?;
         fields.some("name", self.name.as_ref())?;
         fields.put("planner", &self.planner)?;
@@ -82,11 +149,9 @@ impl Serialize for Report {
         fields.some("interpolation", self.interpolation.as_ref())?;
         let step = self.task.as_ref().map(|task| &task.step_of_sample[..]);
         fields.put("trajectory", &self.trajectory.as_ref().map(|trajectory| Samples { trajectory, step }))?;
-        fields.0.end()
+        fields.map.end()
     }
-}
 
-impl Report {
     /// The result as a JSON object, a line a field. Numbers have as many digits as it takes to read the same `f64` back.
     #[must_use]
     pub fn json(&self) -> String {

@@ -23,6 +23,10 @@ struct Message {
     rows: Vec<Row>,
 }
 
+/// Types that show a motion and do not say it, as cplan's own recordings have them.
+const SHOWN: [&str; 3] =
+    ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
+
 /// Reads a recording: the motions on `/joint_trajectory`, one after the other, between which the arm stands still; without
 /// any, what `/joint_states` say.
 ///
@@ -51,6 +55,7 @@ pub(super) fn read(source: &Source, bytes: &[u8]) -> Result<Samples, InputError>
             (name, Some(kind)) if (name, kind) == STATES => {
                 states.push((begin, state(&message.data, begin).ok_or_else(wrong)?));
             }
+            (_, Some(kind)) if SHOWN.contains(&kind) => (),
             _ => drop(unknown.insert(topic.clone())),
         }
     }

@@ -24,6 +24,11 @@ impl Cdr {
         self.bytes
     }
 
+    /// Writes a `uint8`, or a `bool` as one.
+    pub fn u8(&mut self, value: u8) {
+        self.put([value]);
+    }
+
     /// Writes an `int32`, aligned to four bytes.
     pub fn i32(&mut self, value: i32) {
         self.put(value.to_le_bytes());
@@ -31,6 +36,11 @@ impl Cdr {
 
     /// Writes a `uint32`, aligned to four bytes.
     pub fn u32(&mut self, value: u32) {
+        self.put(value.to_le_bytes());
+    }
+
+    /// Writes a `float32`, aligned to four bytes.
+    pub fn f32(&mut self, value: f32) {
         self.put(value.to_le_bytes());
     }
 

@@ -1,8 +1,9 @@
-//! The two ROS 2 messages that hold a motion: what they are made of, and their bytes.
+//! The ROS 2 messages that hold a motion, and those that show it: what they are made of, and their bytes.
 
 use super::super::JointMotion;
 use super::super::clock::{PER_SECOND, nanoseconds};
 use super::cdr::Cdr;
+use super::scene::{Body, Place, Stage};
 
 /// A message type.
 pub struct Type {
@@ -24,6 +25,30 @@ const POINT: Part = (
      builtin_interfaces/Duration time_from_start\n",
 );
 
+const VECTOR: Part = ("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n");
+const PLACE: Part = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
+const QUATERNION: Part = ("geometry_msgs/Quaternion", "float64 x\nfloat64 y\nfloat64 z\nfloat64 w\n");
+const TRANSFORM: Part =
+    ("geometry_msgs/Transform", "geometry_msgs/Vector3 translation\ngeometry_msgs/Quaternion rotation\n");
+const STAMPED: Part = (
+    "geometry_msgs/TransformStamped",
+    "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/Transform transform\n",
+);
+const POSE: Part = ("geometry_msgs/Pose", "geometry_msgs/Point position\ngeometry_msgs/Quaternion orientation\n");
+const COLOR: Part = ("std_msgs/ColorRGBA", "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n");
+const IMAGE: Part = ("sensor_msgs/CompressedImage", "std_msgs/Header header\nstring format\nuint8[] data\n");
+const UV: Part = ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n");
+const MESH: Part = ("visualization_msgs/MeshFile", "string filename\nuint8[] data\n");
+const MARKER: Part = (
+    "visualization_msgs/Marker",
+    "std_msgs/Header header\nstring ns\nint32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\n\
+     geometry_msgs/Vector3 scale\nstd_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\n\
+     geometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\n\
+     sensor_msgs/CompressedImage texture\nvisualization_msgs/UVCoordinate[] uv_coordinates\nstring text\n\
+     string mesh_resource\nvisualization_msgs/MeshFile mesh_file\nbool mesh_use_embedded_materials\n",
+);
+const FIELD: Part = ("sensor_msgs/PointField", "string name\nuint32 offset\nuint8 datatype\nuint32 count\n");
+
 /// Where the joints are at one time.
 pub const JOINT_STATE: Type = Type {
     name: "sensor_msgs/msg/JointState",
@@ -36,6 +61,28 @@ pub const JOINT_TRAJECTORY: Type = Type {
     name: "trajectory_msgs/msg/JointTrajectory",
     fields: "std_msgs/Header header\n\nstring[] joint_names\nJointTrajectoryPoint[] points\n",
     parts: &[HEADER, TIME, POINT, DURATION],
+};
+
+/// Where frames are.
+pub const TRANSFORMS: Type = Type {
+    name: "tf2_msgs/msg/TFMessage",
+    fields: "geometry_msgs/TransformStamped[] transforms\n",
+    parts: &[STAMPED, HEADER, TIME, TRANSFORM, VECTOR, QUATERNION],
+};
+
+/// Surfaces.
+pub const MARKERS: Type = Type {
+    name: "visualization_msgs/msg/MarkerArray",
+    fields: "visualization_msgs/Marker[] markers\n",
+    parts: &[MARKER, HEADER, TIME, DURATION, POSE, PLACE, QUATERNION, VECTOR, COLOR, IMAGE, UV, MESH],
+};
+
+/// Points.
+pub const POINTS: Type = Type {
+    name: "sensor_msgs/msg/PointCloud2",
+    fields: "std_msgs/Header header\n\nuint32 height\nuint32 width\nsensor_msgs/PointField[] fields\nbool is_bigendian\n\
+             uint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
+    parts: &[HEADER, TIME, FIELD],
 };
 
 impl Type {
@@ -74,6 +121,93 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
         cdr.f64s(&[]);
         since(&mut cdr, nanoseconds(time));
     }
+    cdr.into_bytes()
+}
+
+/// The frame in which all others are: that of the robot's root.
+const WORLD: &str = "world";
+
+/// The bytes of [`TRANSFORMS`]: names of frames, and where they are from a time on.
+#[must_use]
+pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
+    let mut cdr = Cdr::new();
+    cdr.length(frames.len());
+    for (name, (at, orientation)) in frames {
+        since(&mut cdr, time);
+        cdr.string(WORLD);
+        cdr.string(name);
+        at.iter().chain(orientation).for_each(|&value| cdr.f64(value));
+    }
+    cdr.into_bytes()
+}
+
+/// The bytes of [`MARKERS`]: a list of triangles for each solid of all bodies, which move with their frames.
+#[must_use]
+pub fn markers(stage: &Stage) -> Vec<u8> {
+    /// `TRIANGLE_LIST`.
+    const TRIANGLES: i32 = 11;
+    let mut cdr = Cdr::new();
+    cdr.length(stage.bodies.iter().map(|body| body.solids.len()).sum());
+    let solids = stage.bodies.iter().flat_map(|body| body.solids.iter().map(move |solid| (body, solid)));
+    for (number, (body, solid)) in (0..).zip(solids) {
+        since(&mut cdr, 0);
+        cdr.string(&body.name);
+        cdr.string(&solid.name);
+        cdr.i32(number);
+        cdr.i32(TRIANGLES);
+        // Add.
+        cdr.i32(0);
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].iter().chain(&[1.0; 3]).for_each(|&value| cdr.f64(value));
+        solid.color.iter().chain(&[1.0]).for_each(|&value| cdr.f32(value));
+        // For ever, and with its frame.
+        since(&mut cdr, 0);
+        cdr.u8(1);
+        let corners = stage.triangles(solid);
+        cdr.length(corners.len());
+        corners.iter().flatten().for_each(|&value| cdr.f64(value));
+        // No colours of corners; no texture: its name, image and coordinates; no text.
+        cdr.length(0);
+        cdr.string("");
+        header(&mut cdr, 0);
+        cdr.string("");
+        cdr.length(0);
+        cdr.length(0);
+        cdr.string("");
+        // No mesh: its name, file and materials.
+        cdr.string("");
+        cdr.string("");
+        cdr.length(0);
+        cdr.u8(0);
+    }
+    cdr.into_bytes()
+}
+
+/// The bytes of [`POINTS`]: the rims of a body.
+#[must_use]
+pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
+    /// `FLOAT32`, and its bytes.
+    const NUMBER: (u8, u32) = (7, 4);
+    let points = stage.rims(body);
+    let step = 3 * NUMBER.1;
+    let count = u32::try_from(points.len()).expect("fewer than 2^32 points");
+    let mut cdr = Cdr::new();
+    since(&mut cdr, 0);
+    cdr.string(&body.name);
+    cdr.u32(1);
+    cdr.u32(count);
+    cdr.length(3);
+    for (name, place) in ["x", "y", "z"].into_iter().zip(0..) {
+        cdr.string(name);
+        cdr.u32(place * NUMBER.1);
+        cdr.u8(NUMBER.0);
+        cdr.u32(1);
+    }
+    cdr.u8(0);
+    cdr.u32(step);
+    cdr.u32(count * step);
+    cdr.length((count * step) as usize);
+    points.iter().flatten().flat_map(|&value| (value as f32).to_le_bytes()).for_each(|byte| cdr.u8(byte));
+    cdr.u8(1);
     cdr.into_bytes()
 }
 
@@ -143,7 +277,7 @@ mod tests {
 
     #[test]
     fn definitions_name_all_that_they_use() {
-        for kind in [JOINT_STATE, JOINT_TRAJECTORY] {
+        for kind in [JOINT_STATE, JOINT_TRAJECTORY, TRANSFORMS, MARKERS, POINTS] {
             let text = kind.definition();
             let defined: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("MSG: ")).collect();
             let separators = text.lines().filter(|line| *line == "=".repeat(80)).count();

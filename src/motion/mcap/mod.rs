@@ -2,30 +2,37 @@
 
 mod cdr;
 mod messages;
+mod scene;
+
+pub use scene::{Body, Solid, Stage};
 
 use super::JointMotion;
 use super::clock::nanoseconds;
 use ::mcap::records::MessageHeader;
 use ::mcap::{McapResult, WriteOptions, Writer};
-use messages::{JOINT_STATE, JOINT_TRAJECTORY, Type};
+use messages::{JOINT_STATE, JOINT_TRAJECTORY, MARKERS, POINTS, TRANSFORMS, Type};
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
 /// Motions as an MCAP file (version 0, profile `ros2`), as if somebody had recorded them: on `/joint_states` a
 /// `sensor_msgs/msg/JointState` a sample, on `/joint_trajectory` a `trajectory_msgs/msg/JointTrajectory` a motion, written
-/// when it begins. The definitions of both are in the file. Chunks are not compressed.
+/// when it begins. The definitions of all messages are in the file. Chunks are not compressed.
+///
+/// With a `stage` there is something to see, too: on `/tf` where bodies are whenever they move (`tf2_msgs/msg/TFMessage`, about
+/// the frame `world`, that of the robot's root), and, once, their surfaces on `/scene` (`visualization_msgs/msg/MarkerArray`, for
+/// RViz and Foxglove) and points along their rims, a topic a body below `/outlines` (`sensor_msgs/msg/PointCloud2`, for Rerun).
 ///
 /// Each motion comes with the time at which it begins, seconds from the beginning of the recording; the caller puts them
 /// in order. A motion that begins when the one before ends has no state of its own for that moment. Times of the log, the
 /// stamps of states and `time_from_start` are the same nanoseconds, values the motion's own `f64`. The same motions give the
 /// same bytes.
-/// Linear in the number of samples, some 250 bytes each.
+/// Linear in the number of samples, some 250 bytes each, and as many for the poses of an arm.
 #[must_use]
-pub fn mcap(motions: &[(&JointMotion, f64)]) -> Vec<u8> {
-    write(motions).expect("two channels with a schema each, and a buffer that takes all")
+pub fn mcap(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> Vec<u8> {
+    write(motions, stage).expect("channels with a schema each, and a buffer that takes all")
 }
 
-fn write(motions: &[(&JointMotion, f64)]) -> McapResult<Vec<u8>> {
+fn write(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> McapResult<Vec<u8>> {
     let options = WriteOptions::new()
         .profile("ros2")
         .library(concat!("cplan ", env!("CARGO_PKG_VERSION")))
@@ -34,6 +41,9 @@ fn write(motions: &[(&JointMotion, f64)]) -> McapResult<Vec<u8>> {
     let mut file = Recording { writer: options.create(Cursor::new(Vec::new()))? };
     let states = file.channel("/joint_states", &JOINT_STATE)?;
     let trajectories = file.channel("/joint_trajectory", &JOINT_TRAJECTORY)?;
+    if let Some(stage) = stage {
+        file.show(stage)?;
+    }
     let mut last = None;
     for &(motion, begin) in motions {
         let begin = nanoseconds(begin);
@@ -62,6 +72,22 @@ impl Recording {
         // The profile asks for this key; empty means the defaults of whoever plays the recording.
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), String::new())]);
         self.writer.add_channel(schema, topic, "cdr", &metadata)
+    }
+
+    /// What there is to see.
+    fn show(&mut self, stage: &Stage) -> McapResult<()> {
+        let scene = self.channel("/scene", &MARKERS)?;
+        self.message(scene, 0, &messages::markers(stage))?;
+        for (number, body) in stage.bodies.iter().enumerate().filter(|(_, body)| !body.solids.is_empty()) {
+            let outline = self.channel(&format!("/outlines/body_{number}"), &POINTS)?;
+            self.message(outline, 0, &messages::points(stage, body))?;
+        }
+        let frames = self.channel("/tf", &TRANSFORMS)?;
+        for moved in stage.moves().chunk_by(|a, b| a.0 == b.0) {
+            let named: Vec<_> = moved.iter().map(|(_, body, at)| (stage.bodies[*body].name.as_str(), *at)).collect();
+            self.message(frames, moved[0].0, &messages::transforms(moved[0].0, &named))?;
+        }
+        Ok(())
     }
 
     /// Adds a message that was sent and received at the same time.

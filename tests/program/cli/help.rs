@@ -58,6 +58,7 @@ fn every_command_has_examples_and_they_run() {
     }
     place.write("recorded.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
     place.write("turns.csv", "time,shoulder,elbow\n0,0.0,3.1\n1,0.0,-3.1\n");
+    place.write("problems.jsonl", r#"{"urdf": "robots/planar_2r.urdf", "world": "workspaces/shelf.toml"}"#);
     let mut helps = vec![("main".to_owned(), place.run(&["--help"], "").stdout)];
     for name in commands(&place) {
         helps.push((name.clone(), place.run(&[name.as_str(), "--help"], "").stdout));

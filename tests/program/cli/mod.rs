@@ -1,9 +1,11 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
 mod as_written;
+mod batch;
 mod commands;
 mod compare;
 mod converge;
+mod cspace;
 mod diagnostics;
 mod error_json;
 mod explore;

@@ -1,0 +1,103 @@
+//! `cplan batch`: problems as JSON lines, a result a line, one process for thousands.
+
+mod reader;
+mod turns;
+
+use super::DONE;
+use super::error_json::ErrorJson;
+use super::failure::Failure;
+use crate::engine::Report;
+use crate::text::plain_json;
+use clap::builder::PossibleValuesParser;
+use clap::{Args, ValueHint};
+use reader::{Answer, Reader};
+use serde::Serialize;
+use serde_json::Value;
+use std::fs::File;
+use std::io::{self, BufReader, Read};
+use std::path::PathBuf;
+use turns::Turns;
+
+/// Arguments of `batch`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+A line is an object: `urdf` (a path) or `urdf_text`; `world` (a path, or the keys of a world file as an object) or `world_text`
+(TOML); `options`, the words of the main job, as a list or by name; and `id`, anything, which comes back. Such as
+  {\"id\": 7, \"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": [\"--planner=wavefront\", \"--cells=80\"]}
+  {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\", \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
+Each line is answered by one, in the same order, as soon as it and those before it are done: by the main job's result, or by an
+error. The same input gives the same output, whatever the --jobs. Robots that come again are read once; blank lines are skipped.
+
+Examples:
+  cplan batch problems.jsonl
+  cplan batch problems.jsonl --jobs 2 --fields status,length,clearance > rows.jsonl
+
+Exit codes: 0 every line is answered, whatever the answers; 1 I/O, or no line is a JSON object; 2 wrong command line.")]
+pub struct BatchArgs {
+    /// Problems, a JSON object a line; standard input, if none is named.
+    #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub problems: Option<PathBuf>,
+    /// Problems that are worked on at the same time.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub jobs: u16,
+    /// Fields of results to write, such as status,length; all, if none is named.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(Report::FIELDS))]
+    pub fields: Vec<String>,
+}
+
+/// What answers a line.
+#[derive(Serialize)]
+struct Row<T> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    id: Option<Value>,
+    #[serde(flatten)]
+    answer: T,
+}
+
+/// Answers all lines.
+///
+/// # Errors
+/// Input that cannot be read or holds no objects, output that cannot be written.
+pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
+    let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
+    let turns = Turns::new(BufReader::new(opened(args)?), io::stdout(), args.jobs.into());
+    let work = || {
+        let mut reader = Reader::default();
+        turns.work(|line| row(reader.answer(line, &input), &args.fields));
+    };
+    std::thread::scope(|scope| {
+        (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
+        work();
+    });
+    let count = turns.end()?;
+    if count.lines > 0 && count.objects == 0 {
+        let cure = r#"give each problem a line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
+        return Err(Failure::Option(format!("{input}: no line is a JSON object\n  cure: {cure}")));
+    }
+    Ok(DONE)
+}
+
+fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
+    let Some(path) = &args.problems else { return Ok(Box::new(io::stdin())) };
+    let refused = |error| {
+        let cure = "check the path and the file's permissions";
+        Failure::Option(format!("{}: cannot be read: {error}\n  cure: {cure}", path.display()))
+    };
+    Ok(Box::new(File::open(path).map_err(refused)?))
+}
+
+/// The answer as a line; and whether the one that it answers is an object.
+fn row(answer: Answer, fields: &[String]) -> (String, bool) {
+    let Answer { id, is_object, plan } = answer;
+    let text = match plan {
+        Ok(plan) => text(&Row { id, answer: plan.report().only(fields) }),
+        Err(failure) => text(&Row { id, answer: ErrorJson::of_failure(&failure) }),
+    };
+    (text, is_object)
+}
+
+fn text(row: &impl Serialize) -> String {
+    let json = serde_json::to_string(row).expect("string keys, and a buffer that takes all");
+    plain_json(&json).into_owned() + "\n"
+}

@@ -1,0 +1,206 @@
+//! Lines as problems. What comes again is read once: robots, worlds, words.
+
+use super::turns::Line;
+use crate::cli::failure::Failure;
+use crate::cli::words::{self, Asked};
+use crate::engine::{Plan, Problem, plan};
+use crate::input::{Diagnostic, InputError, LoadedScene, Position, Source, scene_from};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Robots, and lists of words, that are remembered at the most.
+const REMEMBERED: usize = 256;
+
+/// What a line can say.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Given {
+    urdf: Option<PathBuf>,
+    urdf_text: Option<String>,
+    world: Option<World>,
+    world_text: Option<String>,
+    #[serde(default)]
+    options: Options,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "`world` is a path, or the keys of a world file as an object")]
+enum World {
+    Path(PathBuf),
+    Keys(Map<String, Value>),
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "`options` are words such as \"--cells=80\" in a list, or an object of names and values")]
+enum Options {
+    Words(Vec<String>),
+    Named(Map<String, Value>),
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self::Words(Vec::new())
+    }
+}
+
+/// A file, or a text in its place.
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Named {
+    File(PathBuf),
+    Text(String),
+}
+
+/// What a line comes to.
+pub struct Answer {
+    /// As the line has it.
+    pub id: Option<Value>,
+    /// Whether the line is a JSON object at all.
+    pub is_object: bool,
+    /// What is answered.
+    pub plan: Result<Plan, Failure>,
+}
+
+/// Reads lines and remembers what they name.
+#[derive(Default)]
+pub struct Reader {
+    robots: HashMap<Named, Known>,
+    words: HashMap<Vec<String>, Asked>,
+}
+
+/// A robot, and the world in which it was seen last.
+struct Known {
+    source: Source,
+    world: Named,
+    scene: LoadedScene,
+}
+
+impl Reader {
+    /// Answers a line. `input` is what messages call its file.
+    pub fn answer(&mut self, line: &Line, input: &str) -> Answer {
+        let refused = |message: String, help: &str| refused(input, line.number, message, help);
+        let mut keys = match serde_json::from_slice::<Value>(&line.text) {
+            Ok(Value::Object(keys)) => keys,
+            Ok(_) => {
+                let plan = Err(refused("this is no JSON object".into(), "give it `urdf` and `world`"));
+                return Answer { id: None, is_object: false, plan };
+            }
+            Err(error) => {
+                // The parser names a line of this line.
+                let message = error.to_string().replace(" at line 1 column", " at column");
+                let plan = Err(refused(format!("this is no JSON: {message}"), "give each problem a line of JSON"));
+                return Answer { id: None, is_object: false, plan };
+            }
+        };
+        let id = keys.remove("id");
+        let given = serde_json::from_value(Value::Object(keys))
+            .map_err(|error| refused(error.to_string(), "`cplan batch --help` tells what a line can say"));
+        Answer { id, is_object: true, plan: given.and_then(|given| self.plan(given, &refused)) }
+    }
+
+    fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Plan, Failure> {
+        let one =
+            |what: &str| refused(format!("give `{what}` or `{what}_text`, one of them"), "see `cplan batch --help`");
+        let robot = match (given.urdf, given.urdf_text) {
+            (Some(path), None) => Named::File(path),
+            (None, Some(text)) => Named::Text(text),
+            _ => return Err(one("urdf")),
+        };
+        let world = match (given.world, given.world_text) {
+            (Some(World::Path(path)), None) => Named::File(path),
+            (Some(World::Keys(keys)), None) => Named::Text(toml::to_string(&keys).map_err(|error| {
+                refused(format!("`world` cannot be written as TOML: {error}"), "leave out what is null")
+            })?),
+            (None, Some(text)) => Named::Text(text),
+            _ => return Err(one("world")),
+        };
+        let Asked { options, overrides, planner } = self.asked(given.options, refused)?;
+        let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
+        if let Some(lack) = planner.lack(&problem.scene().workspace().preferences) {
+            return Err(Failure::Usage(lack));
+        }
+        Ok(plan(&problem, &options)?)
+    }
+
+    fn scene(&mut self, robot: Named, world: Named) -> Result<LoadedScene, InputError> {
+        if let Some(known) = self.robots.get_mut(&robot) {
+            if known.world != world {
+                known.scene = known.scene.edited(&known.source, world.source("world")?)?;
+                known.world = world;
+            }
+            return Ok(known.scene.clone());
+        }
+        let source = robot.source("urdf")?;
+        let scene = scene_from(source.clone(), world.source("world")?)?;
+        make_room(&mut self.robots);
+        self.robots.insert(robot, Known { source, world, scene: scene.clone() });
+        Ok(scene)
+    }
+
+    fn asked(&mut self, options: Options, refused: &dyn Fn(String, &str) -> Failure) -> Result<Asked, Failure> {
+        let words = match options {
+            Options::Words(words) => words,
+            Options::Named(named) => {
+                let words: Result<Vec<_>, String> = named.iter().map(|(name, value)| word(name, value)).collect();
+                words
+                    .map_err(|message| refused(message, "give numbers, words, lists of them, or true"))?
+                    .into_iter()
+                    .flatten()
+                    .collect()
+            }
+        };
+        if let Some(asked) = self.words.get(&words) {
+            return Ok(asked.clone());
+        }
+        let asked = words::asked(&words)?;
+        make_room(&mut self.words);
+        self.words.insert(words, asked.clone());
+        Ok(asked)
+    }
+}
+
+impl Named {
+    /// The text. `name` is for messages where there is no file.
+    fn source(&self, name: &str) -> Result<Source, InputError> {
+        match self {
+            Self::File(path) => Source::read(path),
+            Self::Text(text) => Ok(Source::in_memory(Path::new(name), text.clone())),
+        }
+    }
+}
+
+/// An option by name, as a word of the command line; none of what is false or null. Pairs are parted by commas, numbers of cells
+/// by an x.
+fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
+    let option = format!("--{}", name.replace('_', "-"));
+    let one = |value: &Value| match value {
+        Value::String(text) => Ok(text.clone()),
+        Value::Number(number) => Ok(number.to_string()),
+        Value::Null => Ok("none".into()),
+        other => Err(format!("`options`: {name} cannot be {other}")),
+    };
+    Ok(match value {
+        Value::Null | Value::Bool(false) => None,
+        Value::Bool(true) => Some(option),
+        Value::Array(values) => {
+            let separator = if ["cells", "grid"].contains(&name) { "x" } else { "," };
+            let values: Result<Vec<_>, _> = values.iter().map(one).collect();
+            Some(format!("{option}={}", values?.join(separator)))
+        }
+        value => Some(format!("{option}={}", one(value)?)),
+    })
+}
+
+/// Forgets all when there is no more room: what comes again is soon known again.
+fn make_room<K, V>(known: &mut HashMap<K, V>) {
+    if known.len() >= REMEMBERED {
+        known.clear();
+    }
+}
+
+fn refused(input: &str, line: usize, message: String, help: &str) -> Failure {
+    let position = Some(Position { line, column: 1 });
+    let diagnostic = Diagnostic { position, ..Diagnostic::new(input, message) };
+    Failure::Input(diagnostic.help(help).into())
+}

@@ -1,0 +1,193 @@
+//! Lines in and out: whoever is done with a line takes the next, and answers leave in the order of the lines.
+
+use crate::cli::failure::Failure;
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, ErrorKind, Read, Write};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+/// Bytes of the longest line that is read; what never ends is not.
+const LONGEST: u64 = 64 << 20;
+
+/// Answers that wait for one before them, a job: enough to keep all jobs busy beside a hard problem.
+const WAITING: usize = 64;
+
+/// A line that is not blank, and its number among all, from 1.
+pub struct Line {
+    pub number: usize,
+    pub text: Vec<u8>,
+}
+
+/// What there was.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Count {
+    /// Lines that are not blank.
+    pub lines: usize,
+    /// JSON objects among them.
+    pub objects: usize,
+}
+
+/// Shared by all jobs.
+pub struct Turns<R, W> {
+    input: Mutex<Input<R>>,
+    output: Mutex<Output<W>>,
+    moved: Condvar,
+    most: usize,
+}
+
+struct Input<R> {
+    reader: R,
+    /// Lines read, blank ones included.
+    read: usize,
+    /// Lines given out.
+    given: usize,
+}
+
+struct Output<W> {
+    writer: W,
+    waiting: BTreeMap<usize, String>,
+    written: usize,
+    count: Count,
+    /// Why nothing more is to be done; a reader that has seen enough is no failure.
+    ended: Option<Result<(), Failure>>,
+}
+
+impl<R: BufRead, W: Write> Turns<R, W> {
+    /// Nothing is read yet.
+    pub fn new(reader: R, writer: W, jobs: usize) -> Self {
+        let output = Output { writer, waiting: BTreeMap::new(), written: 0, count: Count::default(), ended: None };
+        Self {
+            input: Mutex::new(Input { reader, read: 0, given: 0 }),
+            output: Mutex::new(output),
+            moved: Condvar::new(),
+            most: WAITING * jobs,
+        }
+    }
+
+    /// Answers lines until there are none: each with a line, and whether it was an object.
+    pub fn work(&self, mut answer: impl FnMut(&Line) -> (String, bool)) {
+        while self.has_room() {
+            match self.next() {
+                Ok(Some((turn, line))) => {
+                    let (text, is_object) = answer(&line);
+                    self.put(turn, text, is_object);
+                }
+                Ok(None) => return,
+                Err(failure) => self.output().end(Err(failure)),
+            }
+        }
+    }
+
+    /// What there was.
+    ///
+    /// # Errors
+    /// What ended it.
+    pub fn end(self) -> Result<Count, Failure> {
+        let output = self.output.into_inner().unwrap_or_else(PoisonError::into_inner);
+        output.ended.unwrap_or(Ok(())).map(|()| output.count)
+    }
+
+    /// Waits until answers may wait for others; false when it is over.
+    fn has_room(&self) -> bool {
+        let is_full = |output: &mut Output<W>| output.ended.is_none() && output.waiting.len() >= self.most;
+        self.moved.wait_while(self.output(), is_full).unwrap_or_else(PoisonError::into_inner).ended.is_none()
+    }
+
+    /// The next line that is not blank, and its place among these.
+    fn next(&self) -> Result<Option<(usize, Line)>, Failure> {
+        let mut input = self.input.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            let mut text = Vec::new();
+            let read = (&mut input.reader).take(LONGEST + 1).read_until(b'\n', &mut text);
+            input.read += 1;
+            let number = input.read;
+            match read {
+                Err(error) => return Err(Failure::Option(format!("line {number} cannot be read: {error}"))),
+                Ok(0) => return Ok(None),
+                Ok(bytes) if bytes as u64 > LONGEST => {
+                    let message = format!("line {number} is longer than {} MiB", LONGEST >> 20);
+                    return Err(Failure::Option(format!("{message}\n  cure: give each problem a line of its own")));
+                }
+                Ok(_) if text.trim_ascii().is_empty() => (),
+                Ok(_) => {
+                    input.given += 1;
+                    return Ok(Some((input.given - 1, Line { number, text })));
+                }
+            }
+        }
+    }
+
+    /// Writes an answer and those that waited for it, or lets it wait.
+    fn put(&self, turn: usize, text: String, is_object: bool) {
+        let mut output = self.output();
+        output.count.lines += 1;
+        output.count.objects += usize::from(is_object);
+        output.waiting.insert(turn, text);
+        let mut ready = String::new();
+        loop {
+            let next = output.written;
+            let Some(text) = output.waiting.remove(&next) else { break };
+            ready.push_str(&text);
+            output.written += 1;
+        }
+        match output.write(&ready) {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => output.end(Ok(())),
+            Err(error) => output.end(Err(Failure::Option(format!("stdout: {error}")))),
+            Ok(()) => (),
+        }
+        self.moved.notify_all();
+    }
+
+    fn output(&self) -> MutexGuard<'_, Output<W>> {
+        self.output.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<W: Write> Output<W> {
+    fn write(&mut self, text: &str) -> io::Result<()> {
+        if text.is_empty() || self.ended.is_some() {
+            return Ok(());
+        }
+        self.writer.write_all(text.as_bytes())?;
+        self.writer.flush()
+    }
+
+    /// The first reason counts.
+    fn end(&mut self, why: Result<(), Failure>) {
+        self.ended.get_or_insert(why);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+    use std::time::Duration;
+
+    #[test]
+    fn answers_leave_in_order_and_few_wait() {
+        const JOBS: usize = 3;
+        let lines: String = (0..1000).map(|number| format!("{number}\n\n")).collect();
+        let mut written = Vec::new();
+        let turns = Turns::new(lines.as_bytes(), &mut written, JOBS);
+        let done = AtomicUsize::new(0);
+        let answer = |line: &Line| {
+            // The first line takes until all others wait for it.
+            if line.number == 1 {
+                while done.load(Ordering::SeqCst) < WAITING * JOBS {
+                    std::thread::yield_now();
+                }
+                std::thread::sleep(Duration::from_millis(20));
+                assert!(done.load(Ordering::SeqCst) < WAITING * JOBS + JOBS);
+            }
+            done.fetch_add(1, Ordering::SeqCst);
+            (String::from_utf8(line.text.clone()).unwrap(), line.number % 4 == 1)
+        };
+        std::thread::scope(|scope| (0..JOBS).for_each(|_| drop(scope.spawn(|| turns.work(answer)))));
+        let count = turns.end().unwrap();
+        assert_eq!((count.lines, count.objects), (1000, 500));
+        assert_eq!(
+            String::from_utf8(written).unwrap(),
+            (0..1000).map(|number| format!("{number}\n")).collect::<String>()
+        );
+    }
+}

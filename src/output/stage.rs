@@ -1,0 +1,94 @@
+//! What a recording of a plan shows: the arm's links, obstacles and objects, and where they are when.
+
+use crate::draw::color::{GREY, INK, Rgb, obstacle as obstacle_color};
+use crate::engine::task::Event;
+use crate::engine::{Kind, Plan, TaskPlan};
+use crate::geometry::Pose;
+use crate::model::{Arm, Obstacle, Part};
+use crate::motion::{Body, Solid, Stage};
+use crate::space::Configuration;
+
+/// Numbers of bodies: the workspace, both links, then objects.
+const LINKS: usize = 1;
+const OBJECTS: usize = 3;
+
+impl Plan {
+    /// What there is to see while the motion runs; none where there is no motion.
+    pub(super) fn stage(&self) -> Option<Stage> {
+        let (arm, report) = (self.arm(), self.report());
+        let trajectory = report.trajectory.as_ref()?;
+        let obstacles = match self.made() {
+            Kind::Motion(plan) => &plan.problem.scene().workspace().obstacles,
+            Kind::Task(plan) => &plan.task.workspace.obstacles,
+        };
+        let mut stage = Stage {
+            plane: arm.plane,
+            bodies: vec![Body { name: "workspace".into(), solids: obstacles.iter().enumerate().map(lying).collect() }],
+            poses: vec![(0.0, 0, Pose::identity(), 0.0)],
+            size: arm.reach(),
+        };
+        for (number, link) in arm.links.iter().enumerate() {
+            // A payload is a body of its own.
+            let parts = match self.made() {
+                Kind::Motion(plan) => plan.problem.scene().own_parts(number),
+                Kind::Task(_) => &link.parts,
+            };
+            stage.bodies.push(of_link(&link.name, parts));
+        }
+        for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
+            let poses = arm.poses(q.into());
+            let moved = poses.into_iter().enumerate().map(|(link, pose)| (time, LINKS + link, pose, 0.0));
+            stage.poses.extend(moved);
+        }
+        if let Kind::Task(plan) = self.made() {
+            with_objects(&mut stage, arm, plan);
+        }
+        stage.poses.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(stage)
+    }
+}
+
+/// Objects lie, are carried, and lie again.
+fn with_objects(stage: &mut Stage, arm: &Arm, plan: &TaskPlan) {
+    let TaskPlan { task, answer } = plan;
+    for (number, object) in task.objects.iter().enumerate() {
+        let of_all = task.obstacle_number(number);
+        let solid = Solid {
+            name: object.name.clone(),
+            color: parts_of(obstacle_color(of_all)),
+            pieces: object.pieces.iter().map(|piece| (piece.clone(), object.heights)).collect(),
+        };
+        stage.bodies.push(Body { name: format!("object/{}", object.name), solids: vec![solid] });
+        stage.poses.push((0.0, OBJECTS + number, object.at, 0.0));
+    }
+    for leg in &answer.legs {
+        if let (Some(object), Some(payload)) = (leg.carried, leg.scene.payload()) {
+            let lift = task.objects[object].lift;
+            let motion = &leg.timed.trajectory;
+            stage.poses.extend(motion.time.iter().zip(&motion.position).map(|(&time, &q)| {
+                (leg.begin + time, OBJECTS + object, payload.pose(arm, Configuration::from(q)), lift)
+            }));
+        }
+        if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {
+            stage.poses.push((time, OBJECTS + object, pose, 0.0));
+        }
+    }
+}
+
+fn lying((number, obstacle): (usize, &Obstacle)) -> Solid {
+    Solid {
+        name: obstacle.name.clone(),
+        color: parts_of(obstacle_color(number)),
+        pieces: obstacle.pieces.iter().map(|piece| (piece.clone(), obstacle.heights)).collect(),
+    }
+}
+
+fn of_link(name: &str, parts: &[Part]) -> Body {
+    let pieces = parts.iter().map(|part| (part.shape.clone(), part.heights)).collect();
+    let color = parts_of(INK.mixed(GREY, 0.5));
+    Body { name: format!("link/{name}"), solids: vec![Solid { name: name.to_owned(), color, pieces }] }
+}
+
+fn parts_of(Rgb(red, green, blue): Rgb) -> [f32; 3] {
+    [red, green, blue].map(|part| f32::from(part) / 255.0)
+}

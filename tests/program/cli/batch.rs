@@ -1,0 +1,156 @@
+//! Problems as JSON lines: each is answered as the main job answers it.
+
+use super::*;
+use serde_json::{Value, json};
+use std::io::{BufRead, BufReader, Write};
+
+/// Runs `batch` on these lines.
+fn answered(place: &Place, lines: &[Value], options: &str) -> Done {
+    place.write("problems.jsonl", lines.iter().map(|line| format!("{line}\n")).collect::<String>());
+    place.run(&["batch", "problems.jsonl"], options)
+}
+
+impl Done {
+    fn rows(&self) -> Vec<Value> {
+        self.stdout.lines().map(|row| serde_json::from_str(row).unwrap()).collect()
+    }
+}
+
+#[test]
+fn rows_are_what_the_main_job_says() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let walled = shipped("workspaces/singular_closed.toml");
+    place.write("world.toml", FREE);
+    // Words of the main job, a line, and the same job's files.
+    let jobs = [
+        (vec![], json!({"id": 1, "urdf": urdf, "world": world}), [&urdf, &world]),
+        (
+            vec!["--planner=wavefront", "--cells=60x50"],
+            json!({"urdf": urdf, "world": world, "options": {"planner": "wavefront", "cells": [60, 50]}, "id": "second"}),
+            [&urdf, &world],
+        ),
+        (
+            vec!["--start=-0.5,0.25", "--goal-tip=0.5,1", "--clearance=0.01"],
+            json!({"urdf": urdf, "world": world, "id": [3, null],
+                "options": ["--start=-0.5,0.25", "--goal-tip=0.5,1", "--clearance=0.01"]}),
+            [&urdf, &world],
+        ),
+        (
+            vec![],
+            json!({"urdf_text": std::fs::read_to_string(&urdf).unwrap(), "world": walled, "id": null}),
+            [&urdf, &walled],
+        ),
+    ];
+    let lines: Vec<Value> = jobs.iter().map(|job| job.1.clone()).collect();
+    let done = answered(&place, &lines, "");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let rows = done.rows();
+    assert_eq!(rows.len(), jobs.len());
+    for ((words, line, files), mut row) in jobs.iter().zip(rows) {
+        assert_eq!(row.as_object_mut().unwrap().remove("id"), line.get("id").cloned());
+        let alone = place.run(files, &[words.join(" "), "--json".into()].join(" "));
+        assert_eq!(row, alone.json(), "{line}");
+    }
+    // The same bytes, whoever answers which.
+    for jobs in [2, 5] {
+        let again = answered(&place, &vec![lines.clone(); 5].concat(), &format!("--jobs {jobs}"));
+        assert_eq!(again.stdout, done.stdout.repeat(5), "{jobs}");
+    }
+}
+
+#[test]
+fn worlds_are_files_texts_and_objects() {
+    let place = Place::new();
+    let urdf = shipped("robots/planar_2r.urdf");
+    place.write("world.toml", FREE);
+    let keys = json!({"start": {"joints": [-0.9, 0.4]}, "goal": {"joints": [1.55, -0.35]}});
+    let lines = [
+        json!({"urdf": urdf, "world": "world.toml"}),
+        json!({"urdf": urdf, "world_text": FREE}),
+        json!({"urdf": urdf, "world": keys}),
+        // Other limits are another robot.
+        json!({"urdf": urdf, "world_text": format!("{FREE}[robot]\nvelocity = {{ shoulder = 0.1 }}\n")}),
+        json!({"urdf": urdf, "world": "world.toml"}),
+    ];
+    let rows = answered(&place, &lines, "--fields trajectory,name,status").rows();
+    assert_eq!(rows[0]["name"], "world");
+    assert_eq!(rows[0].as_object().unwrap().keys().collect::<Vec<_>>(), ["name", "status", "trajectory"]);
+    assert!([1, 2, 4].iter().all(|&k| rows[k] == rows[0]), "{rows:?}");
+    assert_ne!(rows[3], rows[0]);
+}
+
+#[test]
+fn a_bad_line_is_a_row() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    place.write("world.toml", format!("{FREE}clearanse = 1\n"));
+    let bad: [(&str, &str, &[&str]); 11] = [
+        ("{", "input", &["no JSON", "EOF"]),
+        ("[1, 2]", "input", &["no JSON object"]),
+        ("\u{1b}", "input", &["no JSON"]),
+        (r#"{"id": 1}"#, "input", &["give `urdf` or `urdf_text`"]),
+        (r#"{"urdf": "U", "id": 2}"#, "input", &["give `world` or `world_text`"]),
+        (r#"{"urdf": "U", "world": "W", "wrold": 1}"#, "input", &["unknown field `wrold`"]),
+        (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` is a path"]),
+        (r#"{"urdf": "U", "world": {"start": null}}"#, "input", &["cannot be written as TOML"]),
+        (r#"{"urdf": "U", "world": "W", "options": ["--planer=x"]}"#, "usage", &["--planer"]),
+        (r#"{"urdf": "U", "world": "W", "options": {"cells": {"a": 1}}}"#, "input", &["cells cannot be"]),
+        (r#"{"urdf": "U", "world": "world.toml"}"#, "input", &["unknown key", "clearanse"]),
+    ];
+    let good = json!({"urdf": urdf, "world": world, "id": "good"}).to_string();
+    let mut text = String::new();
+    for (line, ..) in &bad {
+        text += &format!(
+            "{}\n  \n{good}\n",
+            line.replace("\"U\"", &json!(urdf).to_string()).replace("\"W\"", &json!(world).to_string())
+        );
+    }
+    place.write("problems.jsonl", &text);
+    let done = place.run(&["batch", "problems.jsonl"], "--fields length");
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let rows = done.rows();
+    assert_eq!(rows.len(), 2 * bad.len());
+    for ((number, (line, kind, parts)), pair) in bad.iter().enumerate().zip(rows.chunks(2)) {
+        let [error, good] = pair else { unreachable!() };
+        assert_eq!((&error["status"], &error["kind"]), (&"error".into(), &(*kind).into()), "{line}: {error}");
+        let message = error["message"].as_str().unwrap();
+        assert!(parts.iter().all(|part| message.contains(part)), "{line}: {message}");
+        if error["file"] == "problems.jsonl" {
+            assert_eq!(error["line"], 3 * number + 1, "{error}");
+            assert!(error["cure"].is_string(), "{error}");
+        }
+        assert!(good["id"] == "good" && good["length"].is_f64(), "{good}");
+    }
+    assert_eq!((&rows[8]["id"], &rows[20]["file"]), (&json!(2), &json!("world.toml")));
+    place.write("problems.jsonl", "[start]\njoints = [1, 2]\n");
+    let done = place.run(&["batch", "problems.jsonl"], "");
+    assert_eq!((done.code, done.rows().len()), (1, 2));
+    assert!(done.stderr.contains("problems.jsonl: no line is a JSON object") && done.stderr.contains("cure:"));
+    let done = place.run(&["batch"], "");
+    assert_eq!((done.code, done.stdout, done.stderr), (0, String::new(), String::new()));
+    place.run(&["batch", "none.jsonl"], "").refused(1, &["none.jsonl", "cannot be read", "cure:"]);
+    place.run(&["batch"], "--fields lenght").refused(2, &["lenght", "length"]);
+}
+
+#[test]
+fn answers_come_while_lines_do_and_end_with_their_reader() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    let line = json!({"urdf": urdf, "world": world}).to_string() + "\n";
+    let mut command = place.command();
+    command.args(["batch", "--jobs=2", "--fields=status"]).stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = command.stderr(Stdio::piped()).spawn().unwrap();
+    let (mut to, mut from) = (child.stdin.take().unwrap(), BufReader::new(child.stdout.take().unwrap()));
+    for _ in 0..3 {
+        to.write_all(line.as_bytes()).unwrap();
+        let mut row = String::new();
+        from.read_line(&mut row).unwrap();
+        assert_eq!(row, "{\"status\":\"found\"}\n");
+    }
+    drop(from);
+    // It ends with the first answer that nobody takes, and then takes no more.
+    while to.write_all(line.as_bytes()).is_ok() {}
+    let output = child.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), output.stderr), (Some(0), Vec::new()));
+}

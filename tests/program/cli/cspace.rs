@@ -1,0 +1,75 @@
+//! The configuration space as files: by their names, by the schema, and as GeoJSON.
+
+use super::*;
+use serde_json::Value;
+
+fn schema() -> String {
+    std::fs::read_to_string(shipped("docs/cspace.schema.json")).unwrap()
+}
+
+#[test]
+fn the_kept_schema_is_the_one_of_the_program() {
+    let printed = Place::new().run(&["schema", "cspace"], "");
+    assert_eq!((printed.code, printed.stdout), (0, schema()), "run `cplan schema cspace > docs/cspace.schema.json`");
+}
+
+#[test]
+fn files_are_as_the_schema_has_them() {
+    let schema: Value = serde_json::from_str(&schema()).unwrap();
+    let validator = jsonschema::draft202012::new(&schema).unwrap();
+    let place = Place::new();
+    let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/kitting_cell.toml")];
+    let circles = [shipped("robots/planar_2r_continuous.urdf"), shipped("workspaces/wrap_around.toml")];
+    for (files, planner, has) in [
+        (&task, "shortest", "rows"),
+        (&circles, "harmonic", "grid"),
+        (&circles, "prm", "roadmap"),
+        (&shelf(), "trapezoid", "cells"),
+        (&shelf(), "wavefront", "grid"),
+        (&shelf(), "subdivision", "boxes"),
+    ] {
+        let outputs = "--quiet --output cspace.json --output Shelf.CSpace.JSON --output shelf.geojson";
+        let done = place.run(files, &format!("--planner {planner} {outputs}"));
+        assert_eq!((done.code, done.stdout.as_str()), (0, ""), "{}", done.stderr);
+        let text = place.read("cspace.json");
+        assert_eq!(text, place.read("Shelf.CSpace.JSON"));
+        let spaces: Value = serde_json::from_str(&text).unwrap();
+        let errors: Vec<String> =
+            validator.iter_errors(&spaces).map(|e| format!("{}: {e}", e.instance_path())).collect();
+        assert!(errors.is_empty(), "{planner}: {}", errors.join("; "));
+        let space = &spaces["spaces"][0];
+        assert_eq!(space.get(has).is_some(), files != &task, "{planner}");
+        assert_eq!((&spaces["status"], &spaces["planner"]), (&"found".into(), &planner.into()));
+        let topology = if files == &circles { "circle" } else { "interval" };
+        assert!(
+            spaces["axes"].as_array().unwrap().iter().all(|axis| axis["topology"] == topology),
+            "{}",
+            spaces["axes"]
+        );
+
+        let features: Value = serde_json::from_str(&place.read("shelf.geojson")).unwrap();
+        assert_eq!(features["type"], "FeatureCollection");
+        let of = |kind: &str| {
+            let all = features["features"].as_array().unwrap().iter();
+            all.filter(|f| f["properties"]["kind"] == kind && f["properties"]["space"] == 0).collect::<Vec<_>>()
+        };
+        for (feature, obstacle) in of("c_obstacle").iter().zip(space["c_obstacles"].as_array().unwrap()) {
+            assert_eq!(feature["geometry"]["type"], "MultiPolygon");
+            assert_eq!(feature["geometry"]["coordinates"], obstacle["polygons"]);
+            assert_eq!(
+                (&feature["properties"]["name"], &feature["properties"]["proves"]),
+                (&obstacle["obstacle"], &space["proves"])
+            );
+        }
+        assert_eq!(of("c_obstacle").len(), space["c_obstacles"].as_array().unwrap().len());
+        assert_eq!(of("path")[0]["geometry"]["coordinates"], space["paths"][0]["outline"]);
+        assert_eq!(of("start")[0]["geometry"]["coordinates"], space["start"]);
+        assert_eq!(of("cell").len(), space["cells"]["corners"].as_array().map_or(0, Vec::len));
+        assert_eq!(of("roadmap").len(), usize::from(space.get("roadmap").is_some()));
+    }
+    // Other names are results, as ever; an exploration has no such file.
+    let done = place.run(&shelf(), "--quiet --output mycspace.json");
+    assert_eq!((done.code, place.read("mycspace.json").contains("\"trajectory\"")), (0, true));
+    let files = ["explore".to_owned(), shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")];
+    place.run(&files, "--output cspace.json").refused(2, &["cspace.json", "an exploration is written as"]);
+}
