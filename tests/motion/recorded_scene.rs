@@ -29,6 +29,14 @@ struct Shown {
     points: BTreeMap<String, Vec<Place>>,
 }
 
+impl Shown {
+    /// Where a frame is at a time: where it moved last.
+    fn at(&self, time: u64, frame: &str) -> (Place, [f64; 4]) {
+        let before = self.frames.range(..(time + 1, String::new())).rev();
+        *before.into_iter().find(|((_, name), _)| name == frame).expect("a frame that was set").1
+    }
+}
+
 fn places(from: &mut Decoder, count: usize) -> Vec<f64> {
     (0..count).map(|_| f64::from_le_bytes(from.take())).collect()
 }
@@ -131,12 +139,12 @@ fn frames_follow_the_states_and_surfaces_are_closed() {
     for state in &states {
         let [q1, q2] = state.position[..] else { panic!("two joints") };
         let turned = |angle: f64| [0.0, 0.0, (angle / 2.0).sin(), (angle / 2.0).cos()];
-        let (at, orientation) = shown.frames[&(state.log, "link/link 1".to_owned())];
+        let (at, orientation) = shown.at(state.log, "link/link 1");
         assert!(near(&at, &[0.0; 3]) && near(&orientation, &turned(q1)), "{at:?} {orientation:?}");
-        let (at, orientation) = shown.frames[&(state.log, "link/link 2".to_owned())];
+        let (at, orientation) = shown.at(state.log, "link/link 2");
         assert!(near(&at, &[q1.cos(), q1.sin(), 0.0]) && near(&orientation, &turned(q1 + q2)));
     }
-    assert_eq!(shown.frames.len(), 2 * states.len() + 1, "and the workspace once");
+    assert!((states.len()..=2 * states.len() + 1).contains(&shown.frames.len()), "what stands still is left out");
     assert_eq!(shown.frames[&(0, "workspace".to_owned())], ([0.0; 3], [0.0, 0.0, 0.0, 1.0]));
 
     let named: Vec<_> = shown.markers.iter().map(|m| (m.frame.as_str(), m.name.as_str())).collect();
