@@ -42,6 +42,8 @@
 //! input gives the same output, byte for byte, but for times taken, where they are asked for.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "program")]
+mod parallel;
 mod text;
 pub mod geometry;
 pub mod space;

@@ -16,7 +16,6 @@ mod file;
 mod journal;
 mod measure;
 mod page;
-mod parallel;
 mod parameter;
 mod pictures;
 mod row;
@@ -28,7 +27,6 @@ mod template;
 pub use file::{ReadOptions, study_schema};
 pub use journal::{Journal, JournalError};
 pub use measure::{Condition, Measure, Objective};
-pub use parallel::in_order;
 pub use parameter::{Parameter, Values};
 pub use pictures::pictures;
 pub use row::{Ending, Row};
@@ -36,6 +34,7 @@ pub use summary::Summary;
 
 use crate::engine::{Options, Plan, Problem, plan, solve};
 use crate::input::{InputError, LoadedScene, Overrides, Source};
+use crate::parallel::in_order;
 use file::Named;
 use parameter::Design;
 use std::ops::Range;
@@ -158,7 +157,7 @@ impl Study {
     }
 
     /// How planning with these values ends, why without a motion, and what is measured.
-    fn judged(&self, values: &[f64]) -> Result<(Ending, Option<String>, Vec<Option<f64>>), String> {
+    fn judged(&self, values: &[f64]) -> Result<Judged, String> {
         let problem = self.problem(values).map_err(|error| told(&error))?;
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
             // The path is known before it is driven along.
@@ -180,6 +179,9 @@ impl Study {
         in_order(layouts.len(), jobs, |i| self.row(layouts.start + i), each)
     }
 }
+
+/// How planning ended, why without a motion, and what was measured.
+type Judged = (Ending, Option<String>, Vec<Option<f64>>);
 
 /// What is wrong, on a line: the first of it, without the place in files that are made for one layout.
 fn told(error: &InputError) -> String {

@@ -2,8 +2,8 @@
 
 use super::Study;
 use super::measure::Objective;
-use super::parallel::in_order;
 use super::row::Row;
+use crate::parallel::in_order;
 use crate::space::Draws;
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::particleswarm::{Particle, ParticleSwarm};

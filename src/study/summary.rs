@@ -6,6 +6,7 @@ use super::row::{Ending, Row};
 use crate::report::{Align, Column, Table};
 use crate::text::counted;
 use serde_json::{Value, json};
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Reasons that are listed.
@@ -74,7 +75,7 @@ impl<'a> Summary<'a> {
             }
         }
         let mut reasons: Vec<_> = counts.into_iter().map(|((ending, reason), count)| (ending, reason, count)).collect();
-        reasons.sort_by(|a, b| b.2.cmp(&a.2));
+        reasons.sort_by_key(|(.., count)| Reverse(*count));
         reasons
     }
 

@@ -4,20 +4,21 @@ use crate::rust_files;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// They import nothing, and all may import them; the second is a module, which crates do not see.
-const EVERYWHERE: [&str; 2] = ["cplan_interrupt", "text"];
+/// They import nothing, and all may import them; the last two are modules, which crates do not see.
+const EVERYWHERE: [&str; 3] = ["cplan_interrupt", "text", "parallel"];
 
 /// What the names of crates begin with.
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 24] = [
+const MAY_IMPORT: [(&str, &[&str]); 26] = [
     (EVERYWHERE[0], &[]),
     ("cplan_drawing", &[]),
     ("cplan_multigrid", &[]),
     ("cplan_gpu", &[]),
     ("cplan_harmonic", &["cplan_multigrid"]),
     (EVERYWHERE[1], &[]),
+    (EVERYWHERE[2], &[]),
     ("geometry", &[]),
     ("space", &["geometry"]),
     ("model", &["geometry", "space"]),

@@ -6,11 +6,11 @@ use crate::cli::progress::Progress;
 use crate::cli::sinks;
 use crate::engine::{MotionPlan, Options, PlanError, Problem, Verdict, bound, plan, plan_with};
 use crate::model::{MotionProblem, Status};
+use crate::parallel::in_order;
 use crate::planner::PathKind;
 use crate::report::{Comparison, Family, OtherPath, Row};
 use crate::space::{Metric, Path};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::convert::Infallible;
 use std::time::{Duration, Instant};
 
 /// A planner to compare.
@@ -94,28 +94,12 @@ impl Runner<'_> {
 
     /// `count` pieces of work on as many threads as there are jobs; the results in order.
     fn all<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        if self.jobs == 1 {
-            return (0..count).map(work).collect();
-        }
-        let next = AtomicUsize::new(0);
-        let results = Mutex::new(Vec::with_capacity(count));
-        std::thread::scope(|scope| {
-            for _ in 0..self.jobs.min(count) {
-                scope.spawn(|| {
-                    loop {
-                        let i = next.fetch_add(1, Ordering::Relaxed);
-                        if i >= count {
-                            break;
-                        }
-                        let result = work(i);
-                        results.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push((i, result));
-                    }
-                });
-            }
+        let mut results = Vec::with_capacity(count);
+        let Ok(()) = in_order(count, self.jobs, work, |result| {
+            results.push(result);
+            Ok::<_, Infallible>(())
         });
-        let mut results = results.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-        results.sort_by_key(|(i, _)| *i);
-        results.into_iter().map(|(_, result)| result).collect()
+        results
     }
 
     /// One run, measured. A coarse one goes before the very first, which would else pay for loading the program.

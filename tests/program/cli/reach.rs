@@ -51,7 +51,8 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
             let cos = (x * x + y * y - 1.0 - 0.64) / 1.6;
             if cos.abs() < 1.0 {
                 for elbow in [cos.acos(), -cos.acos()] {
-                    let shoulder = (y.atan2(x) - (0.8 * elbow.sin()).atan2(1.0 + 0.8 * elbow.cos()) + PI).rem_euclid(TAU) - PI;
+                    let shoulder =
+                        (y.atan2(x) - (0.8 * elbow.sin()).atan2(1.0 + 0.8 * elbow.cos()) + PI).rem_euclid(TAU) - PI;
                     expected += usize::from(within(shoulder) && within(elbow));
                 }
             }
@@ -68,7 +69,12 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
 fn what_is_said_of_a_solution_is_what_planning_to_it_says() {
     let place = Place::new();
     let mut seen = std::collections::BTreeMap::<String, usize>::new();
-    for (robot, world) in [("planar_2r", "singular_closed"), ("planar_2r", "shelf"), ("polar", "polar_gate"), ("slide_arm", "slide_table")] {
+    for (robot, world) in [
+        ("planar_2r", "singular_closed"),
+        ("planar_2r", "shelf"),
+        ("polar", "polar_gate"),
+        ("slide_arm", "slide_table"),
+    ] {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
         let done = reach(&place, &files, "--output r.csv --json");
         assert_eq!(done.code, 0, "{}", done.stderr);
