@@ -2,14 +2,14 @@
 
 use super::explorer::Explorer;
 use super::known::Known;
-use super::reach::{Reach, free_about, is_free, join, places, tightened};
+use super::reach::{Reach, free_about, is_free, join, places, tightened, unwrapped};
 use super::result::Ending;
 use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
 use crate::check::{CertifiedPath, certify};
 use crate::cspace::Grid;
 use crate::engine::{Options, Verdict, solve};
-use crate::field::{Component, Lattice, harmonic};
+use crate::field::{Component, Lattice, harmonic_way};
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene};
 use crate::space::{Configuration, GoalSet, Path, Segment};
@@ -91,60 +91,89 @@ impl Explorer<'_> {
     fn exploring(&mut self, joined: &[usize]) -> Decision {
         loop {
             checkpoint();
-            let (reach, target) = match self.settings.strategy {
-                Strategy::View => {
-                    let (reach, best) = self.best_view(joined);
-                    (reach, best.map(Target::Cell))
-                }
-                Strategy::Harmonic => self.whole_frontier(joined),
-                Strategy::Wall => self.along_wall(joined),
-                Strategy::Nearest | Strategy::Goal => self.nearest(joined),
+            let (way, most) = match self.settings.strategy {
+                Strategy::View => (self.best_view(joined), usize::MAX),
+                Strategy::Harmonic => (self.uphill(joined).map_or_else(|| self.nearest(joined), Ok), usize::MAX),
+                Strategy::Wall => match self.along_wall(joined) {
+                    Some(way) => (Ok(way), BY_THE_WALL),
+                    None => (self.nearest(joined), usize::MAX),
+                },
+                Strategy::Nearest | Strategy::Goal => (self.nearest(joined), usize::MAX),
             };
-            let Some(target) = target else {
-                return self.where_it_was(&reach).unwrap_or_else(|configurations| {
-                    Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
-                });
-            };
-            let most = if matches!(target, Target::End(_)) { BY_THE_WALL } else { usize::MAX };
-            let way = match target {
-                Target::Cell(cell) => reach.way(cell),
-                Target::End(way) => way,
-                Target::Any(frontier) => {
-                    let grid = &self.known.grid;
-                    let ascent = joined.iter().find_map(|&from| uphill(grid, &frontier, from));
-                    let Some(ascent) = ascent else { return Decision::Done(self.too_coarse()) };
-                    // The potential knows of no steps that are closed.
-                    let is_closed = ascent.windows(2).any(|step| self.known.closed.contains(&[step[0], step[1]]));
-                    if is_closed { reach.way(ascent[ascent.len() - 1]) } else { ascent }
+            let way = match way {
+                Ok(way) => way,
+                Err(reach) => {
+                    return self.where_it_was(&reach).unwrap_or_else(|configurations| {
+                        Decision::Done(Ending::Explored { configurations, given_up: self.frontier.given_up })
+                    });
                 }
             };
-            if let Some(decision) = self.along(&reach, &way, most) {
+            if let Some(decision) = self.along(&way, most) {
                 return decision;
             }
         }
     }
 
-    /// To the nearest wall, and along it to the first configuration from which something new can be seen; where it comes round again
-    /// without one, to the nearest.
-    fn along_wall(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+    /// Up the harmonic potential of all frontier configurations, from the nearest cell that is joined to any.
+    fn uphill(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
+        let mut side = Grid { blocked: vec![true; self.known.grid.blocked.len()], ..self.known.grid };
+        let (from, goals) = joined.iter().find_map(|&from| {
+            let goals = self.up_to_frontier(from, &mut side);
+            (!goals.is_empty()).then_some((from, goals))
+        })?;
+        let lattice = Lattice::from(&side);
+        let component = Component::new(&lattice, lattice.wave(&goals));
+        let way = harmonic_way(&component, component.position_of(from)?)?;
+        let way: Vec<usize> = way.into_iter().map(|position| component.cell(position)).collect();
+        let Known { grid, closed, .. } = &self.known;
+        // The potential knows of no steps that are closed.
+        if !way.windows(2).any(|step| closed.contains(&[step[0], step[1]])) {
+            return Some(way);
+        }
+        let end = way[way.len() - 1];
+        let reach = Reach::new(grid, closed, self.at, joined, |cell, _| cell == end);
+        (reach.cells.last() == Some(&end)).then(|| reach.way(end))
+    }
+
+    /// Opens the cells on this `side` of the frontier, those that can be come to from one without passing it, and those of the frontier among
+    /// them, which are handed back: what is behind it has no part in the potential before it.
+    fn up_to_frontier(&mut self, from: usize, side: &mut Grid) -> Vec<usize> {
+        let is_new = std::mem::replace(&mut side.blocked[from], false);
+        let (mut open, mut goals) = (if is_new { vec![from] } else { Vec::new() }, Vec::new());
+        while let Some(cell) = open.pop() {
+            checkpoint();
+            if self.is_frontier(cell) {
+                goals.push(cell);
+                continue;
+            }
+            for next in self.known.grid.neighbors(cell).filter(|&next| !self.known.grid.blocked[next]) {
+                if std::mem::replace(&mut side.blocked[next], false) {
+                    open.push(next);
+                }
+            }
+        }
+        goals
+    }
+
+    /// To the nearest wall, and along it to the first configuration from which something new can be seen; none where it comes round again
+    /// without one.
+    fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let Known { grid, closed, .. } = &self.known;
         let mut begin = None;
         let reach = Reach::new(grid, closed, self.at, joined, |cell, _| {
             begin = wall::is_beside_wall(grid, cell).then_some(cell);
             begin.is_some()
         });
-        let Some(begin) = begin else { return self.nearest(joined) };
-        let mut way = reach.way(begin);
-        let mut place = Place { cell: begin, heading: self.heading() };
+        let mut way = reach.way(begin?);
+        let mut place = Place { cell: begin?, heading: self.heading() };
         let mut gone = HashSet::new();
         while !self.is_frontier(place.cell) {
             checkpoint();
             let next = wall::next(&self.known.grid, &self.known.closed, place);
-            let Some(next) = next.filter(|&next| gone.insert(next)) else { return self.nearest(joined) };
-            place = next;
+            place = next.filter(|&next| gone.insert(next))?;
             way.push(place.cell);
         }
-        (reach, Some(Target::End(way)))
+        Some(way)
     }
 
     /// Which way the arm went last, in eighths of a turn.
@@ -161,8 +190,8 @@ impl Explorer<'_> {
     }
 
     /// Towards the last of the cells on a way, straight past no more than `most` at a time; none if a step is not free, which is noted.
-    fn along(&mut self, reach: &Reach, way: &[usize], most: usize) -> Option<Decision> {
-        let configurations = reach.unwrapped(&self.known.grid, way);
+    fn along(&mut self, way: &[usize], most: usize) -> Option<Decision> {
+        let configurations = unwrapped(&self.known.grid, self.at, way);
         let clearance = self.solid.workspace().clearance;
         match tightened(&self.solid, &configurations, most) {
             Ok(path) => {
@@ -182,25 +211,15 @@ impl Explorer<'_> {
         }
     }
 
-    fn reach(&self, joined: &[usize]) -> Reach {
-        Reach::new(&self.known.grid, &self.known.closed, self.at, joined, |_, _| false)
-    }
-
-    fn nearest(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
+    /// The way to the nearest frontier configuration; what can be reached if that is none, as for the others.
+    fn nearest(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let mut found = None;
         let reach = Reach::new(&known.grid, &known.closed, self.at, joined, |cell, _| {
-            let is_frontier = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell);
-            found = is_frontier.then_some(Target::Cell(cell));
-            is_frontier
+            found = frontier.contains(survey, sensor, scene.arm(), &known.grid, cell).then_some(cell);
+            found.is_some()
         });
-        (reach, found)
-    }
-
-    fn whole_frontier(&mut self, joined: &[usize]) -> (Reach, Option<Target>) {
-        let reach = self.reach(joined);
-        let frontier: Vec<usize> = reach.cells.iter().copied().filter(|&cell| self.is_frontier(cell)).collect();
-        (reach, (!frontier.is_empty()).then_some(Target::Any(frontier)))
+        reach.way_to(found)
     }
 
     /// Of the configurations that show all that the nearest frontier configuration does, if nothing unknown is in the way, the one of most
@@ -208,7 +227,7 @@ impl Explorer<'_> {
     ///
     /// None is looked for farther away than where nothing could be better, nor beyond the nearest [`MOST_VIEWS`]; and the farther away the fewer
     /// are asked, down to those that are as far apart as readings.
-    fn best_view(&mut self, joined: &[usize]) -> (Reach, Option<usize>) {
+    fn best_view(&mut self, joined: &[usize]) -> Result<Vec<usize>, Reach> {
         let Self { survey, sensor, scene, known, frontier, .. } = self;
         let (arm, grid) = (scene.arm(), &known.grid);
         let is_asked = |cell: usize, length: f64| {
@@ -236,7 +255,7 @@ impl Explorer<'_> {
             }
             worth(frontier.most_of_all()) <= most || asked == MOST_VIEWS
         });
-        (reach, best.map(|(_, cell)| cell))
+        reach.way_to(best.map(|(_, cell)| cell))
     }
 
     /// Along the planner's way through what may be free, as far as it is known to be.
@@ -257,7 +276,7 @@ impl Explorer<'_> {
                 return Decision::Done(Ending::Unreachable(why));
             }
             // Its planner may give up, as in a trap: others see farther.
-            Verdict::Unknown(_) => return self.detour(goals, &[]),
+            Verdict::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
         };
         let places = places(optimistic.path(), self.sensor.step);
         let mut free = vec![self.at];
@@ -275,46 +294,45 @@ impl Explorer<'_> {
             _ => {
                 let ahead = ahead.iter().take(PLACES_AHEAD).flat_map(|&q| self.survey.unknown_at(arm, q));
                 let in_the_way: BTreeSet<usize> = ahead.collect();
-                self.detour(goals, &Vec::from_iter(in_the_way))
+                self.detour(goals, &in_the_way)
             }
         }
     }
 
     /// To the nearest configuration from which one of the cells `in_the_way` can be seen; else to the best view; if there is none, to the goal
     /// within what is known.
-    fn detour(&mut self, goals: &GoalSet, in_the_way: &[usize]) -> Decision {
+    fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
             return self.back();
         }
         loop {
             checkpoint();
-            let (reach, target) = match self.showing(&joined, in_the_way) {
-                (reach, Some(cell)) => (reach, Some(cell)),
-                (_, None) => self.best_view(&joined),
+            let way = match self.showing(&joined, in_the_way).map_or_else(|| self.best_view(&joined), Ok) {
+                Ok(way) => way,
+                Err(reach) => return self.where_it_was(&reach).unwrap_or_else(|_| self.within_known(goals)),
             };
-            let Some(target) = target else {
-                return self.where_it_was(&reach).unwrap_or_else(|_| self.within_known(goals));
-            };
-            if let Some(decision) = self.along(&reach, &reach.way(target), usize::MAX) {
+            if let Some(decision) = self.along(&way, usize::MAX) {
                 return decision;
             }
         }
     }
 
-    /// The nearest configuration from which any of some cells of the map can be seen.
-    fn showing(&mut self, joined: &[usize], cells: &[usize]) -> (Reach, Option<usize>) {
+    /// The way to the nearest configuration from which any of some cells of the map can be seen.
+    fn showing(&mut self, joined: &[usize], cells: &BTreeSet<usize>) -> Option<Vec<usize>> {
+        if cells.is_empty() {
+            return None;
+        }
         let Self { survey, sensor, scene, known, frontier, .. } = self;
-        let (arm, grid) = (scene.arm(), &known.grid);
+        let (arm, grid, wanted) = (scene.arm(), &known.grid, survey.by_rows(cells));
         let mut showing = None;
         let reach = Reach::new(grid, &known.closed, self.at, joined, |cell, _| {
-            let shows = !cells.is_empty()
-                && frontier.contains(survey, sensor, arm, grid, cell)
-                && survey.shows_any(sensor, arm, grid.center(cell), cells);
+            let shows = frontier.contains(survey, sensor, arm, grid, cell)
+                && survey.shows_any(sensor, arm, grid.center(cell), &wanted);
             showing = shows.then_some(cell);
             shows
         });
-        (reach, showing)
+        showing.map(|cell| reach.way(cell))
     }
 
     /// To the goal where nothing new can be seen.
@@ -353,24 +371,6 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
 /// trying: CPLAN_WORLDS of `planning exploring`).
 fn worth(seen: u32, length: f64, step: f64) -> f64 {
     f64::from(seen).powf(1.0 / 6.0) / (length + step / 2.0)
-}
-
-/// Where a way is to lead.
-enum Target {
-    Cell(usize),
-    /// Up the potential of all of these.
-    Any(Vec<usize>),
-    /// The last of these cells, by way of the others.
-    End(Vec<usize>),
-}
-
-/// From cell to cell up the harmonic potential of some goals; none if they cannot be reached.
-fn uphill(grid: &Grid, goals: &[usize], from: usize) -> Option<Vec<usize>> {
-    let lattice = Lattice::from(grid);
-    let component = Component::new(&lattice, lattice.wave(goals));
-    let start = component.position_of(from)?;
-    let way = harmonic(&component).potential.ascend(&component, start)?;
-    Some(way.into_iter().map(|position| component.cell(position)).collect())
 }
 
 /// Two numbers, for people.

@@ -14,7 +14,6 @@ pub type Closed = BTreeSet<[usize; 2]>;
 /// The cells that can be reached from a configuration, and the shortest ways there, from cell to cell.
 #[derive(Debug)]
 pub struct Reach {
-    start: Configuration,
     /// Costs; infinite where no way leads.
     costs: Vec<f64>,
     before: Vec<u32>,
@@ -54,7 +53,7 @@ impl Reach {
     ) -> Self {
         let free = FreeCells::new(grid);
         let count = grid.blocked.len();
-        let mut reach = Self { start, costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
+        let mut reach = Self { costs: vec![f64::INFINITY; count], before: vec![NONE; count], cells: Vec::new() };
         let (sides, columns) = (grid.step(), grid.cells[1]);
         let lengths = [sides[0], sides[1], sides[0].hypot(sides[1])];
         let mut open = OpenQueues::default();
@@ -97,15 +96,20 @@ impl Reach {
         way
     }
 
-    /// The configurations on a way from cell to cell, the start first, unwrapped.
-    pub fn unwrapped(&self, grid: &Grid, way: &[usize]) -> Vec<Configuration> {
-        let mut at = vec![self.start];
-        for &cell in way {
-            at.push(grid.topology.lift(grid.center(cell), at[at.len() - 1]));
-        }
-        at.dedup();
-        at
+    /// The way to a cell; all that can be reached if there is none to go to.
+    pub fn way_to(self, cell: Option<usize>) -> Result<Vec<usize>, Self> {
+        cell.map(|cell| self.way(cell)).ok_or(self)
     }
+}
+
+/// The configurations on a way from cell to cell, the start first, unwrapped.
+pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Configuration> {
+    let mut at = vec![start];
+    for &cell in way {
+        at.push(grid.topology.lift(grid.center(cell), at[at.len() - 1]));
+    }
+    at.dedup();
+    at
 }
 
 /// The cells about a configuration whose middles it can go to straight, the nearest first.

@@ -5,6 +5,7 @@ use crate::input::{Occupancy, OccupancyMap};
 use crate::model::{Arm, Heights, JointType, Obstacle, Scene, Sensor, Shape, Workspace};
 use crate::space::{Configuration, Draws};
 use nalgebra::{Isometry2, Vector2};
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 /// Cells of the largest map.
@@ -253,19 +254,52 @@ impl Survey {
     /// [`Survey::edges`], where these are given: only those that may are looked along.
     #[must_use]
     pub fn promise(&self, sensor: &Sensor, arm: &Arm, q: Configuration, edges: Option<&[Vec<usize>]>) -> Option<usize> {
+        match edges {
+            Some(edges) => self.first_towards(sensor, arm, q, edges, |_| true),
+            None => self.first_unknown(sensor, arm, q).next(),
+        }
+    }
+
+    /// Whether a reading at `q` would come first to any of some unknown cells, by columns in ascending order, row by row.
+    #[must_use]
+    pub fn shows_any(&self, sensor: &Sensor, arm: &Arm, q: Configuration, wanted: &[Vec<usize>]) -> bool {
+        let width = self.known.size[0];
+        let is_wanted = |cell: usize| wanted[cell / width].binary_search(&(cell % width)).is_ok();
+        self.first_towards(sensor, arm, q, wanted, is_wanted).is_some()
+    }
+
+    /// The first unknown cell of a ray of a reading at `q` that `is_asked` for. Only rays that may cross one of some cells are looked along,
+    /// unless the sensor itself is where nothing is known.
+    fn first_towards(
+        &self,
+        sensor: &Sensor,
+        arm: &Arm,
+        q: Configuration,
+        cells: &[Vec<usize>],
+        is_asked: impl Fn(usize) -> bool,
+    ) -> Option<usize> {
         let (from, ahead) = sensor.pose(arm, q.into());
-        let edges = edges.filter(|_| !self.is_unknown_about(from));
-        let Some(edges) = edges else { return self.first_unknown(sensor, arm, q).next() };
+        if self.is_unknown_about(from) {
+            return self.first_unknown(sensor, arm, q).find(|&cell| is_asked(cell));
+        }
         let mut is_tried = vec![false; sensor.rays];
-        self.near(edges, from, sensor.range).find_map(|edge| {
-            let mut rays = self.rays_to(sensor, from, ahead, edge);
+        self.near(cells, from, sensor.range).find_map(|cell| {
+            let mut rays = self.rays_to(sensor, from, ahead, cell);
             rays.find_map(|ray| {
                 let is_new = !std::mem::replace(&mut is_tried[ray], true);
                 let mut view = self.crossings(from, sensor.ray(ahead, ray), sensor.range).map(|crossing| crossing.cell);
                 let first = is_new.then(|| view.find(|&cell| self.known.cells[cell] != Occupancy::Free)).flatten();
-                first.filter(|&cell| self.is_unknown(cell))
+                first.filter(|&cell| self.is_unknown(cell) && is_asked(cell))
             })
         })
+    }
+
+    /// Columns of some cells in ascending order, row by row from the top.
+    #[must_use]
+    pub fn by_rows(&self, cells: &BTreeSet<usize>) -> Vec<Vec<usize>> {
+        let [width, height] = self.known.size;
+        let row = |y: usize| cells.range(y * width..(y + 1) * width).map(|cell| cell % width).collect();
+        (0..height).map(row).collect()
     }
 
     /// The numbers of those rays that may cross a cell.
@@ -321,12 +355,6 @@ impl Survey {
     ) -> impl Iterator<Item = impl Iterator<Item = usize> + use<>> {
         let ((from, ahead), range) = (sensor.pose(arm, q.into()), sensor.range);
         sensor.rays(ahead).map(move |angle| self.crossings(from, angle, range).map(|crossing| crossing.cell))
-    }
-
-    /// Whether a reading at `q` would show any of some unknown cells, in ascending order: one that a ray comes to first.
-    #[must_use]
-    pub fn shows_any(&self, sensor: &Sensor, arm: &Arm, q: Configuration, wanted: &[usize]) -> bool {
-        self.first_unknown(sensor, arm, q).any(|cell| wanted.binary_search(&cell).is_ok())
     }
 
     /// The unknown cells that the arm meets at `q`, in ascending order.

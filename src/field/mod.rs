@@ -21,7 +21,7 @@ mod waves;
 
 pub use cplan_harmonic::{
     Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, Room, STEP, Streamline, UNREACHED,
-    Uphill, Wave, advance, direction, follow, harmonic, residual, rough_harmonic,
+    Uphill, Wave, advance, direction, follow, harmonic, harmonic_way, residual, rough_harmonic,
 };
 pub use cplan_multigrid as multigrid;
 pub use khatib::{Attraction, Downforce, ForceField, Khatib, Repulsion, Trap, nearest_obstacles};

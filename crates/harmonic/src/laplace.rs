@@ -33,6 +33,13 @@ pub fn harmonic(component: &Component) -> Field {
     Field { potential, windows }
 }
 
+/// Positions from `from` to a goal by steepest ascent of [`harmonic`], which is solved no farther than that looks: the nearer the goal the
+/// less it costs.
+#[must_use]
+pub fn harmonic_way(component: &Component, from: usize) -> Option<Vec<usize>> {
+    Peeling::new(component, LOSS).run_to(from).potential.ascend(component, from)
+}
+
 /// A guess at [`harmonic`], in a small part of the time: a positive potential that falls with the steps from the goal, in
 /// narrow places faster. For a picture of where the goal can be reached from.
 #[must_use]

@@ -79,7 +79,7 @@ mod wide;
 
 pub use component::{Component, Room};
 pub use follow::{Guide, LatticePoint, Place, STEP, Streamline, advance, direction, follow};
-pub use laplace::{Field, harmonic, residual, rough_harmonic};
+pub use laplace::{Field, harmonic, harmonic_way, residual, rough_harmonic};
 pub use lattice::{Lattice, UNREACHED, Wave};
 pub use potential::Potential;
 pub use streamline::{LocalMaximum, Uphill};

@@ -107,12 +107,25 @@ impl<'a> Peeling<'a> {
         }
     }
 
-    pub fn run(mut self) -> Self {
+    /// All values.
+    pub fn run(self) -> Self {
+        self.run_until(None)
+    }
+
+    /// Those that steepest ascent from a position looks at.
+    pub fn run_to(self, position: usize) -> Self {
+        if self.is_known(position) { self } else { self.run_until(Some(position)) }
+    }
+
+    fn run_until(mut self, last: Option<usize>) -> Self {
         // A maze or a spiral is better taken apart.
         let [rows, columns] = self.component.shape;
         if self.unknown > SMALL && self.component.levels <= rows + columns {
             self.windows += 1;
-            self.solve_whole();
+            self.solve_whole(last);
+            if last.is_some_and(|last| self.is_known(last)) {
+                return self;
+            }
         }
         if self.unknown > 0 {
             self.number = vec![NONE; self.component.len()];
@@ -120,7 +133,9 @@ impl<'a> Peeling<'a> {
             let widest = self.room.iter().copied().max().unwrap_or(0);
             self.decay = (0..=widest).map(decay).collect();
         }
-        while let Some(window) = self.gather() {
+        while !last.is_some_and(|last| self.leads_on(last))
+            && let Some(window) = self.gather()
+        {
             checkpoint();
             self.windows += 1;
             let widest = window.cells.iter().map(|&cell| self.room[cell as usize]).max().unwrap_or(0);
@@ -128,7 +143,7 @@ impl<'a> Peeling<'a> {
             let small = if widest <= MEDIUM { corridor } else { SMALL };
             let direct = widest <= NARROW || window.cells.len() <= small;
             let wide = if direct { None } else { self.wide(&window) };
-            let solved = wide.and_then(|wide| wide.solve(FLOOR * window.greatest).map(|values| (wide, values)));
+            let solved = wide.and_then(|wide| wide.solve(FLOOR * window.greatest, None).map(|values| (wide, values)));
             let accepted = if let Some((wide, values)) = solved {
                 let component = self.component;
                 let at = |i: usize| wide.extent.at(component.place(window.cells[i] as usize));
@@ -144,9 +159,15 @@ impl<'a> Peeling<'a> {
         self
     }
 
-    /// All unknown cells as one window, that nothing is cut off from. Row by row, as they lie in the grid: no window's list of
-    /// cells and no numbers.
-    fn solve_whole(&mut self) {
+    /// Whether steepest ascent from a position to a goal looks at nothing that is unknown.
+    fn leads_on(&self, from: usize) -> bool {
+        let way = if self.is_known(from) { self.potential.ascend(self.component, from) } else { None };
+        way.is_some_and(|way| way.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
+    }
+
+    /// All unknown cells as one window, that nothing is cut off from; of those whose values are less than that of the `last` no more than that
+    /// they are less. Row by row, as they lie in the grid: no window's list of cells and no numbers.
+    fn solve_whole(&mut self, last: Option<usize>) {
         let component = self.component;
         let cells = component.goals as u32..component.len() as u32;
         let is_unknown = |position: &u32| cells.contains(position);
@@ -173,7 +194,8 @@ impl<'a> Peeling<'a> {
                 wide.add(extent.at(component.place(n)), [1.0, 0.0]);
             }
         }
-        let Some(values) = wide.solve(FLOOR) else { return };
+        let last = last.map(|last| extent.at(component.place(last)));
+        let Some(values) = wide.solve(FLOOR, last) else { return };
         for i in rows {
             let first = extent.at([i, extent.first[1]]);
             for (&position, at) in row(i).iter().zip(first..).filter(|(position, _)| is_unknown(position)) {

@@ -71,13 +71,14 @@ impl Wide {
         }
     }
 
-    /// Both sides for each place: the first precise down to `floor`, the second within [`SHARE_ERROR`] of 1. Nothing if the
-    /// refinement does not get there.
-    pub fn solve(&self, floor: f64) -> Option<Values> {
+    /// Both sides for each place: the first precise down to `floor`, and no farther than to its value at the place `above`, the second within
+    /// [`SHARE_ERROR`] of 1. Nothing if the refinement does not get there.
+    pub fn solve(&self, floor: f64, above: Option<usize>) -> Option<Values> {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
-        let u = self.side(0, floor, ROUNDS, (&inner, &mut workspace))?;
-        let e = self.side(1, 1.0, 1, (&inner, &mut workspace))?;
+        let lowest = |x: &[f64]| above.map_or(floor, |at| x[at].max(floor));
+        let u = self.side(0, lowest, ROUNDS, (&inner, &mut workspace))?;
+        let e = self.side(1, |_| 1.0, 1, (&inner, &mut workspace))?;
         Some(Values([u, e]))
     }
 
@@ -86,11 +87,11 @@ impl Wide {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
-    /// Values of one side for all places in the box.
+    /// Values of one side for all places in the box, precise down to the floor that they ask for.
     fn side(
         &self,
         side: usize,
-        floor: f64,
+        floor: impl Fn(&[f64]) -> f64,
         rounds: usize,
         (inner, workspace): (&Multigrid, &mut Workspace),
     ) -> Option<Vec<f64>> {
@@ -113,7 +114,7 @@ impl Wide {
             }
             right.fill(0.0);
             spread(sources, &mut right);
-            let precise = self.residual(&x, floor, &mut right);
+            let precise = self.residual(&x, floor(&x), &mut right);
             if precise || (side == 1 && round == rounds) {
                 return Some(x);
             }
@@ -177,7 +178,7 @@ mod tests {
         let mut wide = Wide::new(Extent { first: [0; 2], cells: [w, n], ends: [Ends::High; 2] }, 0.0);
         (0..w * n).for_each(|at| wide.free(at));
         (0..w).for_each(|row| wide.add(row * n, [1.0, 0.0]));
-        let values = wide.solve(1e-60).expect("precise within the rounds that there are");
+        let values = wide.solve(1e-60, None).expect("precise within the rounds that there are");
         let beta = std::f64::consts::PI / (w + 1) as f64;
         let theta = (2.0 - beta.cos()).acosh();
         let at = |j: usize| wide.at(&values, w / 2 * n + j)[0];

@@ -6,7 +6,7 @@ mod mazes;
 #[path = "../../../tests/common/random.rs"]
 mod random;
 
-use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, residual};
+use cplan_harmonic::{Component, Field, Lattice, Place, Potential, Uphill, follow, harmonic, harmonic_way, residual};
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -38,6 +38,16 @@ fn is_sound(component: &Component, field: &Field) {
     let residual = residual(component, &field.potential);
     assert!(residual < 2e-14, "residual {residual:e}");
     assert!(field.potential.navigates(component));
+}
+
+/// Each step of a way goes to a neighbour that is as great as any, but for rounding; the last cell is a goal.
+fn is_steepest(component: &Component, way: &[usize], ln: impl Fn(usize) -> f64) {
+    assert!(way.last().is_some_and(|&last| last < component.goals));
+    for step in way.windows(2) {
+        let around = component.neighbors(step[0]);
+        let greatest = around.iter().filter(|&&n| n != component.wall()).map(|&n| ln(n)).fold(f64::MIN, f64::max);
+        assert!(around.contains(&step[1]) && ln(step[1]) > greatest - 1e-9, "{} of {greatest}", ln(step[1]));
+    }
 }
 
 /// The harmonic function by Gaussian elimination in rational numbers, without any loss on the way.
@@ -99,10 +109,13 @@ proptest! {
     fn values_are_the_rational_ones_however_small((grid, goal) in random_grid()) {
         prop_assume!(grid.blocked.len() <= 80);
         let (component, field) = solved(&grid, &[goal]);
-        for (i, value) in exact(&component).iter().enumerate() {
+        let exact: Vec<f64> = exact(&component).iter().map(ln).collect();
+        for (i, value) in exact.iter().enumerate() {
             // Walks are lost at a rate of 1e-13 a step.
-            prop_assert!((field.potential.ln(i) - ln(value)).abs() < 1e-9, "{} is not {}", field.potential.ln(i), ln(value));
+            prop_assert!((field.potential.ln(i) - value).abs() < 1e-9, "{} is not {value}", field.potential.ln(i));
         }
+        let last = component.len() - 1;
+        is_steepest(&component, &harmonic_way(&component, last).expect("a way"), |i| exact[i]);
     }
 }
 
@@ -138,6 +151,11 @@ proptest! {
     fn every_cell_has_a_greater_neighbor_in_large_grids_of_all_kinds((grid, goals) in large_grid()) {
         let (component, field) = solved(&grid, &goals);
         is_sound(&component, &field);
+        for from in [component.goals / 2, component.len() / 9, component.len() / 2, component.len() - 1] {
+            let way = harmonic_way(&component, from).expect("a way");
+            assert_eq!(way[0], from);
+            is_steepest(&component, &way, |i| field.potential.ln(i));
+        }
     }
 }
 
