@@ -53,7 +53,7 @@ pub(crate) use deviation::STUCK_ROUNDING;
 pub use deviation::{Bounded, Deviation, Posture};
 pub use ends::{ENDS_WITHIN, Miss, ends_kept};
 pub use limits::{Excess, Limit, limits_kept};
-pub use motion::{CertifiedPath, Nearest, Rejection, certify};
+pub use motion::{CertifiedPath, Nearest, Rejection, StraightMotions, certify};
 pub use proof::{CheckedProof, Disconnection, ProofBox, ProofError, ProofFormatError, StuckBox, read_proof};
 pub use replay::{Departure, Fault, Happening, Replay, ReplayedStep, ReplayedTurn, replay};
 pub(crate) use vicinity::Vicinity;

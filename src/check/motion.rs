@@ -125,6 +125,33 @@ pub fn certify(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPat
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
 
+/// Many straight motions in one scene, of each of which it is only asked whether it keeps the clearance: a small part of what [`certify`]
+/// costs, since nobody asks how much more it keeps.
+pub struct StraightMotions<'a> {
+    scene: &'a Scene,
+    vicinity: Vicinity<'a>,
+    clearance: f64,
+}
+
+impl<'a> StraightMotions<'a> {
+    /// Those that keep more than zero and at least `clearance` metres. `O(n log n)` in the pairs that can meet.
+    #[must_use]
+    pub fn new(scene: &'a Scene, clearance: f64) -> Self {
+        Self { scene, vicinity: Vicinity::new(scene), clearance }
+    }
+
+    /// Whether a motion is shown to be free, within the joint limits.
+    #[must_use]
+    pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
+        let topology = self.scene.arm().topology();
+        let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
+        let mut search = Search { tightness: 0.0, ..Search::new(self.scene, self.clearance, MAX_EVALUATIONS) };
+        let middle = Posture::new(self.scene, from + (to - from) * 0.5);
+        let along = part_of(from, to, 0.5);
+        within && self.vicinity.near(&middle, along, self.clearance, |pair| search.segment(pair, from, to)).is_ok()
+    }
+}
+
 /// The part of a segment that is so many shares of it to either side of a place, and what rounding makes of that place.
 fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
@@ -136,6 +163,8 @@ fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
 pub(super) struct Search<'a> {
     scene: &'a Scene,
     required: f64,
+    /// A bound is accepted if it is at least this share of the least distance seen.
+    tightness: f64,
     /// Least of the bounds that were accepted.
     pub(super) proven: f64,
     /// Least distance seen.
@@ -146,13 +175,13 @@ pub(super) struct Search<'a> {
 
 impl<'a> Search<'a> {
     pub(super) fn new(scene: &'a Scene, required: f64, budget: usize) -> Self {
-        Self { scene, required, proven: f64::INFINITY, nearest: None, budget }
+        Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget }
     }
 
     /// A search that goes on from what is known of a motion.
     pub(super) fn beside(known: &CertifiedCurve, scene: &'a Scene, required: f64, budget: usize) -> Self {
         let (proven, nearest) = (known.clearance(), known.nearest());
-        Self { scene, required, proven, nearest, budget }
+        Self { scene, required, tightness: TIGHTNESS, proven, nearest, budget }
     }
 
     /// Takes note of a distance on the path.
@@ -174,7 +203,7 @@ impl<'a> Search<'a> {
 
     /// What a bound has to reach to be accepted.
     fn target(&self) -> f64 {
-        (TIGHTNESS * self.seen()).max(self.required)
+        if self.tightness > 0.0 { (self.tightness * self.seen()).max(self.required) } else { self.required }
     }
 
     fn segment(&mut self, pair: Pair, from: Configuration, to: Configuration) -> Result<(), Rejection> {
@@ -208,7 +237,7 @@ impl<'a> Search<'a> {
             let bounded = posture.bound(pair, deviation);
             let contact = Contact { pair, separation: bounded.here };
             self.see(at, contact)?;
-            if bounded.least >= self.target() {
+            if bounded.least > 0.0 && bounded.least >= self.target() {
                 self.proven = self.proven.min(bounded.least);
             } else if self.budget == 0 || half < f64::EPSILON {
                 return Err(Rejection::Undecided(Nearest { at, contact }));

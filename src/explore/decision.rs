@@ -2,7 +2,7 @@
 
 use super::explorer::Explorer;
 use super::known::Known;
-use super::reach::{Reach, free_about, is_free, join, places, tightened, unwrapped};
+use super::reach::{Reach, free_about, join, places, straight_motions, tightened, unwrapped};
 use super::result::Ending;
 use super::settings::Strategy;
 use super::wall::{self, Heading, Place};
@@ -279,9 +279,9 @@ impl Explorer<'_> {
             Verdict::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
         };
         let places = places(optimistic.path(), self.sensor.step);
-        let mut free = vec![self.at];
+        let (motions, mut free) = (straight_motions(&self.solid), vec![self.at]);
         for &place in &places {
-            if !is_free(&self.solid, free[free.len() - 1], place) {
+            if !motions.is_free(free[free.len() - 1], place) {
                 break;
             }
             free.push(place);

@@ -1,6 +1,6 @@
 //! Ways over a grid of configurations, and the paths that they become.
 
-use crate::check::certify;
+use crate::check::StraightMotions;
 use crate::cspace::Grid;
 use crate::field::{FreeCells, Neighborhood};
 use crate::interrupt::checkpoint;
@@ -114,8 +114,9 @@ pub fn unwrapped(grid: &Grid, start: Configuration, way: &[usize]) -> Vec<Config
 
 /// The cells about a configuration whose middles it can go to straight, the nearest first.
 pub fn join(scene: &Scene, grid: &Grid, q: Configuration) -> Vec<usize> {
+    let motions = straight_motions(scene);
     let mut near = free_about(grid, q);
-    near.retain(|&cell| is_free(scene, q, grid.topology.lift(grid.center(cell), q)));
+    near.retain(|&cell| motions.is_free(q, grid.topology.lift(grid.center(cell), q)));
     near
 }
 
@@ -134,18 +135,19 @@ pub fn free_about(grid: &Grid, q: Configuration) -> Vec<usize> {
     near
 }
 
-/// Whether a straight motion is certified free.
-pub fn is_free(scene: &Scene, from: Configuration, to: Configuration) -> bool {
-    certify(scene, Path::new(vec![from, to]), scene.workspace().clearance).is_ok()
+/// Those that keep the scene's clearance.
+pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
+    StraightMotions::new(scene, scene.workspace().clearance)
 }
 
 /// Leaves out waypoints: each time the farthest of the next `most` is gone to straight that doubling steps, then halves, find free. The
 /// number of the first step that is not free, if one is not.
 pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Result<Path, usize> {
+    let motions = straight_motions(scene);
     let mut kept = vec![waypoints[0]];
     let mut at = 0;
     while at + 1 < waypoints.len() {
-        let goes = |to: usize| is_free(scene, waypoints[at], waypoints[to]);
+        let goes = |to: usize| motions.is_free(waypoints[at], waypoints[to]);
         if !goes(at + 1) {
             return Err(at);
         }
