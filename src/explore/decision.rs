@@ -203,9 +203,9 @@ impl Explorer<'_> {
                 )
             }
             Err(step) => {
-                let [from, to] = [configurations[step], configurations[step + 1]].map(|q| self.known.grid.locate(q));
+                let step = [configurations[step], configurations[step + 1]].map(|q| self.known.grid.locate(q));
                 let before = self.known.closed.len();
-                self.known.closed.extend([[from, to], [to, from]]);
+                self.known.close(&self.solid, step);
                 (self.known.closed.len() == before).then(|| Decision::Done(self.too_coarse()))
             }
         }

@@ -1,10 +1,11 @@
 //! The configurations of a grid that are known to be free.
 
-use super::reach::Closed;
+use super::reach::{Closed, straight_motions};
 use super::survey::Survey;
 use crate::cspace::{Grid, Proves};
+use crate::field::{FreeCells, Neighborhood};
 use crate::interrupt::checkpoint;
-use crate::model::Arm;
+use crate::model::{Arm, Scene};
 
 /// A grid of configurations, blocked where the arm meets a cell of the map that is not known to be free.
 ///
@@ -41,6 +42,26 @@ impl Known {
         }
         let waiting: Vec<u32> = new.iter().flat_map(|&cell| std::mem::take(&mut self.waiting[cell])).collect();
         self.look_at(survey, arm, waiting)
+    }
+
+    /// Closes a step that is not free, and with it those about it that are not, either: what is too narrow for one step is so for many, and
+    /// each would cost a way that ends there.
+    pub fn close(&mut self, solid: &Scene, step: [usize; 2]) {
+        let (free, motions) = (FreeCells::new(&self.grid), straight_motions(solid));
+        let mut found = vec![step];
+        while let Some([a, b]) = found.pop() {
+            checkpoint();
+            let is_new = self.closed.insert([a, b]) | self.closed.insert([b, a]);
+            for cell in [a, b].into_iter().filter(|_| is_new) {
+                let q = self.grid.center(cell);
+                let is_shut = |to: &usize| {
+                    let is_closed = self.closed.contains(&[cell, *to]);
+                    !is_closed && !motions.is_free(q, self.grid.topology.lift(self.grid.center(*to), q))
+                };
+                let around = free.moves(cell, Neighborhood::Eight).map(|step| step.to);
+                found.extend(around.filter(is_shut).map(|to| [cell, to]));
+            }
+        }
     }
 
     fn look_at(&mut self, survey: &Survey, arm: &Arm, configurations: Vec<u32>) -> Vec<usize> {
