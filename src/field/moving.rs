@@ -1,8 +1,9 @@
 //! A field among obstacles that move, which robots share.
 
+use super::relax::{Memory, by_multigrid_in};
 use super::{
     Boundary, Cell, Convergence, Domain, Equation, Influence, LatticePoint, Levels, Measure, RelaxError, Relaxation,
-    Slope, Stopping, Streamline, Stuck, advance, around, by_multigrid, direction, follow, relax_from,
+    Slope, Stopping, Streamline, Stuck, advance, around, direction, follow, relax_from,
 };
 use super::{Difference, Place};
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -27,10 +28,18 @@ impl Disc {
         Self { radius: self.radius + own + FRAC_1_SQRT_2, ..self }
     }
 
-    /// Whether the centre of a cell lies in it.
-    fn holds(&self, row: usize, column: usize) -> bool {
-        let away = [row as f64 - self.center[0], column as f64 - self.center[1]];
-        self.radius > 0.0 && away[0].powi(2) + away[1].powi(2) < self.radius.powi(2)
+    /// The cells whose centres lie in it.
+    fn cells(self, [rows, columns]: [usize; 2]) -> impl Iterator<Item = usize> {
+        let Self { center, radius } = self;
+        let near = move |axis: usize, count: usize| {
+            let [from, to] = [(center[axis] - radius).ceil(), (center[axis] + radius).floor() + 1.0];
+            from.max(0.0) as usize..(to.max(0.0) as usize).min(if radius > 0.0 { count } else { 0 })
+        };
+        near(0, rows).flat_map(move |row| {
+            let across = (row as f64 - center[0]).powi(2);
+            let inside = move |column: &usize| across + (*column as f64 - center[1]).powi(2) < radius.powi(2);
+            near(1, columns).filter(inside).map(move |column| row * columns + column)
+        })
     }
 }
 
@@ -51,7 +60,7 @@ pub struct Moment {
 pub enum Solver {
     /// Sweep by sweep, as the literature does.
     Relaxation(Relaxation),
-    /// By [`by_multigrid`].
+    /// By [`by_multigrid`](super::by_multigrid).
     Multigrid,
 }
 
@@ -60,7 +69,7 @@ pub enum Solver {
 /// robot an oriented field, with none a harmonic one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value 1,
 /// goals 0; robots that follow it are no obstacles in it, or nobody could tell where they are to go.
 ///
-/// A moment costs one look at each cell a disc, a few tens of nanoseconds a cell for the weights, and what its [`Solver`] costs.
+/// A moment costs one look at the cells about each disc, some nanoseconds a cell for the weights, and what its [`Solver`] costs.
 /// While the equation is monotone and the rule for stopping is strict, each free cell that a goal can be reached from leads to
 /// one; with a loose rule, such as the literature's `1e-6`, values far from what has moved may be those of moments ago.
 ///
@@ -92,6 +101,7 @@ pub struct MovingField {
     domain: Domain,
     /// One a cell.
     values: Vec<f64>,
+    memory: Memory,
 }
 
 impl MovingField {
@@ -113,14 +123,14 @@ impl MovingField {
         }
         let kinds = walls.iter().map(|&wall| if wall { Cell::Obstacle } else { Cell::Free }).collect();
         let domain = Domain::new(cells, kinds, boundaries, Levels::PUBLISHED);
-        Ok(Self { walls, difference, values: domain.start(), domain })
+        Ok(Self { walls, difference, values: domain.start(), domain, memory: Memory::default() })
     }
 
     /// The field of the next moment, by sweeps or steps until the sum of their squared changes is less than `below`, `most` of them at
     /// the most: [`Convergence`] says how many there were.
     ///
     /// # Errors
-    /// Those of [`relax_from`] and [`by_multigrid`], and where a number of the moment is no number; the field is then as it was.
+    /// Those of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and where a number of the moment is no number; the field is then as it was.
     pub fn next(
         &mut self,
         moment: &Moment,
@@ -134,27 +144,30 @@ impl MovingField {
         let start = self.values.clone();
         let field = match solver {
             Solver::Relaxation(relaxation) => relax_from(&domain, &equation, relaxation, &stopping, start),
-            Solver::Multigrid => by_multigrid(&domain, &equation, &stopping, start),
+            Solver::Multigrid => by_multigrid_in(&domain, &equation, &stopping, start, &mut self.memory),
         }?;
         (self.domain, self.values) = (domain, field.values);
         Ok(field.stages[0])
     }
 
-    /// What each cell is at a moment. `O(cells * discs)`.
+    /// What each cell is at a moment.
     fn domain_of(&self, moment: &Moment) -> Result<Domain, RelaxError> {
         let discs = moment.obstacles.iter().chain(&moment.goals).map(|disc| (disc.center, disc.radius));
         let mut numbers = discs.chain(moment.robots.iter().map(|robot| (robot.center, robot.radius)));
         if numbers.any(|(center, radius)| center.iter().any(|x| !x.is_finite()) || radius.is_nan()) {
             return Err(RelaxError::Refused("centres of discs are finite, and a radius is a number".into()));
         }
-        let [_, columns] = self.domain.cells();
-        let covered = |cell: usize, disc: &Disc| disc.holds(cell / columns, cell % columns);
-        let kind = |cell: usize| match cell {
-            _ if self.walls[cell] || moment.obstacles.iter().any(|disc| covered(cell, disc)) => Cell::Obstacle,
-            _ if moment.goals.iter().any(|disc| covered(cell, disc)) => Cell::Goal,
-            _ => Cell::Free,
-        };
-        let kinds = (0..self.walls.len()).map(kind).collect();
+        let kind = |&wall: &bool| if wall { Cell::Obstacle } else { Cell::Free };
+        let mut kinds: Vec<Cell> = self.walls.iter().map(kind).collect();
+        let cells = self.domain.cells();
+        for disc in &moment.obstacles {
+            disc.cells(cells).for_each(|cell| kinds[cell] = Cell::Obstacle);
+        }
+        for cell in moment.goals.iter().flat_map(|disc| disc.cells(cells)) {
+            if kinds[cell] == Cell::Free {
+                kinds[cell] = Cell::Goal;
+            }
+        }
         Ok(Domain::new(self.domain.cells(), kinds, self.domain.boundaries(), self.domain.levels()))
     }
 

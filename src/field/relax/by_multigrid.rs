@@ -1,7 +1,7 @@
 //! Linear equations with a drift by multigrid: what a relaxation converges to, in a few steps.
 
-use super::stencil::weights;
-use super::sweeps::{begun, places_around, unknowns};
+use super::stencil::sides;
+use super::sweeps::begun;
 use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxed, Stopping};
 use crate::field::multigrid::{Ends, Multigrid, Workspace};
 use crate::interrupt::checkpoint;
@@ -45,6 +45,27 @@ pub fn by_multigrid(
     stopping: &Stopping,
     start: Vec<f64>,
 ) -> Result<Relaxed, RelaxError> {
+    by_multigrid_in(domain, equation, stopping, start, &mut Memory::default())
+}
+
+/// What a solve works in, kept for the next one on a domain of as many rows and columns with the same boundaries. It says nothing of the field.
+#[derive(Debug, Clone, Default)]
+pub struct Memory(Option<Workspace>);
+
+impl PartialEq for Memory {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+/// [`by_multigrid`] in memory that was used before.
+pub(in crate::field) fn by_multigrid_in(
+    domain: &Domain,
+    equation: &Equation,
+    stopping: &Stopping,
+    start: Vec<f64>,
+    memory: &mut Memory,
+) -> Result<Relaxed, RelaxError> {
     let refused = |why: &str| RelaxError::Refused(why.into());
     if let Some(refusal) = equation.refusal(domain) {
         return Err(RelaxError::Refused(refusal));
@@ -54,7 +75,12 @@ pub fn by_multigrid(
     }
     let (drift, difference) =
         equation.drift().ok_or_else(|| refused("multigrid solves linear equations: relax preferences"))?;
-    let system = System::new(domain, |cell| weights(domain, cell, drift(cell), difference));
+    if domain.kinds().is_empty() {
+        let stage = Convergence { sweeps: 0, change: 0.0, converged: true };
+        return Ok(Relaxed { values: Vec::new(), stages: vec![stage] });
+    }
+    let has_drift = *equation != Equation::Harmonic;
+    let system = System::new(domain, has_drift.then_some(|cell| sides(drift(cell), difference)));
     let mut values = begun(domain, start)?;
     let mut stage = Convergence { sweeps: 0, change: f64::INFINITY, converged: false };
     let mut preconditioner = None;
@@ -63,8 +89,7 @@ pub fn by_multigrid(
         let before = std::mem::replace(&mut stage.change, square(&residual));
         stage.converged = stage.change < stopping.below || stage.change == 0.0;
         if !stage.change.is_finite() {
-            let lost = |&&cell: &&u32| !values[cell as usize].is_finite();
-            let cell = system.unknowns.iter().find(lost).map_or(0, |&cell| cell as usize);
+            let cell = values.iter().position(|value| !value.is_finite()).unwrap_or(0);
             let hint = "the values to start from, or the drift, are too great".into();
             let place = [cell / domain.cells()[1], cell % domain.cells()[1]];
             return Err(RelaxError::Diverged { sweeps: stage.sweeps, cell: place, value: values[cell], hint });
@@ -72,42 +97,117 @@ pub fn by_multigrid(
         // Rounding ends the progress.
         if stage.converged || stage.sweeps >= stopping.max_sweeps || stage.change >= before {
             values.pop();
+            memory.0 = preconditioner.map(|Preconditioner { workspace, .. }| workspace).or(memory.0.take());
             return Ok(Relaxed { values, stages: vec![stage] });
         }
-        let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(domain, &system));
+        let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(&system, memory));
         let most = RESTART.min(stopping.max_sweeps - stage.sweeps);
         stage.sweeps += system.round(advice, residual, stopping.below, most, &mut values);
     }
 }
 
-/// What the neighbours ask of each unknown.
+/// What the neighbours ask of each cell. Vectors have an entry a cell, row by row, 0 where nothing is sought, so that neighbours are found by
+/// constant offsets.
 struct System {
-    /// Cells, rising.
-    unknowns: Vec<u32>,
-    /// Places of the neighbours' values.
-    around: Vec<[u32; 4]>,
-    weights: Vec<[f64; 4]>,
-    /// Their sums.
+    cells: [usize; 2],
+    boundaries: [Boundary; 2],
+    sought: Vec<bool>,
+    /// Those of the neighbours `-q1, +q1, -q2, +q2` of each cell; none where all are 1.
+    weights: Option<Vec<[f64; 4]>>,
+    /// Their sums, over neighbours that are not the cell itself.
     sums: Vec<f64>,
+    /// The reciprocals of these; 0 where nothing is sought.
+    shares: Vec<f64>,
 }
 
 impl System {
-    fn new(domain: &Domain, weights: impl Fn(usize) -> [f64; 4]) -> Self {
-        let unknowns = unknowns(domain);
-        let around = places_around(domain, &unknowns);
-        let weights: Vec<[f64; 4]> = unknowns.iter().map(|&cell| weights(cell as usize)).collect();
-        let sums = weights.iter().map(|weights| weights.iter().sum()).collect();
-        Self { unknowns, around, weights, sums }
+    /// Of the weights of each cell; 1 without.
+    fn new(domain: &Domain, weights: Option<impl Fn(usize) -> [f64; 4]>) -> Self {
+        let (cells, boundaries, count) = (domain.cells(), domain.boundaries(), domain.kinds().len());
+        let sought: Vec<bool> = (0..count).map(|cell| domain.is_sought(cell)).collect();
+        let weights: Option<Vec<[f64; 4]>> = weights.map(|weights| (0..count).map(weights).collect());
+        let mut sums = match &weights {
+            Some(weights) => weights.iter().map(|weights| weights.iter().sum()).collect(),
+            None => vec![4.0; count],
+        };
+        let mut drop_own =
+            |cell: usize, side: usize| sums[cell] -= weights.as_ref().map_or(1.0, |weights| weights[cell][side]);
+        let [rows, columns] = cells;
+        let is_own = [0, 1].map(|axis| match boundaries[axis] {
+            Boundary::High => false,
+            Boundary::Reflecting => true,
+            Boundary::Periodic => cells[axis] == 1,
+        });
+        if is_own[0] {
+            for j in 0..columns {
+                drop_own(j, 0);
+                drop_own((rows - 1) * columns + j, 1);
+            }
+        }
+        if is_own[1] {
+            for i in 0..rows {
+                drop_own(i * columns, 2);
+                drop_own((i + 1) * columns - 1, 3);
+            }
+        }
+        let share = |(&sought, sum): (&bool, &f64)| if sought { 1.0 / sum } else { 0.0 };
+        let shares = sought.iter().zip(&sums).map(share).collect();
+        Self { cells, boundaries, sought, weights, sums, shares }
     }
 
-    /// How far each unknown is from what its neighbours ask for; `values` are one a cell, and last that beyond limits.
-    fn residual(&self, values: &[f64]) -> Vec<f64> {
-        let asked = |k: usize| {
-            let (weights, around) = (self.weights[k], self.around[k].map(|n| values[n as usize]));
-            let sum: f64 = weights.iter().zip(around).map(|(weight, value)| weight * value).sum();
-            sum / self.sums[k] - values[self.unknowns[k] as usize]
+    /// Values with a frame of one cell around them, which holds what is beyond the limits; `values` are one a cell, and last that of
+    /// high limits.
+    fn framed(&self, values: &[f64]) -> Vec<f64> {
+        let ([rows, columns], beyond) = (self.cells, values[values.len() - 1]);
+        let stride = columns + 2;
+        let mut framed = vec![beyond; (rows + 2) * stride];
+        for i in 0..rows {
+            let (from, to) = (&values[i * columns..(i + 1) * columns], &mut framed[(i + 1) * stride..(i + 2) * stride]);
+            to[1..=columns].copy_from_slice(from);
+            (to[0], to[columns + 1]) = match self.boundaries[1] {
+                Boundary::High => (beyond, beyond),
+                Boundary::Periodic => (from[columns - 1], from[0]),
+                Boundary::Reflecting => (from[0], from[columns - 1]),
+            };
+        }
+        let [first, last] = [stride, rows * stride];
+        let (above, below) = match self.boundaries[0] {
+            Boundary::High => return framed,
+            Boundary::Periodic => (last, first),
+            Boundary::Reflecting => (first, last),
         };
-        (0..self.unknowns.len()).map(asked).collect()
+        framed.copy_within(above..above + stride, 0);
+        framed.copy_within(below..below + stride, (rows + 1) * stride);
+        framed
+    }
+
+    /// How far each cell is from what its neighbours ask for; `values` are one a cell, and last that beyond limits.
+    fn residual(&self, values: &[f64]) -> Vec<f64> {
+        match &self.weights {
+            Some(weights) => self.residual_by(values, |cell| weights[cell]),
+            None => self.residual_by(values, |_| [1.0; 4]),
+        }
+    }
+
+    #[inline(always)]
+    fn residual_by(&self, values: &[f64], weights: impl Fn(usize) -> [f64; 4]) -> Vec<f64> {
+        let [rows, columns] = self.cells;
+        let (framed, stride) = (self.framed(values), columns + 2);
+        let mut residual = vec![0.0; rows * columns];
+        for i in 0..rows {
+            let line = |row: usize, column: usize| &framed[row * stride + column..][..columns];
+            let [above, below, before, here, after] =
+                [(i, 1), (i + 2, 1), (i + 1, 0), (i + 1, 1), (i + 1, 2)].map(|(row, column)| line(row, column));
+            let first = i * columns;
+            let shares = &self.shares[first..][..columns];
+            for (j, to) in residual[first..][..columns].iter_mut().enumerate() {
+                // From a neighbour that is the cell itself there is no difference.
+                let ([a, b, c, d], here) = (weights(first + j), here[j]);
+                let rows = a * (above[j] - here) + b * (below[j] - here);
+                *to = (rows + (c * (before[j] - here) + d * (after[j] - here))) * shares[j];
+            }
+        }
+        residual
     }
 
     /// Takes steps until they are expected to be enough, and adds them to the values; how many there were.
@@ -180,23 +280,21 @@ struct Preconditioner {
 }
 
 impl Preconditioner {
-    fn new(domain: &Domain, system: &System) -> Self {
-        let mut free = vec![false; domain.kinds().len()];
-        system.unknowns.iter().for_each(|&cell| free[cell as usize] = true);
-        let ends = domain.boundaries().map(|boundary| match boundary {
+    fn new(system: &System, memory: &mut Memory) -> Self {
+        let ends = system.boundaries.map(|boundary| match boundary {
             Boundary::Periodic => Ends::Joined,
             Boundary::High => Ends::High,
             Boundary::Reflecting => Ends::Reflecting,
         });
-        let multigrid = Multigrid::new(domain.cells(), ends, &free, 0.0);
-        Self { workspace: multigrid.workspace(), multigrid, right: vec![0.0; free.len()] }
+        let multigrid = Multigrid::new(system.cells, ends, &system.sought, 0.0);
+        let workspace = memory.0.take().unwrap_or_else(|| multigrid.workspace());
+        Self { workspace, multigrid, right: vec![0.0; system.sought.len()] }
     }
 
     /// Where the values are to go for their residual to fall by this: one a cell, and last 0 for what is beyond limits.
     fn way(&mut self, system: &System, residual: &[f64]) -> Vec<f64> {
-        for (k, &cell) in system.unknowns.iter().enumerate() {
-            self.right[cell as usize] = system.sums[k] * residual[k];
-        }
+        let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
+        self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);
         let mut way = vec![0.0; self.right.len()];
         self.multigrid.solve(&self.right, &mut way, ADVICE, &mut self.workspace);
         way.push(0.0);

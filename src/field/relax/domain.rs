@@ -169,7 +169,8 @@ impl Domain {
 
     /// Whether a cell's value is to be found. A free cell that has no neighbour but itself keeps that which it has.
     pub(super) fn is_sought(&self, cell: usize) -> bool {
-        self.kinds[cell] == Cell::Free && self.neighbors(cell) != [Neighbor::Mirror; 4]
+        let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
+        self.kinds[cell] == Cell::Free && has_neighbors
     }
 
     /// The cell at a place of the unbounded lattice; none beyond the ends of an interval.

@@ -22,6 +22,7 @@ mod sweeps;
 mod trace;
 
 pub use by_multigrid::by_multigrid;
+pub(super) use by_multigrid::{Memory, by_multigrid_in};
 pub use descent::{Slope, Stuck, descend};
 pub use device::{Device, relax_on};
 pub use direct::eliminated;

@@ -48,17 +48,22 @@ impl Stencil for Weighted {
 /// The weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values, less the sum of the weights
 /// times its own.
 pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference: Difference) -> [f64; 4] {
-    let side = |b: f64| match difference {
-        Difference::Central => 1.0 + 0.5 * b,
-        Difference::Upwind => 1.0 + b.max(0.0),
-    };
-    let mut weights = [side(-drift[0]), side(drift[0]), side(-drift[1]), side(drift[1])];
+    let mut weights = sides(drift, difference);
     for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
         if neighbor == Neighbor::Mirror {
             *weight = 0.0;
         }
     }
     weights
+}
+
+/// The same where no neighbour is the cell itself.
+pub(super) fn sides(drift: [f64; 2], difference: Difference) -> [f64; 4] {
+    let side = |b: f64| match difference {
+        Difference::Central => 1.0 + 0.5 * b,
+        Difference::Upwind => 1.0 + b.max(0.0),
+    };
+    [side(-drift[0]), side(drift[0]), side(-drift[1]), side(drift[1])]
 }
 
 /// The altered preferences: `h + strength d`, `strength` being `epsilon / 4` with the sign that the levels ask for. Beyond
