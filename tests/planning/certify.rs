@@ -3,7 +3,7 @@
 use crate::common::{
     Benchmark, all_kinds, arm, benchmark, clutter, disc, joint, link, q, recheck, rectangle, rr, scene, wall,
 };
-use cplan::check::{CertifiedPath, Deviation, Posture, ProofError, Rejection, StuckBox, certify};
+use cplan::check::{CertifiedPath, Deviation, Posture, ProofError, Rejection, StraightMotions, StuckBox, certify};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::search::{Connectivity, Occupancy, connectivity, explore};
@@ -38,9 +38,14 @@ proptest! {
         let (from, to) = (inside(&scene, a.0, a.1), inside(&scene, b.0, b.1));
         let path = Path::new(vec![from, from + (to - from) * t]);
         let seen = sampled(&scene, &path, 4000);
+        let keeps = |clearance: f64| StraightMotions::new(&scene, clearance).is_free(path.start(), path.goal());
+        prop_assert!(!keeps(0.0) || seen > 0.0);
+        prop_assert!(!keeps(0.1) || seen >= 0.1);
+        prop_assert!(keeps(0.1) || seen < 0.1 + 8.0 / 4000.0);
+        let is_free = keeps(0.0);
         match certify(&scene, path, 0.0) {
             Ok(certified) => {
-                prop_assert!(certified.clearance() > 0.0);
+                prop_assert!(is_free && certified.clearance() > 0.0);
                 prop_assert!(certified.clearance() <= seen + 1e-12);
                 // A sample is at most half a step away from the nearest configuration.
                 prop_assert!(certified.clearance() >= 0.9 * (seen - 8.0 / 4000.0));

@@ -282,7 +282,9 @@ impl<'a> Strips<'a> {
             self.portals(slice).iter().flat_map(|portal| [-1.0, 0.0, 1.0].map(|by| portal.turned(by + turns / TAU)));
         let off = |portal: &Portal| f64::max(portal.lower - q2, q2 - portal.upper).max(0.0);
         let nearest = portals.filter(|portal| condition(portal)).min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest.map(|portal| [portal.lower.max(bottom), portal.upper.min(top)])
+        let within = nearest.map(|portal| [portal.lower.max(bottom), portal.upper.min(top)]);
+        // The nearest that fulfils the condition may be more than half a turn off.
+        within.filter(|[lower, upper]| lower <= upper)
     }
 
     /// The goals of a piece that are not closed: exact where joint 1 is the same all along it. Other pieces are left to the

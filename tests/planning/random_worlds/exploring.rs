@@ -233,6 +233,17 @@ fn explorations_say_what_is_true() {
     }
 }
 
+/// One of these has a way whose next portal, the only one of its cell, is more than half a turn of joint 2 off.
+#[test]
+fn a_portal_beyond_half_a_turn_ends_a_sleeve() {
+    let worlds: Vec<MotionProblem> = KINDS.iter().filter_map(|kind| world(kind, 11)).collect();
+    assert!(!worlds.is_empty());
+    for problem in worlds {
+        let sensor = sensor(problem.scene(), 11);
+        is_true(&problem, &sensor, &explored(&problem, &sensor, Strategy::Goal));
+    }
+}
+
 #[test]
 fn explorations_are_the_same_every_time() {
     let noisy = |problem: &MotionProblem| Sensor { noise: 0.01, ..sensor(problem.scene(), 3) };
