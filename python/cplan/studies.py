@@ -30,6 +30,11 @@ class Study(_Study):
     `len(study)` is the number of layouts. Rows follow from a layout's number and the files alone.
     """
 
+    @classmethod
+    def from_text(cls, text: str, arm: Arm, world: World) -> "Study":
+        """The study of a text (TOML, which need not name robot and world) for a robot in URDF and a world."""
+        return cls("", cls.sources(text, arm, world))
+
     def run(
         self,
         *,

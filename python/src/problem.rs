@@ -27,6 +27,11 @@ impl Arm {
     pub fn of(urdf: Source) -> Self {
         Self(What::Urdf(urdf))
     }
+
+    /// The URDF; none of an arm that is made in code.
+    pub fn source(&self) -> Option<&Source> {
+        if let What::Urdf(source) = &self.0 { Some(source) } else { None }
+    }
 }
 
 #[pymethods]
@@ -119,6 +124,11 @@ impl World {
     /// The world of a file.
     pub fn of(source: Source) -> Self {
         Self { source }
+    }
+
+    /// The world file.
+    pub fn source(&self) -> &Source {
+        &self.source
     }
 }
 

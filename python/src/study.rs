@@ -3,6 +3,7 @@
 use crate::error::{raised, refused};
 use crate::problem::{Arm, World};
 use crate::signals::interruptible;
+use cplan::input::Source;
 use cplan::study::{self, Row, Summary};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyValueError};
@@ -36,6 +37,15 @@ impl Study {
             }
         };
         study.map(|study| Self { study }).map_err(|error| raised(py, &error))
+    }
+
+    /// What `sources` is for a study of this text, with a robot that was read from a URDF and a world.
+    #[staticmethod]
+    fn sources(text: String, arm: &Arm, world: &World) -> PyResult<String> {
+        let urdf = arm
+            .source()
+            .ok_or_else(|| PyValueError::new_err("a study needs a robot in URDF, and this arm is made in code"))?;
+        serde_json::to_string(&(Source::in_memory("study.toml", text), urdf, world.source())).map_err(refused)
     }
 
     /// The title.

@@ -140,6 +140,18 @@ def test_a_run_that_is_stopped_goes_on(study: cplan.Study, results: cplan.Result
     assert study.run(journal=journal, fresh=True) == results
 
 
+def test_a_study_of_texts_is_that_of_the_files(study: cplan.Study, results: cplan.Results) -> None:
+    arm = cplan.Arm.from_urdf(ROOT / "robots/planar_2r.urdf")
+    world = cplan.World.from_text(WORLD)
+    text = 'objective = "least duration"\n[search]\nlayouts = 20\n'
+    for k, axis in enumerate("xy"):
+        text += f'[[parameter]]\nname = "{axis}"\nsets = "world.obstacle.crate.at[{k}]"\nfrom = -1.5\nto = 1.5\nsteps = 5\n'
+    of_text = cplan.Study.from_text(text, arm, world)
+    assert isinstance(of_text, cplan.Study) and of_text.run().rows == results.rows
+    with pytest.raises(ValueError, match="made in code"):
+        cplan.Study.from_text(text, cplan.Arm.rr([1.0, 0.8], width=0.06), world)
+
+
 def test_bad_studies_say_where(tmp_path: Path) -> None:
     with pytest.raises(cplan.InputError, match="line 3, column 1"):
         cplan.Study(written(tmp_path, "size = 3"))

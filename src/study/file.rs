@@ -20,7 +20,7 @@ const MOST_LAYOUTS: usize = 100_000_000;
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
 
 /// How a file that a study names is had.
-type Open<'a> = &'a dyn Fn(Named, &str) -> Result<Source, InputError>;
+type Open<'a> = &'a dyn Fn(Named, Option<&str>) -> Result<Source, InputError>;
 
 type Text = Spanned<String>;
 
@@ -32,12 +32,12 @@ type Text = Spanned<String>;
 struct StudyFile {
     /// Title of tables and pages; by default the file's name.
     name: Option<String>,
-    /// The robot's URDF, relative to this file.
-    #[schemars(with = "String")]
-    robot: Text,
-    /// The world file, relative to this file.
-    #[schemars(with = "String")]
-    world: Text,
+    /// The robot's URDF, relative to this file. It may be missing where the robot is given otherwise, as in Python.
+    #[schemars(with = "Option<String>")]
+    robot: Option<Text>,
+    /// The world file, relative to this file. It may be missing where the world is given otherwise.
+    #[schemars(with = "Option<String>")]
+    world: Option<Text>,
     /// Options of the main job, such as ["--planner=first", "--clearance=0.01"].
     #[schemars(with = "Option<Vec<String>>")]
     options: Option<Spanned<Vec<String>>>,
@@ -165,8 +165,16 @@ struct Reader<'a> {
 /// Everything that is wrong with them, with line, column and cure.
 pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
     let study = Source::read(path)?;
-    let beside = |name: &str| Source::read(&path.with_file_name(name));
-    read(&study, read_options, &|_, name| beside(name))
+    let beside = |which: Named, name: Option<&str>| {
+        let missing = || {
+            let (key, example) = which.words();
+            study
+                .diagnostic(format!("the study names no {key}"))
+                .help(format!("write {key} = \"{example}\" at its beginning"))
+        };
+        Source::read(&path.with_file_name(name.ok_or_else(missing)?))
+    };
+    read(&study, read_options, &beside)
 }
 
 /// A file that a study names.
@@ -174,6 +182,16 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
 pub(super) enum Named {
     Robot,
     World,
+}
+
+impl Named {
+    /// The key that names it, and an example.
+    fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Robot => ("robot", "arm.urdf"),
+            Self::World => ("world", "world.toml"),
+        }
+    }
 }
 
 /// The JSON schema of study files, for editors.
@@ -193,8 +211,8 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
         };
         diagnostic.help("`cplan help study` shows a study; `cplan schema study` is what editors check by")
     })?;
-    let urdf = reader.named(Named::Robot, &file.robot, open)?;
-    let world = reader.named(Named::World, &file.world, open)?;
+    let urdf = reader.named(Named::Robot, file.robot.as_ref(), open)?;
+    let world = reader.named(Named::World, file.world.as_ref(), open)?;
     let (options, overrides) = match &file.options {
         None => (Options::default(), Overrides::default()),
         Some(words) => read_options(words.get_ref()).map_err(|why| {
@@ -264,11 +282,13 @@ impl Reader<'_> {
     }
 
     /// A file that the study names.
-    fn named(&self, which: Named, name: &Text, open: Open) -> Result<Source, InputError> {
-        open(which, name.get_ref()).map_err(|error| match error.diagnostics() {
-            [only] => self
-                .wrong(name.span(), format!("{}: {}", name.get_ref(), only.message), "paths are relative to the study")
-                .into(),
+    fn named(&self, which: Named, name: Option<&Text>, open: Open) -> Result<Source, InputError> {
+        let named = name.map(|name| name.get_ref().as_str());
+        open(which, named).map_err(|error| match (name, error.diagnostics()) {
+            (Some(name), [only]) => {
+                let message = format!("{}: {}", name.get_ref(), only.message);
+                self.wrong(name.span(), message, "paths are relative to the study").into()
+            }
             _ => error,
         })
     }

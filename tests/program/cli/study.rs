@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 /// A world whose second obstacle is moved about, into the start and away.
 const WORLD: &str = "[[obstacle]]\nname = \"shelf\"\npolygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]\n\
-                     [[obstacle]]\nname = \"crate\"\npolygon = [[-0.15, -0.15], [0.15, -0.15], [0.15, 0.15], [-0.15, 0.15]]\n";
+                     [[obstacle]]\nname = \"crate\"\nat = [0.65, -1.45]\npolygon = [[-0.15, -0.15], [0.15, -0.15], [0.15, 0.15], [-0.15, 0.15]]\n";
 
 fn study(place: &Place, head: &str, parameters: &str) -> String {
     place.write("world.toml", format!("{FREE}{WORLD}"));
@@ -36,9 +36,16 @@ fn rows(csv: &str) -> Vec<Vec<(String, String)>> {
 
 /// The fields of a line, some of which are in quotation marks.
 fn fields(line: &str) -> Vec<String> {
-    let (mut fields, mut is_quoted) = (vec![String::new()], false);
+    let (mut fields, mut is_quoted, mut before) = (vec![String::new()], false, ',');
     for c in line.chars() {
+        // Two in a row inside quotation marks are one.
+        let is_second = c == '"' && before == '"' && !is_quoted && !line.starts_with("\"\"");
+        before = c;
         match c {
+            '"' if is_second => {
+                fields.last_mut().unwrap().push('"');
+                is_quoted = true;
+            }
             '"' => is_quoted = !is_quoted,
             ',' if !is_quoted => fields.push(String::new()),
             c => fields.last_mut().unwrap().push(c),
@@ -244,6 +251,8 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
     }
     place.write("study.toml", "robot = \"none.urdf\"\nworld = \"world.toml\"\n");
     run(&place, "").refused(1, &["line 1, column 9", "none.urdf", "relative to the study"]);
+    place.write("study.toml", "world = \"world.toml\"\n");
+    run(&place, "").refused(1, &["study.toml", "names no robot", "robot = \"arm.urdf\""]);
     study(&place, "", &format!("{x}steps = 2\n"));
     run(&place, "--output t.pdf").refused(2, &[".csv, .parquet, .html or .json"]);
     run(&place, "--layout 2").refused(1, &["the study has 2 layouts, from 0 on"]);
