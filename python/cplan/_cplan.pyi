@@ -31,6 +31,7 @@ __all__ = [
     "plan",
     "polygon_test",
     "restored",
+    "rows_restored",
     "run",
     "seconds_in_rust",
     "slices",
@@ -241,9 +242,8 @@ class Rows:
     def __len__(self) -> int: ...
     def split(self, count: int) -> tuple[Rows, Rows]: ...
     def values(self, row: int) -> list[float]: ...
-    @staticmethod
-    def restored(data: bytes) -> Rows: ...
 
+def rows_restored(data: bytes) -> Rows: ...
 @final
 class Journal:
     @staticmethod

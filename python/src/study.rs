@@ -208,15 +208,17 @@ impl Rows {
         self.rows.get(row).map(|row| row.values.clone()).ok_or_else(|| PyValueError::new_err("there is no such row"))
     }
 
-    #[staticmethod]
-    fn restored(data: &[u8]) -> PyResult<Self> {
-        serde_json::from_slice(data).map(|rows| Self { rows }).map_err(refused)
-    }
-
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
         let data = serde_json::to_vec(&slf.get().rows).map_err(refused)?;
-        Ok((slf.get_type().getattr("restored")?, (PyBytes::new(slf.py(), &data),)))
+        let restored = slf.py().import("cplan._cplan")?.getattr("rows_restored")?;
+        Ok((restored, (PyBytes::new(slf.py(), &data),)))
     }
+}
+
+/// Rows from what they were pickled as.
+#[pyfunction]
+pub fn rows_restored(data: &[u8]) -> PyResult<Rows> {
+    serde_json::from_slice(data).map(|rows| Rows { rows }).map_err(refused)
 }
 
 /// Rows of a study on disk while it runs.

@@ -170,7 +170,7 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     let place = Place::new();
     let base = "[[parameter]]\nname = \"x\"\nunit = \"m\"\nsets = \"world.robot.at[0]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n\
                 [[parameter]]\nname = \"y\"\nsets = \"world.robot.at[1]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n";
-    let head = "measure = [\"length\", \"clearance\"]\nobjective = \"least length\"\nconditions = [\"clearance >= 0.002\"]\n[search]\nlayouts = 60";
+    let head = "measure = [\"length\", \"clearance\"]\nobjective = \"least length\"\noptions = [\"--clearance=0.003\"]\nconditions = [\"clearance >= 0.002\"]\n[search]\nlayouts = 60";
     study(&place, head, base);
     let done = run(&place, "--output t.csv --output best.toml --output best.urdf --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
