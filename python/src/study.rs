@@ -232,10 +232,7 @@ impl Journal {
     /// Opens the journal of a study, with the rows that an earlier run has left; `fresh` begins anew.
     #[staticmethod]
     fn open(path: PathBuf, study: &Study, fresh: bool) -> PyResult<(Self, Rows)> {
-        if fresh && path.exists() {
-            std::fs::remove_file(&path)?;
-        }
-        let (journal, rows) = study::Journal::open(&path, &study.study).map_err(failed)?;
+        let (journal, rows) = study::Journal::open(&path, &study.study, fresh).map_err(failed)?;
         Ok((Self { journal: Mutex::new(Some(journal)) }, Rows { rows }))
     }
 

@@ -34,7 +34,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
         return Err(Failure::Usage("--per-step is for worlds with steps".into()));
     }
     let problem = Problem::of_scene(loaded, &args.query.overrides())?.read_since(begun);
-    if let Some(lack) = args.options.lack(&problem.scene().workspace().preferences) {
+    if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());

@@ -85,15 +85,9 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         return write_layout(&study, layout, &files);
     }
     let journal = files.first().map(|(path, _)| part(path));
-    let (mut journal, mut rows) = match &journal {
-        Some(path) if args.fresh => {
-            // What is not there need not be removed.
-            let _ = std::fs::remove_file(path);
-            Journal::open(path, &study).map(|(journal, rows)| (Some(journal), rows))?
-        }
-        Some(path) => Journal::open(path, &study).map(|(journal, rows)| (Some(journal), rows))?,
-        None => (None, Vec::new()),
-    };
+    sinks::spare_inputs(journal.iter().map(PathBuf::as_path))?;
+    let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
+    let (mut journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
         args.print.say(&format!("goes on after {} that an earlier run has planned in", counted(rows.len(), "layout")));
     }
@@ -123,9 +117,16 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     rows.append(&mut found);
     progress.end();
     let summary = Summary::new(&study, &rows);
-    let written: Result<Vec<_>, Failure> =
-        files.iter().map(|(path, content)| Ok((path.clone(), bytes(&study, &rows, &summary, *content)?))).collect();
-    write_whole_set(&written?)?;
+    let mut written = Vec::new();
+    for (path, content) in &files {
+        match bytes(&study, &rows, &summary, *content)? {
+            Some(bytes) => written.push((path.clone(), bytes)),
+            None => {
+                sinks::say(&format!("warning: {} is not written: no layout fits, so none is the best", path.display()))
+            }
+        }
+    }
+    write_whole_set(&written)?;
     journal.map_or(Ok(()), Journal::remove)?;
     args.print.tell(|| sinks::pretty(&summary.to_json()), || summary.to_text())?;
     Ok(DONE)
@@ -170,7 +171,10 @@ fn part(path: &Path) -> PathBuf {
 
 fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> Result<u8, Failure> {
     if layout >= study.count() {
-        let message = format!("--layout {layout}: the study has {}, from 0 on", counted(study.count(), "layout"));
+        let count = counted(study.count(), "layout");
+        let message = format!(
+            "--layout {layout}: the study has {count}, from 0 on; of the search's the best is written by --output best.toml alone"
+        );
         return Err(Failure::Option(message));
     }
     let [world, urdf] = study.layout(&study.values(layout));
@@ -182,19 +186,15 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
     Ok(DONE)
 }
 
-fn bytes(study: &Study, rows: &[Row], summary: &Summary, content: Content) -> Result<Vec<u8>, Failure> {
-    let best = |which: usize| {
-        let best = summary
-            .best()
-            .ok_or_else(|| Failure::Option("no layout fits, so none is the best: its files are not written".into()))?;
-        Ok::<_, Failure>(study.layout(&best.values)[which].text().as_bytes().to_vec())
-    };
+/// What a file holds; none of the best layout where there is none.
+fn bytes(study: &Study, rows: &[Row], summary: &Summary, content: Content) -> Result<Option<Vec<u8>>, Failure> {
+    let best = |which: usize| Some(study.layout(&summary.best()?.values)[which].text().as_bytes().to_vec());
     Ok(match content {
-        Content::Csv => study.csv(rows).into_bytes(),
-        Content::Parquet => study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?,
-        Content::Page => study.html(rows, &pictures(study, rows)).into_bytes(),
-        Content::Summary => sinks::pretty(&summary.to_json())?.into_bytes(),
-        Content::World => best(0)?,
-        Content::Robot => best(1)?,
+        Content::Csv => Some(study.csv(rows).into_bytes()),
+        Content::Parquet => Some(study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?),
+        Content::Page => Some(study.html(rows, &pictures(study, rows)).into_bytes()),
+        Content::Summary => Some(sinks::pretty(&summary.to_json())?.into_bytes()),
+        Content::World => best(0),
+        Content::Robot => best(1),
     })
 }

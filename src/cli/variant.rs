@@ -2,7 +2,6 @@
 
 use crate::engine::Planner;
 use crate::grammar::{EffortArgs, PlannerArgs, PlannerWords};
-use crate::model::Preference;
 use clap::Parser;
 
 /// A planner with options, in the grammar of the main job.
@@ -43,10 +42,5 @@ impl Variant {
     /// Why what its field is relaxed on cannot be had, if it cannot, with the cure.
     pub fn missing(&self) -> Option<String> {
         self.options.missing()
-    }
-
-    /// What it needs and these regions of the world lack, if anything.
-    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
-        self.options.lack(preferences)
     }
 }

@@ -29,8 +29,6 @@ struct Words {
 pub(super) struct Asked {
     pub options: Options,
     pub overrides: Overrides,
-    /// What the planner was told, which may need something of the world.
-    pub planner: PlannerArgs,
 }
 
 /// Reads words such as `--planner=harmonic` and `--cells=80`.
@@ -49,7 +47,7 @@ pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
     let words = Words::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
     let Words { planner, query, motion, message, options: given } = words;
     let options = self::options(planner, &given, &motion, &message)?;
-    Ok(Asked { options, overrides: query.overrides(), planner: given })
+    Ok(Asked { options, overrides: query.overrides() })
 }
 
 /// What is wrong with words, without the usage of a program.

@@ -95,6 +95,9 @@ pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(
     if let Some(error) = options.error(problem.task().is_some()) {
         return Err(PlanError::Options(error));
     }
+    if let Some(lack) = options.planner.lack(&problem.scene().workspace().preferences) {
+        return Err(PlanError::Options(lack));
+    }
     let mut clock = Clock::after(problem.read_in().map(|time| ("load", time)).into_iter().collect());
     let (made, mut report) = match problem.asked() {
         Asked::Motion(motion) => {

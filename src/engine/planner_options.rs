@@ -2,8 +2,8 @@
 
 use super::{CellCounts, GridSpace, Method};
 use crate::field::Neighborhood;
-use crate::model::Arm;
-use crate::planner::{FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, Wavefront};
+use crate::model::{Arm, Preference};
+use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, GridSearch, PathKind, Prm, RoadmapSearch, Wavefront};
 use crate::space::Metric;
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -363,6 +363,29 @@ impl Planner {
     #[must_use]
     pub fn field(&self) -> Option<&FieldPlanner> {
         if let Planner::Harmonic { field, .. } = self { field.as_ref() } else { None }
+    }
+
+    /// What its field needs and these regions of the world lack, if anything, with the cure.
+    #[must_use]
+    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
+        let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
+        let name = match equation {
+            EquationChoice::LocallyOriented { direction, .. } => {
+                if preferences.is_empty() {
+                    return Some("--field local needs [[preference]] regions in the world file".into());
+                }
+                let lost = preferences.iter().find(|region| region.direction.is_none() && direction.is_none())?;
+                let name = &lost.name;
+                return Some(format!(
+                    "--field local: the preference \"{name}\" has no direction; give it one, or --direction"
+                ));
+            }
+            EquationChoice::Preference { elsewhere: 0.0, .. } => "bvp",
+            EquationChoice::AlteredPreference { elsewhere: 0.0 } => "bvp2",
+            _ => return None,
+        };
+        let needs = || format!("--field {name} needs [[preference]] regions in the world file, or --epsilon");
+        preferences.is_empty().then(needs)
     }
 
     /// What of it makes no sense, by name.

@@ -5,7 +5,6 @@ use crate::engine::Method;
 use crate::field::{
     Attraction, Device, Difference, Direction, Factor, Khatib, Limits, Lines, Order, Relaxation, Repulsion, Scan,
 };
-use crate::model::Preference;
 use crate::planner::{EquationChoice, FieldChoice, FieldPlanner, PathKind};
 use clap::{Args, ValueEnum};
 
@@ -215,27 +214,6 @@ impl FieldArgs {
     /// Why what it is relaxed on cannot be had, if it cannot, with the cure.
     pub fn missing(&self) -> Option<String> {
         self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
-    }
-
-    /// What the field needs and these regions of the world lack, if anything.
-    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
-        let name = self.field?.to_possible_value()?.get_name().to_owned();
-        match self.field? {
-            FieldName::Local if preferences.is_empty() => {
-                Some("--field local needs [[preference]] regions in the world file".into())
-            }
-            FieldName::Local if self.direction.is_none() => {
-                let lost = preferences.iter().find(|preference| preference.direction.is_none())?;
-                Some(format!(
-                    "--field local: the preference \"{}\" has no direction; give it one, or --direction",
-                    lost.name
-                ))
-            }
-            FieldName::Bvp | FieldName::Bvp2 if preferences.is_empty() && self.epsilon.is_none() => {
-                Some(format!("--field {name} needs [[preference]] regions in the world file, or --epsilon"))
-            }
-            _ => None,
-        }
     }
 
     /// The options that were given, in the order of the help.

@@ -5,7 +5,6 @@ use super::number::number_in;
 use super::roadmap::RoadmapArgs;
 use crate::engine::{CellCounts, Criterion, GridSpace, LEVELS, MOST_MARGIN, Method, Options, Planner};
 use crate::field::Neighborhood;
-use crate::model::Preference;
 use crate::planner::{FieldPlanner, GridSearch, PathKind};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, ValueEnum};
@@ -162,11 +161,6 @@ impl PlannerArgs {
     /// Why what the field is relaxed on cannot be had, if it cannot, with the cure.
     pub fn missing(&self) -> Option<String> {
         self.field.missing()
-    }
-
-    /// What the field needs and these regions of the world lack, if anything.
-    pub fn lack(&self, preferences: &[Preference]) -> Option<String> {
-        self.field.lack(preferences)
     }
 }
 

@@ -126,6 +126,7 @@ impl LoadedScene {
         let (usual, wishes) = (Sensor::usual(self.scene.arm()), &self.world.sensor);
         Sensor {
             mount: wishes.mount.unwrap_or(usual.mount),
+            turn: self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle()),
             rays: wishes.rays.unwrap_or(usual.rays),
             field_of_view: wishes.field_of_view.unwrap_or(usual.field_of_view),
             range: wishes.range.unwrap_or(usual.range),

@@ -274,7 +274,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
         let (at, angle) = (place.translation.vector, place.rotation.angle());
-        format!("robot: its root frame stands at ({}, {}) m, turned by {angle} rad", at.x, at.y)
+        format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
     Ok(World {
         notes,

@@ -2,6 +2,7 @@
 
 use super::Arm;
 use crate::geometry::{Point, Vector};
+use nalgebra::Rotation2;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -11,7 +12,7 @@ use std::f64::consts::TAU;
 pub enum Mount {
     /// The tip. Straight ahead is from link 2's origin to the tip (link 2's x axis where they coincide).
     Tip,
-    /// Nothing: it stands on the base. Straight ahead is the plane's x axis.
+    /// Nothing: it stands on the base. Straight ahead is the robot's x axis: that of the plane, turned as the robot is.
     Base,
 }
 
@@ -21,6 +22,8 @@ pub enum Mount {
 pub struct Sensor {
     /// What it moves with.
     pub mount: Mount,
+    /// How the robot is turned in the world, radians.
+    pub turn: f64,
     /// Number of rays, at least one.
     pub rays: usize,
     /// Angle between the outermost rays, radians, at most a whole turn, over which rays are spread evenly.
@@ -47,17 +50,28 @@ impl Sensor {
     pub fn usual(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::CELLS;
         let range = arm.reach() / 2.0;
-        Self { mount: Mount::Tip, rays: 360, field_of_view: TAU, range, step: 0.1, noise: 0.0, seed: 0, cell }
+        Self {
+            mount: Mount::Tip,
+            turn: 0.0,
+            rays: 360,
+            field_of_view: TAU,
+            range,
+            step: 0.1,
+            noise: 0.0,
+            seed: 0,
+            cell,
+        }
     }
 
     /// Where it is and where straight ahead is, as an angle.
     #[must_use]
     pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
         match self.mount {
-            Mount::Base => (arm.base, 0.0),
+            Mount::Base => (arm.base, self.turn),
             Mount::Tip => {
                 let pose = arm.pose(1, q.into());
-                let ahead = if arm.tip == Point::origin() { Vector::x() } else { arm.tip.coords };
+                let x = Rotation2::new(self.turn) * Vector::x();
+                let ahead = if arm.tip == Point::origin() { x } else { arm.tip.coords };
                 let ahead = pose * ahead;
                 (pose * arm.tip, ahead.y.atan2(ahead.x))
             }
@@ -113,6 +127,8 @@ mod tests {
         let rays: Vec<f64> = round.rays(0.0).collect();
         assert!(rays.windows(2).all(|w| (w[1] - w[0] - TAU / 4.0).abs() < 1e-12), "{rays:?}");
         assert_eq!(Sensor { rays: 1, ..sensor }.rays(0.3).collect::<Vec<_>>(), [0.3]);
+        let turned = Sensor { mount: Mount::Base, turn: 0.7, ..sensor };
+        assert_eq!(turned.pose(&arm, [1.0, 2.0]), (arm.base, 0.7));
         let (at, ahead) = Sensor { mount: Mount::Base, ..sensor }.pose(&arm, [1.0, 2.0]);
         assert_eq!((at, ahead), (arm.base, 0.0));
         Ok(())

@@ -210,6 +210,10 @@ fn written(shape: &Form) -> Value {
 
 /// The shape of an `[[obstacle]]`, if it has exactly one that the page can change.
 fn form(table: &Table) -> Option<Form> {
+    // What has a frame of its own is not where its points say.
+    if table.contains_key("at") || table.contains_key("angle") {
+        return None;
+    }
     let corners = |key: &str| -> Option<Vec<Pair>> {
         table.get(key)?.as_array()?.iter().map(|p| pair_of(p.as_array()?)).collect()
     };
@@ -285,6 +289,15 @@ image = \"map.yaml\"
 
     fn kept(from: usize) -> Piece {
         Piece { from: Some(from), ..Piece::default() }
+    }
+
+    #[test]
+    fn what_has_a_frame_of_its_own_is_not_for_the_page_to_change() {
+        let forms = |text: &str| Document::parse(text).unwrap().forms();
+        let disc = "[[obstacle]]\ncircle = { center = [1, 2], radius = 0.5 }\n";
+        assert!(forms(disc)[0].is_some());
+        assert_eq!(forms(&format!("{disc}at = [1, 0]\n")), [None]);
+        assert_eq!(forms(&format!("{disc}angle = 0.5\n")), [None]);
     }
 
     #[test]

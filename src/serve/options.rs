@@ -11,7 +11,6 @@ const SHORTEST_PERIOD: f64 = 1e-3;
 /// A planner and what is asked of it.
 #[derive(Debug)]
 pub struct Options {
-    grammar: Grammar,
     options: engine::Options,
 }
 
@@ -55,7 +54,7 @@ impl Options {
             jerk: grammar.motion.jerk(),
             ..engine::Options::default()
         };
-        Ok(Self { grammar, options })
+        Ok(Self { options })
     }
 
     /// For planning in a scene.
@@ -63,7 +62,7 @@ impl Options {
     /// # Errors
     /// A field that follows preferences of the world, which has none.
     pub fn within(&self, scene: &Scene) -> Result<&engine::Options, String> {
-        self.grammar.options.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
+        self.options.planner.lack(&scene.workspace().preferences).map_or(Ok(&self.options), Err)
     }
 }
 

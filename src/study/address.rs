@@ -75,23 +75,36 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
         _ => return text.to_owned(),
     };
     let Some((_, silent)) = SILENT.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
-    let Ok(document) = DeTable::parse(text) else { return text.to_owned() };
-    match descend(document.get_ref(), document.span(), table) {
-        Ok((DeRef::Table(given), at)) if given.get(key.as_str()).is_none() => {
-            // A table with a header begins at its bracket, an inline one at its brace.
-            let opening = &text[at.start..];
-            let (end, written) = match opening.chars().next() {
-                Some('{') if opening[1..].trim_start().starts_with('}') => (1, format!(" {key} = {silent} ")),
-                Some('{') => (1, format!(" {key} = {silent},")),
-                _ => (opening.find('\n').map_or(opening.len(), |end| end + 1), format!("{key} = {silent}\n")),
-            };
-            let (before, after) = text.split_at(at.start + end);
-            let break_before = if before.ends_with(['\n', '{']) { "" } else { "\n" };
-            format!("{before}{break_before}{written}{after}")
-        }
-        Err(_) if table.len() == 1 => format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()),
-        _ => text.to_owned(),
-    }
+    // Tables are written in several ways: what puts the number where it belongs is right.
+    let candidates =
+        [inside(text, table, key, silent), below(text, table, key, silent), above(text, table, key, silent)];
+    let written = candidates.into_iter().flatten().find(|text| in_world(text, steps).is_ok());
+    written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
+}
+
+/// The key at the beginning of its table, which has a header or is inline.
+fn inside(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+    let document = DeTable::parse(text).ok()?;
+    let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
+    let opening = &text[at.start..];
+    let (end, written) = match opening.chars().next()? {
+        '{' if opening[1..].trim_start().starts_with('}') => (1, format!(" {key} = {silent} ")),
+        '{' => (1, format!(" {key} = {silent},")),
+        _ => (opening.find('\n').map_or(opening.len(), |end| end + 1), format!("{key} = {silent}\n")),
+    };
+    let (before, after) = text.split_at(at.start + end);
+    let break_before = if before.ends_with(['\n', '{']) { "" } else { "\n" };
+    Some(format!("{before}{break_before}{written}{after}"))
+}
+
+/// The key in a table of its own, for a robot of which nothing is said, or only in tables below it.
+fn below(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+    (table.len() == 1).then(|| format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()))
+}
+
+/// The key beside others of a robot whose keys are written with dots.
+fn above(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
+    (table.len() == 1).then(|| format!("robot.{key} = {silent}\n{text}"))
 }
 
 /// What stands somewhere in a TOML document.
@@ -117,7 +130,14 @@ fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Resul
         let next = match (&here.0, step) {
             (DeRef::Table(table), Step::Name(name)) => table.get(name.as_str()),
             (DeRef::Array(array), Step::Number(number)) => array.get(*number),
-            (DeRef::Array(array), Step::Name(name)) => array.iter().find(|entry| is_named(entry.get_ref(), name)),
+            (DeRef::Array(array), Step::Name(name)) => {
+                let mut named = array.iter().filter(|entry| is_named(entry.get_ref(), name));
+                let first = named.next();
+                if named.next().is_some() {
+                    return Err(format!("several are named \"{name}\": say which by its number, as in [0]"));
+                }
+                first
+            }
             _ => None,
         };
         here = seen(next.ok_or_else(|| missing(&here.0, step))?);
@@ -196,7 +216,14 @@ pub(super) fn in_urdf(text: &str, steps: &[Step]) -> Result<Found, String> {
             Some(Step::Name(wanted)) if ["joint", "link"].contains(&name.as_str()) => {
                 children.find(|child| child.attribute("name") == Some(wanted.as_str())).map(|child| (child, true))
             }
-            _ => children.next().map(|child| (child, false)),
+            _ => {
+                let first = children.next();
+                let others = children.count();
+                if others > 0 {
+                    return Err(format!("there are {} <{name}>: say which, as in {name}[0]", others + 1));
+                }
+                first.map(|child| (child, false))
+            }
         };
         let (child, is_chosen) = which.ok_or_else(|| {
             let chosen = steps.peek().map_or_else(String::new, |step| format!(" {step}"));
@@ -241,6 +268,9 @@ mod tests {
         assert_eq!(number("goal.joints"), Err("it is a list: say which entry, as in [0]".into()));
         assert_eq!(number("obstacle.c.at[0]"), Err("there is no \"c\"; there is a post, b, or [0] to [1]".into()));
         assert_eq!(number("goal.tip[0]"), Err("there is no \"tip\"; there is joints".into()));
+        let twins = WORLD.replace("\"b\"", "\"a post\"");
+        let several = in_world(&twins, &steps("obstacle.\"a post\".circle.radius").unwrap());
+        assert_eq!(several, Err("several are named \"a post\": say which by its number, as in [0]".into()));
         assert_eq!(number("goal..joints"), Err("goal..joints: a name is missing".into()));
     }
 
@@ -255,6 +285,11 @@ mod tests {
         }
         let inline = "robot = { tip = \"t\" }\n";
         assert_eq!(written_out(inline, &steps("robot.at[0]").unwrap()), "robot = { at = [0.0, 0.0], tip = \"t\" }\n");
+        let dotted = "robot.tip = \"t\"\n";
+        assert_eq!(written_out(dotted, &steps("robot.angle").unwrap()), "robot.angle = 0.0\nrobot.tip = \"t\"\n");
+        let below = "[robot.velocity]\nshoulder = 1.0\n";
+        let written = written_out(below, &steps("robot.at[0]").unwrap());
+        assert_eq!(written, "[robot.velocity]\nshoulder = 1.0\n\n[robot]\nat = [0.0, 0.0]\n");
         let last = "[[obstacle]]";
         assert_eq!(written_out(last, &steps("obstacle[0].angle").unwrap()), "[[obstacle]]\nangle = 0.0\n");
     }
@@ -266,12 +301,14 @@ mod tests {
         let number = |address: &str| in_urdf(text, &steps(address)?).map(|found| &text[found.at]);
         assert_eq!(number("joint.j.origin.xyz[1]"), Ok("0.2"));
         assert_eq!(number("link.l.collision[1].geometry.sphere.radius"), Ok("0.5"));
-        assert_eq!(number("link.l.collision.geometry.box.size[2]"), Ok("3"));
+        assert_eq!(number("link.l.collision[0].geometry.box.size[2]"), Ok("3"));
         assert_eq!(
             number("joint.k.origin.xyz[1]").unwrap_err(),
             "there is no joint \"k\" in <robot>, which has name, link, joint"
         );
         assert_eq!(number("joint.j.origin.xyz[3]"), Err("xyz has 3 entries".into()));
+        let several = "there are 2 <collision>: say which, as in collision[0]";
+        assert_eq!(number("link.l.collision.geometry.box.size[2]"), Err(several.into()));
         assert_eq!(number("joint.j"), Err("it is an element: say which attribute".into()));
         assert_eq!(number("joint.j.name"), Err("j is no number".into()));
     }

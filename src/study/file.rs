@@ -14,7 +14,7 @@ use std::path::Path;
 use toml::Spanned;
 
 /// Layouts of a study at the most.
-const MOST_LAYOUTS: usize = 100_000_000;
+const MOST_LAYOUTS: usize = 20_000_000;
 
 /// How words such as `--planner=first` are read; they are those of the main job.
 pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides), String>;
@@ -249,12 +249,26 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
         objective.or_else(|| first().map(|measure| Objective { measure, most: measure == Measure::Clearance }));
     let wanted =
         conditions.iter().map(|condition| condition.measure).chain(objective.map(|objective| objective.measure));
-    let mut all = measures;
+    let mut all: Vec<Measure> = Vec::new();
+    measures.into_iter().for_each(|measure| {
+        if !all.contains(&measure) {
+            all.push(measure);
+        }
+    });
     wanted.for_each(|measure| {
         if !all.contains(&measure) {
             all.push(measure)
         }
     });
+    let bounds = [Measure::OverBound, Measure::LowerBound];
+    let asked = file.conditions.iter().zip(conditions.iter().map(|condition| condition.measure));
+    let asked = asked.chain(file.objective.iter().zip(objective.map(|objective| objective.measure)));
+    for (text, measure) in asked {
+        if base.has_steps() && bounds.contains(&measure) {
+            let message = format!("a world with steps has no {}", measure.name());
+            return Err(reader.wrong(text.span(), message, "its duration is what is bounded: use that").into());
+        }
+    }
     let searched =
         file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
     let stem = source.stem().unwrap_or_else(|| "study".to_owned());
@@ -314,6 +328,15 @@ impl Reader<'_> {
             (None, None) => None,
             _ => return Err(self.wrong(at, format!("{what} has one of `from` and `to`"), "give it both")),
         };
+        if let (Some((from, to)), Some(given)) = (ends, &table.from)
+            && !(to - from).is_finite()
+        {
+            return Err(self.wrong(
+                given.span(),
+                format!("{what}: from {from} to {to} is too far"),
+                "write a smaller range",
+            ));
+        }
         if let (Some((from, to)), Some(given)) = (ends, &table.from)
             && from > to
         {
@@ -382,7 +405,7 @@ impl Reader<'_> {
             (None, None) => Ok(1),
             (Some(draws), Some(_)) => match *draws.get_ref() {
                 n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
-                n => Err(self.wrong(draws.span(), format!("{n} draws"), "give it 1 to 100 million")),
+                n => Err(self.wrong(draws.span(), format!("{n} draws"), "give it 1 to 20 million")),
             },
             (Some(draws), None) => Err(self.wrong(
                 draws.span(),
@@ -443,7 +466,7 @@ impl Reader<'_> {
             }
             _ if !has_room => Err(self.wrong(layouts.span(), "no parameter has more than one value", "widen a range")),
             n @ 1.. if n <= MOST_LAYOUTS as u64 => Ok(n as usize),
-            n => Err(self.wrong(layouts.span(), format!("{n} layouts"), "give it 1 to 100 million")),
+            n => Err(self.wrong(layouts.span(), format!("{n} layouts"), "give it 1 to 20 million")),
         }
     }
 }

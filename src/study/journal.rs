@@ -3,7 +3,7 @@
 use super::Study;
 use super::row::Row;
 use serde::{Deserialize, Serialize};
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -16,8 +16,14 @@ const DELAY: Duration = Duration::from_millis(200);
 #[derive(Debug, Error)]
 pub enum JournalError {
     /// They are rows of something else.
-    #[error("{} has rows of another study, or of other files or another version of cplan: remove it, or run with --fresh to begin anew", path.display())]
+    #[error("{} has rows of another study, or of other files or another version of cplan: remove it, or begin anew (--fresh)", path.display())]
     Other {
+        /// The journal.
+        path: PathBuf,
+    },
+    /// Another run keeps its rows there.
+    #[error("{}: another run of the study is at work: wait for it, or give this one another first output", path.display())]
+    Busy {
         /// The journal.
         path: PathBuf,
     },
@@ -52,12 +58,18 @@ impl Journal {
     /// Opens the journal of a study, and reads the rows that it has: those of the first layouts, without a gap. A line that is not whole,
     /// because the program was killed in the middle of it, is dropped.
     ///
+    /// With `fresh` its rows are dropped, of whatever study they are; a file that is no journal stays as it is.
+    ///
     /// # Errors
-    /// A journal of another study; what the system refuses.
-    pub fn open(path: &Path, study: &Study) -> Result<(Self, Vec<Row>), JournalError> {
+    /// A journal of another study, something else, or one that another run keeps; what the system refuses.
+    pub fn open(path: &Path, study: &Study, fresh: bool) -> Result<(Self, Vec<Row>), JournalError> {
         let system = |source| JournalError::System { path: path.to_owned(), source };
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
+        // Where files cannot be locked nobody is kept out.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(JournalError::Busy { path: path.to_owned() });
+        }
         let head = study.head();
         let mut reader = BufReader::new(&mut file);
         let (mut rows, mut line, mut length) = (Vec::new(), Vec::new(), 0);
@@ -68,9 +80,10 @@ impl Journal {
                 break;
             }
             if length == 0 {
-                let found: Option<Head> = serde_json::from_slice(&line).ok();
-                if found.as_ref() != Some(&head) {
-                    return Err(JournalError::Other { path: path.to_owned() });
+                match serde_json::from_slice::<Head>(&line) {
+                    Ok(found) if found == head && !fresh => {}
+                    Ok(_) if fresh => break,
+                    _ => return Err(JournalError::Other { path: path.to_owned() }),
                 }
             } else {
                 match serde_json::from_slice::<Row>(&line) {
@@ -81,7 +94,11 @@ impl Journal {
             length += read as u64;
         }
         // Something else that has no line of its own is nobody's journal.
-        if length == 0 && !line.is_empty() && !head_text(&head).as_bytes().starts_with(&line) {
+        if length == 0
+            && line.last() != Some(&b'\n')
+            && !line.is_empty()
+            && !head_text(&head).as_bytes().starts_with(&line)
+        {
             return Err(JournalError::Other { path: path.to_owned() });
         }
         file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length))).map_err(system)?;

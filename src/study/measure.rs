@@ -122,9 +122,10 @@ impl Condition {
         Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
     }
 
-    /// Whether a value meets it; what has no value does not.
+    /// Whether a value meets it; what has no value does not, but where nothing can be hit every clearance is kept.
     pub(super) fn holds(&self, value: Option<f64>) -> bool {
-        value.is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
+        let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
+        value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
     }
 }
 
@@ -181,7 +182,8 @@ mod tests {
     fn conditions_and_objectives_are_words() {
         let condition = Condition::parse("clearance >= 0.01").unwrap();
         assert_eq!(condition.to_string(), "clearance >= 0.01");
-        assert_eq!([Some(0.01), Some(0.009), None].map(|value| condition.holds(value)), [true, false, false]);
+        assert_eq!([Some(0.01), Some(0.009), None].map(|value| condition.holds(value)), [true, false, true]);
+        assert!(!Condition::parse("length <= 9").unwrap().holds(None));
         assert!(Condition::parse("duration <= 2").unwrap().holds(Some(2.0)));
         assert_eq!(Condition::parse("duration < 2"), Err("\"duration < 2\" is no condition".into()));
         assert!(Condition::parse("speed <= 2").unwrap_err().starts_with("\"speed\" is not measured; there is length"));

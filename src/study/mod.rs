@@ -38,6 +38,7 @@ use crate::parallel::in_order;
 use file::Named;
 use parameter::Design;
 use std::ops::Range;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 use template::Template;
 
@@ -146,7 +147,15 @@ impl Study {
     }
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
-        let (ending, reason, measured) = match self.judged(&values) {
+        // What goes wrong with one layout is its own affair: it is a row. Whoever stops the whole unwinds, too, and goes on doing so.
+        let judged = catch_unwind(AssertUnwindSafe(|| self.judged(&values))).unwrap_or_else(|panic| {
+            let said = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+            match said {
+                Some(said) => Err(format!("cplan failed, which is a mistake in it: {said}")),
+                None => resume_unwind(panic),
+            }
+        });
+        let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
             Err(reason) => (Ending::Refused, Some(reason), vec![None; self.measures.len()]),
         };
@@ -159,6 +168,9 @@ impl Study {
     /// How planning with these values ends, why without a motion, and what is measured.
     fn judged(&self, values: &[f64]) -> Result<Judged, String> {
         let problem = self.problem(values).map_err(|error| told(&error))?;
+        if let Some(lack) = self.options.planner.lack(&problem.scene().workspace().preferences) {
+            return Err(lack);
+        }
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
             // The path is known before it is driven along.
             let answer = solve(motion, &self.options, &mut |_| ());

@@ -61,6 +61,8 @@ const FULL: [&str; 2] = [
 name = "full"
 clearance = 0.01
 [robot]
+at = [0.5, -1]
+angle = "30deg"
 joints = ["a", "b"]
 tip = "tool"
 fixed = { c = 0 }
@@ -88,6 +90,8 @@ polygon = [[0, 0], [1, 0], [1, 1]]
 holes = [[[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]]
 [[obstacle]]
 name = "disc"
+at = [0.1, 0]
+angle = 0.5
 circle = { center = [1, 1], radius = 0.5 }
 height = [0, 1]
 [[obstacle]]
@@ -211,14 +215,16 @@ fn the_kept_reference_is_made_from_the_schema() {
 }
 
 #[test]
-fn worlds_that_the_book_shows_are_valid() {
-    let validator = validator();
+fn worlds_and_studies_that_the_book_shows_are_valid() {
+    let (of_worlds, of_studies) = (validator(), studies());
     let pages = std::fs::read_dir(root().join("docs")).unwrap().map(|entry| entry.unwrap().path());
     let mut seen = 0;
     for file in pages.filter(|file| file.extension().is_some_and(|e| e == "md")) {
         let text = std::fs::read_to_string(&file).unwrap();
         for block in text.split("```toml\n").skip(1) {
-            let world = json(block.split("```").next().unwrap_or_default());
+            let block = block.split("```").next().unwrap_or_default();
+            let world = json(block);
+            let validator = if block.contains("[[parameter]]") { &of_studies } else { &of_worlds };
             let errors: Vec<String> =
                 validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
             assert!(errors.is_empty(), "{}: {}", file.display(), errors.join("; "));
@@ -226,6 +232,24 @@ fn worlds_that_the_book_shows_are_valid() {
         }
     }
     assert!(seen >= 6, "only {seen} worlds");
+}
+
+fn studies() -> jsonschema::Validator {
+    jsonschema::draft7::new(&cplan::study::study_schema()).unwrap()
+}
+
+/// The schema of studies takes those that are shipped, and refuses what the program refuses for its form.
+#[test]
+fn studies_are_valid_and_others_are_not() {
+    let validator = studies();
+    let files = worlds("workspaces/studies");
+    assert!(files.len() >= 2);
+    for file in files {
+        let study = std::fs::read_to_string(&file).unwrap();
+        assert!(validator.is_valid(&json(&study)), "{}", file.display());
+        assert!(!validator.is_valid(&json(&format!("size = 3\n{study}"))));
+        assert!(!validator.is_valid(&json(&study.replace("sets =", "set ="))));
+    }
 }
 
 /// Every key has a description, so that editors have something to show.

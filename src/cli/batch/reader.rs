@@ -115,11 +115,8 @@ impl Reader {
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("world")),
         };
-        let Asked { options, overrides, planner } = self.asked(given.options, refused)?;
+        let Asked { options, overrides } = self.asked(given.options, refused)?;
         let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
-        if let Some(lack) = planner.lack(&problem.scene().workspace().preferences) {
-            return Err(Failure::Usage(lack));
-        }
         Ok(plan(&problem, &options)?)
     }
 

@@ -147,10 +147,10 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
         let mut entries = plain.clone();
         for variant in &args.with {
             let preferences = &case.base().scene().workspace().preferences;
-            if let Some(lack) = variant.lack(preferences) {
+            let (planner, levels) = variant.over(&args.effort);
+            if let Some(lack) = planner.lack(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
             }
-            let (planner, levels) = variant.over(&args.effort);
             entries.push(Entry { label: variant.label.clone(), options: options(args, planner, levels) });
         }
         Ok(entries)

@@ -161,8 +161,10 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
     // Nor is a file that is something else overwritten.
     place.write("t.csv.part", "somebody's notes");
-    run(&place, "--output t.csv").refused(1, &["another study"]);
-    assert_eq!(place.read("t.csv.part"), "somebody's notes");
+    for fresh in ["", " --fresh"] {
+        run(&place, &format!("--output t.csv{fresh}")).refused(1, &["another study"]);
+        assert_eq!(place.read("t.csv.part"), "somebody's notes");
+    }
 }
 
 #[test]
@@ -213,6 +215,45 @@ fn robots_vary_as_well_as_worlds() {
     let times: Vec<f64> =
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
+}
+
+#[test]
+fn what_one_layout_lacks_is_its_row_and_no_best_layout_is_no_failure() {
+    let place = Place::new();
+    // No region of the world is preferred, and the field needs some.
+    let field = "options = [\"--planner=harmonic\", \"--field=bvp\"]\nmeasure = [\"length\"]";
+    study(&place, field, &CRATE.replace("draw = \"latin\"", "steps = 2"));
+    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    for row in rows(&place.read("t.csv")) {
+        assert_eq!(
+            field_of(&row),
+            ("refused", "--field bvp needs [[preference]] regions in the world file, or --epsilon")
+        );
+    }
+    study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
+    let done = run(&place, "--output t.csv --output best.toml --json");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(done.stderr.contains("best.toml is not written: no layout fits"), "{}", done.stderr);
+    assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
+    assert_eq!(done.json()["best"], Value::Null);
+}
+
+fn field_of(row: &[(String, String)]) -> (&str, &str) {
+    (field(row, "outcome"), field(row, "reason"))
+}
+
+#[test]
+fn two_runs_do_not_share_their_rows() {
+    let place = Place::new();
+    study(&place, "draws = 3", CRATE);
+    let kept = std::fs::File::create(place.path("t.csv.part")).unwrap();
+    kept.lock().unwrap();
+    run(&place, "--output t.csv").refused(1, &["t.csv.part: another run of the study is at work"]);
+    drop(kept);
+    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    // Nor does a run take its own study for rows.
+    std::fs::rename(place.path("study.toml"), place.path("u.csv.part")).unwrap();
+    place.run(&["study", "u.csv.part"], "--output u.csv --fresh").refused(1, &["is the input"]);
 }
 
 #[test]
