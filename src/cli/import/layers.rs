@@ -2,7 +2,7 @@
 
 use super::Failure;
 use super::obstacles::Taken;
-use crate::text::counted;
+use crate::text::{counted, plain_line};
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::collections::{BTreeMap, BTreeSet};
 use std::str::FromStr;
@@ -103,5 +103,5 @@ pub(super) fn lines(taken: &[Taken]) -> Vec<String> {
     for layer in taken.iter().filter_map(|taken| taken.shape.layer.as_deref()) {
         *layers.entry(layer).or_default() += 1;
     }
-    layers.into_iter().map(|(layer, count)| format!("{layer}: {}", counted(count, "obstacle"))).collect()
+    layers.into_iter().map(|(layer, count)| format!("{}: {}", plain_line(layer), counted(count, "obstacle"))).collect()
 }

@@ -15,7 +15,7 @@ use crate::grammar::{finite, number_in, positive};
 use crate::input::{self, Diagnostic, Position, Source, TipPoint, World};
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::laid_out;
-use crate::text::counted;
+use crate::text::{counted, plain_line};
 use clap::{Args, ValueHint};
 use cplan_drawing::{Drawing, FINEST, Format, Note, Settings, Unit};
 use layers::{LayerHeight, Layers};
@@ -223,7 +223,7 @@ fn summary(args: &ImportArgs, taken: &[Taken], notes: &[String], world: &World) 
         ("extent", format!("x {} m, y {} m", size(x), size(y))),
     ];
     lines.extend(layers::lines(taken).into_iter().map(|line| ("layer", line)));
-    lines.extend(notes.iter().map(|note| ("note", note.clone())));
+    lines.extend(notes.iter().map(|note| ("note", plain_line(note).into_owned())));
     let outputs = args.output.iter().chain(&args.picture);
     lines.extend(outputs.map(|path| ("file", path.display().to_string())));
     if let Some(path) = &args.output {

@@ -48,7 +48,7 @@ fn obstacle(Taken { name, shape }: &Taken) -> String {
         let _ = write!(text, ", line {line}");
     }
     if let Some(layer) = &shape.layer {
-        let _ = write!(text, ", layer {}", quoted(layer));
+        let _ = write!(text, ", layer \"{}\"", plain_line(layer));
     }
     let _ = writeln!(text, "\n[[obstacle]]\nname = {}", quoted(name));
     match &shape.geometry {

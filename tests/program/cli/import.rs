@@ -100,6 +100,23 @@ fn each_obstacle_has_a_name_of_its_own() {
 }
 
 #[test]
+fn names_with_line_breaks_stay_in_their_comments() {
+    let place = Place::new();
+    let layer = "x\n[[obstacle]]\nname = \"ghost\"\ncircle = { center = [0.0, 0.0], radius = 1.0 }\n#\u{1b}";
+    let feature = serde_json::json!({
+        "type": "Feature", "properties": { "name": "a\nb\"c", "layer": layer },
+        "geometry": { "type": "Polygon", "coordinates": [[[3, 3], [4, 3], [4, 4], [3, 3]]] },
+    });
+    place.write("lines.geojson", feature.to_string());
+    let done = place.run(&["import", "lines.geojson"], "--output w.toml");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert_eq!(names(&world(&place, "w.toml")), ["a\nb\"c"]);
+    let comment = "# Polygon, layer \"x\\n[[obstacle]]\\nname = ";
+    assert!(place.read("w.toml").lines().any(|line| line.starts_with(comment)), "{}", place.read("w.toml"));
+    assert!(done.stdout.contains("layer      x\\n[[obstacle]]"), "{}", done.stdout);
+}
+
+#[test]
 fn outlines_that_are_none_are_taken_as_what_they_surround() {
     let place = Place::new();
     // A bow tie, a loop that retraces itself, and a room around both.
