@@ -76,8 +76,8 @@ pub struct Shape {
     pub geometry: Geometry,
     /// Its extent across the plane, metres.
     pub height: Option<[f64; 2]>,
-    /// Whether its layer is switched off.
-    pub is_hidden: bool,
+    /// The layer that hides it: its own, if that is off or frozen, or a frozen one that it is inserted on.
+    pub hidden_by: Option<String>,
     /// What it is in the file's own words.
     pub kind: String,
     /// Where it begins, in formats that have lines.

@@ -23,7 +23,7 @@ pub(crate) struct Origin {
     pub name: Option<String>,
     pub layer: Option<String>,
     pub height: Option<[f64; 2]>,
-    pub is_hidden: bool,
+    pub hidden_by: Option<String>,
     pub kind: String,
     pub line: Option<usize>,
 }
@@ -158,8 +158,8 @@ impl Sheet {
     }
 
     fn put_at(&mut self, number: usize, geometry: Geometry, origin: &Origin) {
-        let Origin { name, layer, height, is_hidden, kind, line } = origin.clone();
-        self.shapes.push((number, Shape { name, layer, geometry, height, is_hidden, kind, line }));
+        let Origin { name, layer, height, hidden_by, kind, line } = origin.clone();
+        self.shapes.push((number, Shape { name, layer, geometry, height, hidden_by, kind, line }));
     }
 
     /// The drawing, ends that meet joined.

@@ -37,9 +37,18 @@ pub(super) struct Layers<'a> {
     pub walls: &'a [String],
 }
 
-/// Whether a shape, or what it lies on, has this name.
+/// Whether a shape, what it lies on or what hides it has this name.
 fn is_called(shape: &Shape, name: &str) -> bool {
-    [&shape.layer, &shape.name].into_iter().flatten().any(|own| own.to_lowercase() == name.to_lowercase())
+    names(shape).any(|own| is_same(own, name))
+}
+
+/// Names are the same in upper and lower case.
+fn is_same(name: &str, other: &str) -> bool {
+    name.to_lowercase() == other.to_lowercase()
+}
+
+fn names(shape: &Shape) -> impl Iterator<Item = &String> {
+    [&shape.layer, &shape.name, &shape.hidden_by].into_iter().flatten()
 }
 
 impl Layers<'_> {
@@ -50,7 +59,7 @@ impl Layers<'_> {
         let walls = self.walls.iter().map(|name| ("--walls", name));
         let unknown = |(_, name): &(&str, &String)| !shapes.iter().any(|shape| is_called(shape, name));
         let Some((option, name)) = only.chain(heights).chain(walls).find(unknown) else { return Ok(()) };
-        let known: BTreeSet<&String> = shapes.iter().flat_map(|shape| [&shape.layer, &shape.name]).flatten().collect();
+        let known: BTreeSet<&String> = shapes.iter().flat_map(names).collect();
         const SHOWN: usize = 24;
         let more = known.len().saturating_sub(SHOWN);
         let known: Vec<String> = known.into_iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
@@ -66,12 +75,14 @@ impl Layers<'_> {
     pub fn chosen(&self, shapes: Vec<Shape>, notes: &mut Notes) -> Vec<Shape> {
         let mut chosen = Vec::new();
         for mut shape in shapes {
-            let is_named = self.only.iter().any(|name| is_called(&shape, name));
-            if shape.is_hidden && self.only.is_empty() {
-                let layer = shape.layer.as_deref().unwrap_or_default();
-                notes.add(format!("layer \"{layer}\" is switched off: left out, --layer takes it"), shape.line);
+            if !self.only.is_empty() && !self.only.iter().any(|name| is_called(&shape, name)) {
+                continue;
             }
-            if !is_named && (shape.is_hidden || !self.only.is_empty()) {
+            // What is asked for by its own layer alone may still lie in a block that is hidden as a whole.
+            let is_asked_for = |own: &String| self.only.iter().any(|name| is_same(own, name));
+            let is_taken = || [&shape.hidden_by, &shape.name].into_iter().flatten().any(is_asked_for);
+            if let Some(layer) = shape.hidden_by.as_ref().filter(|_| !is_taken()) {
+                notes.add(format!("layer \"{layer}\" is switched off: left out, --layer takes it"), shape.line);
                 continue;
             }
             if let Some(height) = self.heights.iter().rev().find(|height| is_called(&shape, &height.name)) {

@@ -117,6 +117,32 @@ fn names_with_line_breaks_stay_in_their_comments() {
 }
 
 #[test]
+fn what_a_frozen_layer_brings_in_is_left_out_by_its_name() {
+    let place = Place::new();
+    let layers =
+        "0 SECTION 2 TABLES 0 TABLE 2 LAYER 0 LAYER 2 cold 70 1 62 7 0 LAYER 2 off 70 0 62 -7 0 ENDTAB 0 ENDSEC";
+    let block = "0 SECTION 2 BLOCKS 0 BLOCK 2 pin 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 CIRCLE 8 on 10 5 20 0 40 1 0 ENDBLK 0 ENDSEC";
+    let inserts = "0 INSERT 8 off 2 pin 10 0 20 0 0 INSERT 8 cold 2 pin 10 0 20 100";
+    let text = format!("{layers} {block} 0 SECTION 2 ENTITIES {inserts} 0 ENDSEC 0 EOF");
+    place.write("pins.dxf", text.split_whitespace().map(|word| format!("{word}\n")).collect::<String>());
+    let taken = |options: &str| {
+        let done = place.run(&["import", "pins.dxf"], &format!("{options} --output w.toml"));
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        (world(&place, "w.toml")["obstacle"].as_array().unwrap().len(), done.stdout)
+    };
+    let told = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off: left out"));
+    for (options, count, is_told) in [
+        ("", 1, [true, true]),
+        ("--layer on", 1, [false, true]),
+        ("--layer cold", 2, [false; 2]),
+        ("--layer pin", 4, [false; 2]),
+    ] {
+        let (taken, said) = taken(options);
+        assert_eq!((taken, told.clone().map(|note| said.contains(&note))), (count, is_told), "{options}: {said}");
+    }
+}
+
+#[test]
 fn outlines_that_are_none_are_taken_as_what_they_surround() {
     let place = Place::new();
     // A bow tie, a loop that retraces itself, and a room around both.

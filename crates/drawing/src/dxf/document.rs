@@ -22,11 +22,20 @@ pub(super) struct Block<'a> {
 pub(super) struct Document<'a> {
     /// None if the file does not say it.
     pub unit: Option<Unit>,
-    /// Layers that are off, frozen or never printed, in capitals: names are the same in upper and lower case.
-    pub hidden: Vec<String>,
+    /// Layers that are not seen, in capitals: names are the same in upper and lower case.
+    hidden: HashMap<String, Hidden>,
     /// By name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
     pub entities: Vec<Entity<'a>>,
+}
+
+/// Why a layer is not seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Hidden {
+    /// Off or never printed: what lies on it is hidden.
+    Off,
+    /// So is all that is inserted on it.
+    Frozen,
 }
 
 /// What programs put definition points of dimensions on; it is never printed.
@@ -67,6 +76,16 @@ impl<'a> Document<'a> {
         }
         Ok(document)
     }
+
+    /// Whether what lies on a layer is hidden.
+    pub fn hides(&self, layer: &str) -> bool {
+        self.hidden.contains_key(&layer.to_uppercase())
+    }
+
+    /// Whether all that is inserted on a layer is hidden, too.
+    pub fn freezes(&self, layer: &str) -> bool {
+        self.hidden.get(&layer.to_uppercase()) == Some(&Hidden::Frozen)
+    }
 }
 
 /// `$INSUNITS`.
@@ -77,11 +96,15 @@ fn unit(header: &[Tag]) -> Result<Option<Unit>, Error> {
     Ok(Unit::of_dxf(code as i64))
 }
 
-fn hidden(tables: &[Record]) -> Result<Vec<String>, Error> {
-    let mut hidden = vec![UNPRINTED.to_owned()];
+fn hidden(tables: &[Record]) -> Result<HashMap<String, Hidden>, Error> {
+    let mut hidden = HashMap::from([(UNPRINTED.to_owned(), Hidden::Off)]);
     for layer in tables.iter().filter(|record| record.kind == "LAYER") {
-        let is_off = layer.integer_or(62, 7)? < 0 || layer.flag(1)?;
-        hidden.extend(layer.text(2).filter(|_| is_off).map(str::to_uppercase));
+        let why = match (layer.flag(1)?, layer.integer_or(62, 7)? < 0) {
+            (true, _) => Hidden::Frozen,
+            (false, true) => Hidden::Off,
+            (false, false) => continue,
+        };
+        hidden.extend(layer.text(2).map(|name| (name.to_uppercase(), why)));
     }
     Ok(hidden)
 }

@@ -48,12 +48,13 @@ struct Place<'a> {
     layer: Option<&'a str>,
     /// Entities of one insertion are joined with each other only.
     instance: usize,
-    is_hidden: bool,
+    /// The layer of an insertion that is frozen: it hides whatever comes in, where one that is off hides its own alone.
+    frozen: Option<&'a str>,
 }
 
 impl Default for Place<'_> {
     fn default() -> Self {
-        Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, is_hidden: false }
+        Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, frozen: None }
     }
 }
 
@@ -103,7 +104,7 @@ impl<'d, 'a> Reader<'d, 'a> {
             name: place.name.map(str::to_owned),
             layer: Some(layer.to_owned()),
             height: (low < high).then_some([low, high]),
-            is_hidden: place.is_hidden || self.document.hidden.contains(&layer.to_uppercase()),
+            hidden_by: place.frozen.or_else(|| self.document.hides(layer).then_some(layer)).map(str::to_owned),
             kind: record.kind.to_owned(),
             line: Some(record.line),
         })
@@ -147,7 +148,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         let counts = [record.integer_or(70, 1)?.max(1), record.integer_or(71, 1)?.max(1)];
         let spacing = [record.number_or(44, 0.0)?, record.number_or(45, 0.0)?];
         let layer = layer(entity, place);
-        let is_hidden = place.is_hidden || self.document.hidden.contains(&layer.to_uppercase());
+        let frozen = place.frozen.or_else(|| self.document.freezes(layer).then_some(layer));
         // Names of blocks that programs make up begin with a star.
         let name = place.name.or(Some(block.name).filter(|name| !name.starts_with('*')));
         within.push(key);
@@ -163,7 +164,7 @@ impl<'d, 'a> Reader<'d, 'a> {
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
                 let map = map.after(&at).after(&shift).after(&own);
-                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, is_hidden };
+                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, frozen };
                 self.all(&block.entities, &inner, within)?;
             }
         }

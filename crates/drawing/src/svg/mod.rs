@@ -408,7 +408,7 @@ fn origin(kind: &str, line: usize, inside: &Inside) -> Origin {
         name: inside.name.clone(),
         layer: inside.layer.clone(),
         height: None,
-        is_hidden: false,
+        hidden_by: None,
         kind: format!("<{kind}>"),
         line: Some(line),
     }

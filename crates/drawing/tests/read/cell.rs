@@ -27,7 +27,7 @@ fn a_cell_by_ezdxf_measures_what_others_measure() {
         ("fixtures", None, Area(31_424.56)),
         ("fixtures", None, Area(141_411.03)),
     ];
-    let shown: Vec<&Shape> = drawing.shapes.iter().filter(|shape| !shape.is_hidden).collect();
+    let shown: Vec<&Shape> = drawing.shapes.iter().filter(|shape| shape.hidden_by.is_none()).collect();
     assert_eq!(shown.len(), expected.len(), "{shown:#?}");
     for (shape, (layer, name, measure)) in shown.iter().zip(expected) {
         assert_eq!((shape.layer.as_deref(), shape.name.as_deref()), (Some(layer), name));
@@ -43,7 +43,7 @@ fn a_cell_by_ezdxf_measures_what_others_measure() {
         }
     }
     assert_eq!(shown[1].height, Some([0.0, 0.9]));
-    let hidden: Vec<_> = drawing.shapes.iter().filter(|shape| shape.is_hidden).collect();
+    let hidden: Vec<_> = drawing.shapes.iter().filter(|shape| shape.hidden_by.is_some()).collect();
     assert!(hidden.iter().any(|shape| shape.layer.as_deref() == Some("old")), "{hidden:?}");
     let told: Vec<String> = notes(&drawing).iter().map(|note| note.split(" (").next().unwrap().to_owned()).collect();
     assert_eq!(told, ["TEXT: left out", "DIMENSION: left out", "HATCH: left out"]);

@@ -246,10 +246,32 @@ fn layers_may_be_off_and_thickness_is_height() {
     let entities = "0 CIRCLE 8 OFF 10 0 20 0 40 1 0 CIRCLE 8 frozen 10 0 20 0 40 1 0 CIRCLE 8 Defpoints 10 0 20 0 40 1 \
                     0 CIRCLE 8 on 10 0 20 0 30 20 39 80 40 1 0 LWPOLYLINE 8 on 38 5 39 -2 10 0 20 0 10 1 20 1";
     let given = drawing(&sections("9 $INSUNITS 70 4", tables, "", entities), Format::Dxf);
-    let hidden: Vec<bool> = given.shapes.iter().map(|shape| shape.is_hidden).collect();
-    assert_eq!(hidden, [true, true, true, false, false]);
+    let hidden: Vec<_> = given.shapes.iter().map(|shape| shape.hidden_by.as_deref()).collect();
+    assert_eq!(hidden, [Some("OFF"), Some("frozen"), Some("Defpoints"), None, None]);
     let heights: Vec<_> = given.shapes.iter().map(|shape| shape.height).collect();
     assert_eq!(heights, [None, None, None, Some([0.02, 0.1]), Some([0.003, 0.005])]);
+}
+
+#[test]
+fn an_insertion_hides_its_own_layer_or_all_if_that_is_frozen() {
+    let tables =
+        "0 TABLE 2 LAYER 0 LAYER 2 off 70 0 62 -7 0 LAYER 2 frozen 70 1 62 7 0 LAYER 2 both 70 1 62 -7 0 ENDTAB";
+    // A block with something on its insertion's layer and on two of their own; and one with that block and more.
+    let blocks = "0 BLOCK 2 pin 10 0 20 0 0 CIRCLE 8 0 10 0 20 0 40 1 0 CIRCLE 8 on 10 5 20 0 40 1 \
+                  0 CIRCLE 8 off 10 9 20 0 40 1 0 ENDBLK \
+                  0 BLOCK 2 pair 10 0 20 0 0 INSERT 8 0 2 pin 10 0 20 0 0 INSERT 8 FROZEN 2 pin 10 0 20 9 0 ENDBLK";
+    let hidden = |block: &str, layer: &str| {
+        let insert = format!("0 INSERT 8 {layer} 2 {block} 10 0 20 0");
+        let given = drawing(&sections("9 $INSUNITS 70 4", tables, blocks, &insert), Format::Dxf);
+        given.shapes.iter().map(|shape| shape.hidden_by.clone().unwrap_or_default()).collect::<Vec<_>>()
+    };
+    assert_eq!(hidden("pin", "on"), ["", "", "off"]);
+    assert_eq!(hidden("pin", "off"), ["off", "", "off"]);
+    assert_eq!(hidden("pin", "frozen"), ["frozen"; 3]);
+    assert_eq!(hidden("pin", "both"), ["both"; 3]);
+    assert_eq!(hidden("pair", "on"), ["", "", "off", "FROZEN", "FROZEN", "FROZEN"]);
+    assert_eq!(hidden("pair", "off"), ["off", "", "off", "FROZEN", "FROZEN", "FROZEN"]);
+    assert_eq!(hidden("pair", "frozen"), ["frozen"; 6]);
 }
 
 #[test]
