@@ -31,6 +31,9 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
 
 const CURE: &str = "a GeoJSON file holds a FeatureCollection, a Feature or a geometry";
 
+/// Greatest height, metres: no arm is anywhere near.
+const HIGHEST: f64 = 1e6;
+
 struct Reader {
     sheet: Sheet,
     map: Map,
@@ -162,7 +165,14 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                 one => vec![Some(0.0), one.as_f64()],
             };
             match ends[..] {
-                [Some(low), Some(high)] if low <= high => Some([low * unit, high * unit]),
+                [Some(low), Some(high)] if low <= high && [low, high].iter().all(|z| (z * unit).abs() <= HIGHEST) => {
+                    Some([low * unit, high * unit])
+                }
+                [Some(low), Some(high)] if low <= high => {
+                    let message = format!("{at}.properties.height: it is too large (beyond {HIGHEST:e} m)");
+                    let cure = "give heights in the unit of the coordinates, or leave the height out";
+                    return Err(Error::new(None, message.trim_start_matches('.'), cure));
+                }
                 _ => {
                     let at = format!("{at}.properties.height");
                     return Err(wrong(&at, "expected a number, or the lower and the upper end: [0, 0.2]"));

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use super::obstacles::Taken;
+use crate::input::LARGEST;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,7 +22,7 @@ impl FromStr for LayerHeight {
         const FORM: &str = "expected NAME=LOW:HIGH in metres, such as conveyor=0:0.2";
         let (name, range) = text.rsplit_once('=').ok_or(FORM)?;
         let (low, high) = range.split_once(':').ok_or(FORM)?;
-        let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.is_finite()));
+        let height = [low, high].map(|number| number.trim().parse::<f64>().ok().filter(|x| x.abs() <= LARGEST));
         match height {
             [Some(low), Some(high)] if low <= high => Ok(Self { name: name.to_owned(), height: [low, high] }),
             [Some(_), Some(_)] => Err("the lower end comes first".into()),

@@ -12,6 +12,9 @@ pub(super) struct Taken {
     pub shape: Shape,
 }
 
+/// What is too small for the file.
+const NO_EXTENT: &str = "what has no extent: left out";
+
 /// Where a drawing comes to lie: turned, then moved.
 pub(super) struct Placement {
     pub turn: f64,
@@ -53,7 +56,7 @@ pub(super) fn taken(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
                 if radius > 0.0 {
                     vec![Geometry::Circle { center, radius }]
                 } else {
-                    notes.add("what has no extent: left out", shape.line);
+                    notes.add(NO_EXTENT, shape.line);
                     Vec::new()
                 }
             }
@@ -63,7 +66,7 @@ pub(super) fn taken(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes
                 if points.len() > 1 {
                     vec![Geometry::Polyline(points)]
                 } else {
-                    notes.add("what has no extent: left out", shape.line);
+                    notes.add(NO_EXTENT, shape.line);
                     Vec::new()
                 }
             }
@@ -96,12 +99,15 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
         notes.add("outlines that cross or touch themselves: what they go round is solid", shape.line);
         return parts.into_iter().map(|(outer, holes)| Geometry::Polygon { outer, holes }).collect();
     }
-    notes.add("outlines that surround nothing: taken as thin walls", shape.line);
     let closed = |mut ring: Ring| {
         ring.extend(ring.first().copied());
         ring
     };
-    rings.into_iter().filter(|ring| ring.len() > 1).map(|ring| Geometry::Polyline(closed(ring))).collect()
+    let walls: Vec<_> =
+        rings.into_iter().filter(|ring| ring.len() > 1).map(|ring| Geometry::Polyline(closed(ring))).collect();
+    let what = if walls.is_empty() { NO_EXTENT } else { "outlines that surround nothing: taken as thin walls" };
+    notes.add(what, shape.line);
+    walls
 }
 
 fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
@@ -111,13 +117,19 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
 
 /// Refuses what lies where no arm can be.
 fn within_reach(geometry: &Geometry, shape: &Shape) -> Result<(), Diagnostic> {
-    let farthest = coordinates(geometry).flatten().map(f64::abs).fold(0.0, f64::max);
-    if farthest <= LARGEST {
+    let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
+    let farthest = greatest(&mut coordinates(geometry).flatten());
+    let highest = greatest(&mut shape.height.into_iter().flatten());
+    let (what, value, help) = if farthest > LARGEST {
+        ("a coordinate", farthest, "bring the drawing to the arm by --move, or say its --unit")
+    } else {
+        ("a height", highest, "say where it is by --height, or the drawing's --unit")
+    };
+    if value <= LARGEST {
         return Ok(());
     }
-    let message = format!("{} has a coordinate of {farthest:e} m (at most {LARGEST:e})", shape.kind);
+    let message = format!("{} has {what} of {value:.2e} m (at most {LARGEST:e})", shape.kind);
     let position = shape.line.map(|line| Position { line, column: 1 });
-    let help = "bring the drawing to the arm by --move, or say its --unit";
     Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
 }
 

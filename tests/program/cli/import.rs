@@ -174,6 +174,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     place.write("text.dxf", dxf("0 TEXT 8 a 1 hello"));
     place.write("nan.dxf", dxf("0 CIRCLE 8 a 10 nan 20 0 40 1"));
     place.write("far.dxf", dxf("0 CIRCLE 8 a 10 1e15 20 0 40 1"));
+    place.write("high.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 39 1e300 40 1"));
     place.write("one.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 40 1"));
     place.write("cut.dxf", &dxf("0 CIRCLE 8 a 10 1 20 0 40 1")[..60]);
     place.write("broken.svg", "<svg>\n<g>\n</svg>");
@@ -187,7 +188,12 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         &["text.dxf: nothing of this drawing is an obstacle; TEXT: left out", "cure: draw outlines"],
     );
     refused("nan.dxf", "", &["nan.dxf: line 20, column 1: group 10 needs a number", "cure: "]);
-    refused("far.dxf", "", &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1", "--move"]);
+    refused(
+        "far.dxf",
+        "",
+        &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1.00e12 m (at most 1e6)", "--move"],
+    );
+    refused("high.dxf", "", &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6)"]);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "no well-formed XML"]);
     refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
@@ -200,6 +206,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         ("one.dxf", "--output w.json", "must end in .toml"),
         ("one.dxf", "--height a=1", "NAME=LOW:HIGH"),
         ("one.dxf", "--height a=1:0", "lower end"),
+        ("one.dxf", "--height a=0:1e300", "NAME=LOW:HIGH"),
         ("one.dxf", "--scale 0", "more than 0"),
         ("one.dxf", "--unit feet", "none of the units mm, cm"),
     ] {

@@ -22,6 +22,8 @@ pub(super) struct Block<'a> {
 pub(super) struct Document<'a> {
     /// None if the file does not say it.
     pub unit: Option<Unit>,
+    /// What it says instead.
+    pub unread_unit: Option<Tag<'a>>,
     /// Layers that are not seen, in capitals: names are the same in upper and lower case.
     hidden: HashMap<String, Hidden>,
     /// By name in capitals.
@@ -60,7 +62,7 @@ impl<'a> Document<'a> {
                 return Err(Error::new(record.line, message, "copy or export the drawing again"));
             }
             match record.text(2) {
-                Some("HEADER") => document.unit = unit(record.tags)?,
+                Some("HEADER") => (document.unit, document.unread_unit) = unit(record.tags)?,
                 Some("TABLES") => document.hidden = hidden(&inside)?,
                 Some("BLOCKS") => document.blocks = blocks(&inside)?,
                 Some("ENTITIES") => {
@@ -88,12 +90,13 @@ impl<'a> Document<'a> {
     }
 }
 
-/// `$INSUNITS`.
-fn unit(header: &[Tag]) -> Result<Option<Unit>, Error> {
-    let Some(at) = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS") else { return Ok(None) };
-    let value = header[at + 1..].iter().find(|tag| tag.code == 70);
+/// `$INSUNITS`: the unit, or what stands there and is none.
+fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error> {
+    let at = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS");
+    let value = at.and_then(|at| header[at + 1..].iter().find(|tag| tag.code == 70));
     let code = value.map(Tag::number).transpose()?.unwrap_or(0.0);
-    Ok(Unit::of_dxf(code as i64))
+    let unit = Unit::of_dxf(code as i64);
+    Ok((unit, value.copied().filter(|_| unit.is_none() && code != 0.0)))
 }
 
 fn hidden(tables: &[Record]) -> Result<HashMap<String, Hidden>, Error> {

@@ -9,6 +9,7 @@ use crate::sheet::{Origin, Sheet};
 use crate::{Drawing, Error, Settings, Unit};
 use document::{Document, Entity};
 use std::collections::HashMap;
+use tags::Tag;
 
 /// Insertions within each other, at most; programs allow fewer.
 const DEEPEST: usize = 64;
@@ -26,7 +27,12 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
     let document = Document::read(&records)?;
     let mut sheet = Sheet::new(settings);
     let unit = settings.unit.or(document.unit).unwrap_or_else(|| {
-        sheet.notes.add("the drawing does not say its unit: read as mm", None);
+        match document.unread_unit {
+            Some(Tag { value, line, .. }) => {
+                sheet.notes.add(format!("$INSUNITS {value} is no unit that is read: read as mm"), Some(line));
+            }
+            None => sheet.notes.add("the drawing does not say its unit: read as mm", None),
+        }
         Unit::MILLIMETRE
     });
     let mut reader = Reader { document: &document, sheet, groups: HashMap::new(), instances: 0, entities: 0 };

@@ -234,6 +234,9 @@ fn units_are_the_files_or_the_users() {
     }
     let unsaid = drawing(&sections("9 $ACADVER 1 AC1015", "", "", line), Format::Dxf);
     assert_eq!(notes(&unsaid), ["the drawing does not say its unit: read as mm"]);
+    let unknown = drawing(&sections("9 $INSUNITS 70 99", "", "", line), Format::Dxf);
+    assert_eq!(notes(&unknown), ["$INSUNITS 99 is no unit that is read: read as mm (line 8)"]);
+    near(wall(one(&unknown))[1][0], 0.01, 1e-15);
     let settings = Settings { unit: Some("in".parse::<Unit>().unwrap()), ..Settings::default() };
     let inches = read(file("", line).as_bytes(), Format::Dxf, &settings).unwrap();
     near(wall(one(&inches))[1][0], 0.254, 1e-15);

@@ -50,6 +50,12 @@ fn what_is_wrong_is_named_with_its_place() {
             None,
             "features[0].properties.height: expected a number",
         ),
+        (
+            r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 1e300}}]}"#,
+            None,
+            "features[0].properties.height: it is too large (beyond 1e6 m)",
+        ),
+        (r#"{"type": "Feature", "properties": {"height": [-2e6, 1]}}"#, None, "properties.height: it is too large"),
         (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1e308, 1e400], [1, 1]]]}"#, Some(1), "number out of range"),
     ];
     for (text, line, message) in cases {
