@@ -117,8 +117,17 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
 
 /// The sensor that cplan's robot has. The robot as a gantry faces nowhere; the source's turns its scanner of 180 degrees, so this one looks
 /// all around. Cells as in the source.
-pub const SENSOR: Sensor =
-    Sensor { mount: Mount::Tip, turn: 0.0, rays: 360, field_of_view: TAU, range: 8.0, step: 0.5, noise: 0.0, seed: 0, cell: 0.5 };
+pub const SENSOR: Sensor = Sensor {
+    mount: Mount::Tip,
+    turn: 0.0,
+    rays: 360,
+    field_of_view: TAU,
+    range: 8.0,
+    step: 0.5,
+    noise: 0.0,
+    seed: 0,
+    cell: 0.5,
+};
 
 /// The mission by cplan: to each target in turn, each through a room of which nothing is known.
 ///

@@ -194,7 +194,8 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
         ["found", "infeasible", "unknown", "refused"].iter().map(|name| tried[name].as_u64().unwrap()).sum();
     assert_eq!(counted, 60);
     // The best layout's files plan as its row says.
-    let alone: Value = serde_json::from_str(&place.run(&["best.urdf", "best.toml"], "--json").stdout).unwrap();
+    let alone: Value =
+        serde_json::from_str(&place.run(&["best.urdf", "best.toml"], "--json --clearance=0.003").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
     assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
