@@ -303,6 +303,56 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
 }
 
 #[test]
+fn meshes_are_held_to_a_range_as_they_are_scaled() {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
+    fs::write(&world, "").unwrap();
+    let load = |mesh: &str, text: &str, scale: &str| {
+        fs::write(folder.path().join(mesh), text).unwrap();
+        fs::write(&urdf, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"{scale}\"/></geometry>")))
+            .unwrap();
+        load_scene(&urdf, &world)
+    };
+    let stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid t\n";
+    let obj = "v 0 0 0\nv 2 0 0\nv 0 1 0.5\nf 1 2 3\n";
+    let far = obj.replace('2', "1e300").replace("f 1 1e300", "f 1 2");
+    let spread = COLLADA.replace("<matrix>100", "<matrix>1e300");
+    for (mesh, text, scale, message) in [
+        ("t.stl", stl, "1e300 1 1", "too large: (2.0, 0.0, 0.0) with scale=\"1e300 1.0 1.0\" (at most 1e6 m)"),
+        ("t.obj", obj, "1 1e300 1", "too large: (0.0, 1.0, 0.5)"),
+        ("t.obj", obj, "1e308 1 1", "too large: (2.0, 0.0, 0.0)"),
+        ("t.obj", &far, "1 1 1", "too large: (1e300, 0.0, 0.0)"),
+        ("t.obj", &obj.replace('2', "1e999").replace("f 1 1e999", "f 1 2"), "1 1 1", "not finite: (inf, 0.0, 0.0)"),
+        ("t.dae", COLLADA, "1 1 1e300", "too large"),
+        ("t.dae", &spread, "1 1 1", "too large"),
+    ] {
+        let error = load(mesh, text, scale).unwrap_err().to_string();
+        let place = format!("{}: line 2, column ", urdf.display());
+        assert!(error.contains(&place) && error.contains(mesh), "{error}");
+        assert!(error.contains(message) && error.contains("cure: give the scale"), "{message}: {error}");
+    }
+    // What is far is brought near by its scale.
+    assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
+}
+
+#[test]
+fn lines_of_obj_go_on_after_a_backslash() {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
+    fs::write(&world, "").unwrap();
+    fs::write(&urdf, urdf_with("<geometry><mesh filename=\"t.obj\"/></geometry>")).unwrap();
+    let load = |text: &str| {
+        fs::write(folder.path().join("t.obj"), text).unwrap();
+        load_scene(&urdf, &world).map(|scene| scene.scene.into_parts().0.links[0].parts[0].shape.clone())
+    };
+    let plain = load("v 0 0 0\nv 2 0 0\nv 0 1 0.5\nf 1 2 3\n").unwrap();
+    let folded = "# of C:\\meshes\\\nv 0 \\\n 0 0\nv 2 0 0\nv \\ \r\n0\\\r\n1 0.5\nf 1 2 \\\n\\\n3\\";
+    assert_eq!(load(folded).unwrap(), plain);
+    let error = load("v 0 0 \\\n0\nv 0 \\\nf 1 1 1\n").unwrap_err().to_string();
+    assert!(error.contains("line 3: a vertex needs three numbers"), "{error}");
+}
+
+#[test]
 fn a_speed_that_is_all_but_infinite_makes_no_infinite_acceleration() {
     let joints = ["a", "b"].map(|name| format!("{name} = 1e308")).join(", ");
     let arm =

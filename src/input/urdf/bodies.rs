@@ -183,12 +183,9 @@ impl Bodies<'_> {
                         continue;
                     }
                     Ok(solid) => solid,
-                    Err(message) => {
+                    Err(mesh::Unread { message, cure }) => {
                         let message = format!("link \"{}\": {message}", link.name);
-                        let help = "correct the path, put the package folder beside the URDF or name its place in \
-                                    ROS_PACKAGE_PATH, and convert other formats to STL; or let bars between the joints \
-                                    stand in for the links, in the world file: [robot] bar = 0.05 (their radius in metres)";
-                        found.unread.push(self.document.diagnostic_at(at, message).help(help));
+                        found.unread.push(self.document.diagnostic_at(at, message).help(cure));
                         continue;
                     }
                 };
@@ -202,7 +199,7 @@ impl Bodies<'_> {
         found
     }
 
-    fn solid(&self, geometry: &Geometry) -> Result<Solid, String> {
+    fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::Unread> {
         Ok(match geometry {
             Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
             Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },

@@ -5,21 +5,37 @@ mod obj;
 mod stl;
 
 use crate::input::source::{Source, read_bounded};
+use crate::input::world::LARGEST;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
+
+/// Why a mesh is not read, and what to do about it.
+pub(super) struct Unread {
+    pub message: String,
+    pub cure: &'static str,
+}
+
+impl From<String> for Unread {
+    fn from(message: String) -> Self {
+        let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, and \
+                    convert other formats to STL; or let bars between the joints stand in for the links, in the world \
+                    file: [robot] bar = 0.05 (their radius in metres)";
+        Self { message, cure }
+    }
+}
 
 /// Vertices of a mesh, scaled, in the geometry's frame.
 ///
 /// `filename` is as in the URDF: `package://name/rest`, `file://path`, absolute, or relative to the URDF's folder.
 ///
 /// # Errors
-/// In words, with the places that were searched: the file is missing, the URDF is no file, of a format that is not read, or broken.
-pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Vec<Point3<f64>>, String> {
+/// With the places that were searched: the file is missing, the URDF is no file, of a format that is not read, broken, or too large.
+pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result<Vec<Point3<f64>>, Unread> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
-        return Err(format!(
-            "mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format"
-        ));
+        let message =
+            format!("mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format");
+        return Err(message.into());
     }
     let anchor = urdf.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
     let path = find(filename, anchor)?;
@@ -30,10 +46,25 @@ pub(super) fn vertices(filename: &str, scale: [f64; 3], urdf: &Source) -> Result
         _ => obj::read(&bytes),
     };
     let points = points.map_err(|e| format!("mesh {}: {e}", path.display()))?;
-    if points.iter().any(|p| !p.iter().all(|c| c.is_finite())) {
-        return Err(format!("mesh {}: a vertex is not finite", path.display()));
+    let scaled: Vec<_> = points.iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect();
+    match scaled.iter().position(|p| !p.iter().all(|c| c.abs() <= LARGEST)) {
+        None => Ok(scaled),
+        Some(far) => Err(too_far(&points[far], scale, &path)),
     }
-    Ok(points.into_iter().map(|p| Point3::new(p.x * scale[0], p.y * scale[1], p.z * scale[2])).collect())
+}
+
+/// A vertex that scaled is nowhere, or where no arm can be.
+fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> Unread {
+    let [x, y, z] = vertex.coords.into();
+    let [a, b, c] = scale;
+    let what = if vertex.iter().all(|c| c.is_finite()) { "too large" } else { "not finite" };
+    let message = format!(
+        "mesh {}: a vertex is {what}: ({x:?}, {y:?}, {z:?}) with scale=\"{a:?} {b:?} {c:?}\" (at most {LARGEST:e} m)",
+        path.display()
+    );
+    let cure =
+        "give the scale that makes metres of its numbers, such as 0.001 for millimetres, or export the mesh again";
+    Unread { message, cure }
 }
 
 fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {

@@ -5,9 +5,18 @@ use nalgebra::Point3;
 /// Vertices of the faces.
 pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let (mut vertices, mut points) = (Vec::new(), Vec::new());
-    for (line, number) in bytes.split(|&byte| byte == b'\n').zip(1..) {
+    let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
+    let mut line = Vec::new();
+    while let Some((mut piece, number)) = lines.next() {
+        line.clear();
+        while let Some(begun) = continued(piece) {
+            line.extend_from_slice(begun);
+            line.push(b' ');
+            piece = lines.next().map_or(&[], |(next, _)| next);
+        }
+        line.extend_from_slice(piece);
         // Names may be in any encoding; what is of interest is ASCII.
-        let line = String::from_utf8_lossy(line);
+        let line = String::from_utf8_lossy(&line);
         let mut words = line.split_whitespace();
         match words.next() {
             Some("v") => {
@@ -33,4 +42,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
         return Err("the mesh has no face".into());
     }
     Ok(points)
+}
+
+/// What a line says that goes on in the next, by a backslash at its end. Comments end with their line: they may name folders.
+fn continued(line: &[u8]) -> Option<&[u8]> {
+    line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }
