@@ -12,7 +12,7 @@ use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 use reader::{Answer, Reader};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::value::RawValue;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
@@ -50,7 +50,7 @@ pub struct BatchArgs {
 #[derive(Serialize)]
 struct Row<T> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    id: Option<Value>,
+    id: Option<Box<RawValue>>,
     #[serde(flatten)]
     answer: T,
 }
@@ -61,7 +61,7 @@ struct Row<T> {
 /// Input that cannot be read or holds no objects, output that cannot be written.
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
-    let turns = Turns::new(BufReader::new(opened(args)?), io::stdout(), args.jobs.into());
+    let turns = Turns::new(BufReader::new(opened(args)?), &input, io::stdout(), args.jobs.into());
     let work = || {
         let mut reader = Reader::default();
         turns.work(|line| row(reader.answer(line, &input), &args.fields));
@@ -80,6 +80,10 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
 
 fn opened(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     let Some(path) = &args.problems else { return Ok(Box::new(io::stdin())) };
+    if path.is_dir() {
+        let cure = "name a file of JSON lines, or send the lines of several to stdin";
+        return Err(Failure::Option(format!("{}: cannot be read: it is a folder\n  cure: {cure}", path.display())));
+    }
     let refused = |error| {
         let cure = "check the path and the file's permissions";
         Failure::Option(format!("{}: cannot be read: {error}\n  cure: {cure}", path.display()))

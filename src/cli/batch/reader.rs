@@ -6,6 +6,9 @@ use crate::cli::words::{self, Asked};
 use crate::engine::{Plan, Problem, plan};
 use crate::input::{Diagnostic, InputError, LoadedScene, Position, Source, scene_from};
 use serde::Deserialize;
+use serde::de::IgnoredAny;
+use serde_json::error::Category;
+use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -17,6 +20,9 @@ const REMEMBERED: usize = 256;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Given {
+    /// Kept as it is written.
+    #[serde(rename = "id")]
+    _id: Option<IgnoredAny>,
     urdf: Option<PathBuf>,
     urdf_text: Option<String>,
     world: Option<World>,
@@ -54,8 +60,8 @@ enum Named {
 
 /// What a line comes to.
 pub struct Answer {
-    /// As the line has it.
-    pub id: Option<Value>,
+    /// As the line has it, to the letter: no number is too large.
+    pub id: Option<Box<RawValue>>,
     /// Whether the line is a JSON object at all.
     pub is_object: bool,
     /// What is answered.
@@ -80,23 +86,21 @@ impl Reader {
     /// Answers a line. `input` is what messages call its file.
     pub fn answer(&mut self, line: &Line, input: &str) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
-        let mut keys = match serde_json::from_slice::<Value>(&line.text) {
-            Ok(Value::Object(keys)) => keys,
-            Ok(_) => {
-                let plan = Err(refused("this is no JSON object".into(), "give it `urdf` and `world`"));
-                return Answer { id: None, is_object: false, plan };
-            }
+        // The parser names a line of this line.
+        let said = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
+        let mut keys = match serde_json::from_slice::<HashMap<String, Box<RawValue>>>(&line.text) {
+            Ok(keys) => keys,
             Err(error) => {
-                // The parser names a line of this line.
-                let message = error.to_string().replace(" at line 1 column", " at column");
-                let plan = Err(refused(format!("this is no JSON: {message}"), "give each problem a line of JSON"));
-                return Answer { id: None, is_object: false, plan };
+                let failure = match error.classify() {
+                    Category::Data => refused("this is no JSON object".into(), "give it `urdf` and `world`"),
+                    _ => refused(format!("this is no JSON: {}", said(error)), "give each problem a line of JSON"),
+                };
+                return Answer { id: None, is_object: false, plan: Err(failure) };
             }
         };
-        let id = keys.remove("id");
-        let given = serde_json::from_value(Value::Object(keys))
-            .map_err(|error| refused(error.to_string(), "`cplan batch --help` tells what a line can say"));
-        Answer { id, is_object: true, plan: given.and_then(|given| self.plan(given, &refused)) }
+        let given = serde_json::from_slice(&line.text)
+            .map_err(|error| refused(said(error), "`cplan batch --help` tells what a line can say"));
+        Answer { id: keys.remove("id"), is_object: true, plan: given.and_then(|given| self.plan(given, &refused)) }
     }
 
     fn plan(&mut self, given: Given, refused: &dyn Fn(String, &str) -> Failure) -> Result<Plan, Failure> {

@@ -8,6 +8,9 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 /// Bytes of the longest line that is read; what never ends is not.
 const LONGEST: u64 = 64 << 20;
 
+/// What some programs begin a text in UTF-8 with.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Answers that wait for one before them, a job: enough to keep all jobs busy beside a hard problem.
 const WAITING: usize = 64;
 
@@ -36,6 +39,8 @@ pub struct Turns<R, W> {
 
 struct Input<R> {
     reader: R,
+    /// What messages call it.
+    name: String,
     /// Lines read, blank ones included.
     read: usize,
     /// Lines given out.
@@ -53,10 +58,10 @@ struct Output<W> {
 
 impl<R: BufRead, W: Write> Turns<R, W> {
     /// Nothing is read yet.
-    pub fn new(reader: R, writer: W, jobs: usize) -> Self {
+    pub fn new(reader: R, name: &str, writer: W, jobs: usize) -> Self {
         let output = Output { writer, waiting: BTreeMap::new(), written: 0, count: Count::default(), ended: None };
         Self {
-            input: Mutex::new(Input { reader, read: 0, given: 0 }),
+            input: Mutex::new(Input { reader, name: name.to_owned(), read: 0, given: 0 }),
             output: Mutex::new(output),
             moved: Condvar::new(),
             most: WAITING * jobs,
@@ -100,11 +105,18 @@ impl<R: BufRead, W: Write> Turns<R, W> {
             let read = (&mut input.reader).take(LONGEST + 1).read_until(b'\n', &mut text);
             input.read += 1;
             let number = input.read;
+            if number == 1 && text.starts_with(BYTE_ORDER_MARK) {
+                text.drain(..BYTE_ORDER_MARK.len());
+            }
+            let place = || format!("{}: line {number}", input.name);
             match read {
-                Err(error) => return Err(Failure::Option(format!("line {number} cannot be read: {error}"))),
+                Err(error) => {
+                    let cure = "look whether it is a file of text, and whole";
+                    return Err(Failure::Option(format!("{} cannot be read: {error}\n  cure: {cure}", place())));
+                }
                 Ok(0) => return Ok(None),
                 Ok(bytes) if bytes as u64 > LONGEST => {
-                    let message = format!("line {number} is longer than {} MiB", LONGEST >> 20);
+                    let message = format!("{} is longer than {} MiB", place(), LONGEST >> 20);
                     return Err(Failure::Option(format!("{message}\n  cure: give each problem a line of its own")));
                 }
                 Ok(_) if text.trim_ascii().is_empty() => (),
@@ -168,7 +180,7 @@ mod tests {
         const JOBS: usize = 3;
         let lines: String = (0..1000).map(|number| format!("{number}\n\n")).collect();
         let mut written = Vec::new();
-        let turns = Turns::new(lines.as_bytes(), &mut written, JOBS);
+        let turns = Turns::new(lines.as_bytes(), "input", &mut written, JOBS);
         let done = AtomicUsize::new(0);
         let answer = |line: &Line| {
             // The first line takes until all others wait for it.

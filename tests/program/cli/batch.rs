@@ -134,6 +134,32 @@ fn a_bad_line_is_a_row() {
 }
 
 #[test]
+fn an_id_comes_back_as_it_is_written() {
+    let place = Place::new();
+    let [urdf, world] = shelf().map(|path| json!(path).to_string());
+    let ids = ["123456789012345678901234567890", "1e400", "-0.10", "[1e999, {\"a\": 1.0}]", "\"\\u00e4\"", "null"];
+    let lines = ids.map(|id| format!("{{\"id\": {id}, \"urdf\": {urdf}, \"world\": {world}}}\n")).concat();
+    // A byte order mark is no part of the first line, and a blank one behind it is none.
+    for mark in ["", "\u{feff}", "\u{feff}\n"] {
+        place.write("problems.jsonl", format!("{mark}{lines}{{\"id\": 1e400}}\n{{\"id\": 1, \"urdf\": 1e400}}\n"));
+        let done = place.run(&["batch", "problems.jsonl"], "--fields status");
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+        let rows: Vec<&str> = done.stdout.lines().collect();
+        let found = ids.map(|id| format!("{{\"id\":{id},\"status\":\"found\"}}"));
+        assert_eq!(rows[..ids.len()], found);
+        assert!(
+            rows[6].starts_with("{\"id\":1e400,\"status\":\"error\"") && rows[6].contains("give `urdf`"),
+            "{}",
+            rows[6]
+        );
+        assert!(rows[7].starts_with("{\"id\":1,\"status\":\"error\"") && rows[7].contains("at column"), "{}", rows[7]);
+    }
+    place.run(&["batch", "."], "").refused(1, &[".: cannot be read: it is a folder", "cure: name a file"]);
+    place.write("bytes.jsonl", "\u{feff}\u{feff}{}\n");
+    assert_eq!(place.run(&["batch", "bytes.jsonl"], "").code, 1);
+}
+
+#[test]
 fn answers_come_while_lines_do_and_end_with_their_reader() {
     let place = Place::new();
     let [urdf, world] = shelf();
