@@ -176,6 +176,7 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
     place.write("far.dxf", dxf("0 CIRCLE 8 a 10 1e15 20 0 40 1"));
     place.write("high.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 39 1e300 40 1"));
     place.write("one.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 40 1"));
+    place.write("tiny.geojson", r#"{"type": "Polygon", "coordinates": [[[0, 0], [1e-10, 0], [0, 1e-10], [0, 0]]]}"#);
     place.write("cut.dxf", &dxf("0 CIRCLE 8 a 10 1 20 0 40 1")[..60]);
     place.write("broken.svg", "<svg>\n<g>\n</svg>");
     place.write("broken.json", "{ \"type\":\n 3");
@@ -194,6 +195,9 @@ fn what_is_wrong_is_said_with_its_place_and_cure() {
         &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1.00e12 m (at most 1e6)", "--move"],
     );
     refused("high.dxf", "", &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6)"]);
+    let done = place.run(&["import", "tiny.geojson"], "");
+    done.refused(1, &["nothing of this drawing is an obstacle", "what has no extent: left out"]);
+    assert!(!done.stderr.contains("taken as"), "{}", done.stderr);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "no well-formed XML"]);
     refused("broken.json", "", &["broken.json: line 2", "no JSON"]);
