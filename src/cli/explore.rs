@@ -108,7 +108,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     if let Some(sink) = sinks.iter().find(|sink| !is_known(sink)) {
         let path = sink.path().display();
         return Err(Failure::Usage(format!(
-            "{path}: an exploration is written as .json (of another name than cspace.json), .csv or .yaml"
+            "{path}: an exploration is written as .json, .csv or .yaml, and has no cspace.json"
         )));
     }
     let map = args.map.as_deref().map(map_files).transpose()?;
