@@ -1,5 +1,6 @@
 """Studies of many layouts: on this machine, or on a cluster of Ray."""
 
+import importlib
 import json
 import os
 from collections.abc import Callable, Iterator
@@ -88,7 +89,7 @@ def _locally(study: Study, first: int, jobs: int) -> Iterator[Rows]:
 def _by_ray(study: Study, first: int, batch: int) -> Iterator[Rows]:
     """Tasks in the order of their layouts. A worker that dies has its task done by another one."""
     try:
-        import ray
+        ray = importlib.import_module("ray")
     except ImportError as error:
         raise ImportError('engine="ray" needs Ray, which is not installed: `pip install "cplan[ray]"`') from error
     if batch < 1:
