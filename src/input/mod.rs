@@ -64,6 +64,7 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
+#[cfg(feature = "study")]
 pub(crate) use schema::toml_schema;
 pub use schema::world_schema;
 pub use source::{Position, Source};
@@ -72,6 +73,7 @@ pub use task::LoadedTask;
 pub use trajectory::{LoadedRecording, load_recording, read_recording};
 pub use values::{JointValues, Overrides, TipPoint};
 use world::RobotTable;
+#[cfg(feature = "study")]
 pub(crate) use world::in_toml_words;
 pub use world::{LARGEST, World};
 

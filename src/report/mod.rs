@@ -33,6 +33,7 @@ pub use row::{Family, OtherPath, Row};
 pub use sign::sign_test;
 pub use spread::Spread;
 pub use study::{Refusal, Sampling, Study};
+#[cfg(feature = "program")]
 pub(crate) use table::quoted;
 pub use table::{Align, Column, Table};
 pub use words::words;

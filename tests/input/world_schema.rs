@@ -214,6 +214,7 @@ fn the_kept_reference_is_made_from_the_schema() {
     }
 }
 
+#[cfg(feature = "study")]
 #[test]
 fn worlds_and_studies_that_the_book_shows_are_valid() {
     let (of_worlds, of_studies) = (validator(), studies());
@@ -234,11 +235,13 @@ fn worlds_and_studies_that_the_book_shows_are_valid() {
     assert!(seen >= 6, "only {seen} worlds");
 }
 
+#[cfg(feature = "study")]
 fn studies() -> jsonschema::Validator {
     jsonschema::draft7::new(&cplan::study::study_schema()).unwrap()
 }
 
 /// The schema of studies takes those that are shipped, and refuses what the program refuses for its form.
+#[cfg(feature = "study")]
 #[test]
 fn studies_are_valid_and_others_are_not() {
     let validator = studies();

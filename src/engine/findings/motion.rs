@@ -115,7 +115,7 @@ pub struct EncounterFinding {
     pub depth: f64,
     /// The pair, for people.
     #[serde(skip)]
-    pub(crate) pair: String,
+    pub pair: String,
 }
 
 /// A moment of a motion.
@@ -149,7 +149,7 @@ pub struct LimitFinding {
     pub moment: MomentFinding,
     /// The same as it was found.
     #[serde(skip)]
-    pub(crate) excess: Excess,
+    pub excess: Excess,
 }
 
 impl MotionFindings {

@@ -33,6 +33,7 @@ impl Axis {
     }
 
     /// One from a value to a greater one, without room.
+    #[cfg(feature = "study")]
     pub fn between(lower: f64, upper: f64) -> Self {
         Self { lower, upper, is_logarithmic: false }
     }

@@ -4,12 +4,14 @@
 mod axis;
 mod boxes;
 mod convergence;
+#[cfg(feature = "study")]
 mod frame;
 mod markup;
 mod outcomes;
 mod overlay;
 
 pub(crate) use axis::Axis;
+#[cfg(feature = "study")]
 pub(crate) use frame::{Frame, frame};
 pub(crate) use markup::{image_source, number, table};
 pub use overlay::{Overlay, Spot};
