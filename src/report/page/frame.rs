@@ -7,7 +7,7 @@ use crate::text::markup;
 /// Size of a chart, pixels.
 const SIZE: [f64; 2] = [460.0, 380.0];
 /// Left of the plot, above it, right of it, below it.
-const MARGINS: [f64; 4] = [64.0, 10.0, 14.0, 46.0];
+const MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
 
 /// A chart that has its axes, and is open for what it shows.
 pub struct Frame<F> {
