@@ -98,30 +98,12 @@ impl Study {
     #[pyo3(signature = (first, last, jobs = 1))]
     fn rows(&self, py: Python<'_>, first: usize, last: usize, jobs: usize) -> PyResult<Rows> {
         let last = last.min(self.study.count());
-        let rows = interruptible(py, |raised| {
-            let mut rows = Vec::new();
-            let _ = self.study.rows(first..last.max(first), jobs, |row| {
-                rows.push(row);
-                cplan::interrupt::checkpoint();
-                if raised.is_any() { Err(()) } else { Ok(()) }
-            });
-            rows
-        })?;
-        Ok(Rows { rows })
+        collected(py, |each| self.study.rows(first..last.max(first), jobs, each))
     }
 
     /// Rows of the search that begins with these ones, on so many threads; `done` are rows of one that was stopped.
     fn search(&self, py: Python<'_>, known: &Rows, done: &Rows, jobs: usize) -> PyResult<Rows> {
-        let rows = interruptible(py, |raised| {
-            let mut rows = Vec::new();
-            let _ = self.study.search(&known.rows, &done.rows, jobs, |row| {
-                rows.push(row);
-                cplan::interrupt::checkpoint();
-                if raised.is_any() { Err(()) } else { Ok(()) }
-            });
-            rows
-        })?;
-        Ok(Rows { rows })
+        collected(py, |each| self.study.search(&known.rows, &done.rows, jobs, each))
     }
 
     /// Of these rows, in some lines for people.
@@ -175,6 +157,24 @@ impl Study {
         let sources = serde_json::to_string(&slf.get().study.sources()).map_err(refused)?;
         Ok((slf.get_type().into_any(), ("", sources)))
     }
+}
+
+/// What hears of each row, and whether to go on.
+type Each<'a> = &'a mut dyn FnMut(Row) -> Result<(), ()>;
+
+/// All rows that `work` hands on, until Ctrl-C.
+fn collected(py: Python<'_>, work: impl FnOnce(Each) -> Result<(), ()> + Send) -> PyResult<Rows> {
+    let rows = interruptible(py, |raised| {
+        let mut rows = Vec::new();
+        // What ends it early is raised.
+        let _ = work(&mut |row| {
+            rows.push(row);
+            cplan::interrupt::checkpoint();
+            if raised.is_any() { Err(()) } else { Ok(()) }
+        });
+        rows
+    })?;
+    Ok(Rows { rows })
 }
 
 /// Rows of a study.

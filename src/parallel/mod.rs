@@ -1,10 +1,12 @@
 //! Work on several threads, whose results come in order.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::sync_channel;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::channel;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Results that wait for their turn at the most, for each thread.
+/// Pieces of work that begin before the one that is due has ended, at the most, for each thread: their results wait.
 const WAITING: usize = 64;
 
 /// Does `count` pieces of work on `jobs` threads, and hands the results to `each` on this thread, in order, each as soon as all before it
@@ -21,18 +23,26 @@ pub fn in_order<T: Send, E>(
     if jobs <= 1 {
         return (0..count).try_for_each(|i| each(work(i)));
     }
-    let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let next = AtomicUsize::new(0);
+    let turns = Turns { state: Mutex::new((0, false)), moved: Condvar::new(), most: WAITING * jobs };
     std::thread::scope(|scope| {
-        let (sender, results) = sync_channel(WAITING * jobs);
+        let (sender, results) = channel();
         for _ in 0..jobs.min(count) {
             let sender = sender.clone();
-            let (next, is_over, work) = (&next, &is_over, &work);
+            let (next, turns, work) = (&next, &turns, &work);
             scope.spawn(move || {
-                while !is_over.load(Ordering::Relaxed) {
+                loop {
                     let i = next.fetch_add(1, Ordering::Relaxed);
-                    // Nobody takes results any more once one was refused.
-                    if i >= count || sender.send((i, work(i))).is_err() {
+                    if i >= count || !turns.may_begin(i) {
                         break;
+                    }
+                    match catch_unwind(AssertUnwindSafe(|| work(i))) {
+                        // Nobody takes results any more once one was refused.
+                        Ok(result) => drop(sender.send((i, result))),
+                        Err(panic) => {
+                            turns.end();
+                            resume_unwind(panic);
+                        }
                     }
                 }
             });
@@ -43,14 +53,44 @@ pub fn in_order<T: Send, E>(
             early.insert(i, result);
             while let Some(result) = early.remove(&due) {
                 if let Err(refused) = each(result) {
-                    is_over.store(true, Ordering::Relaxed);
+                    turns.end();
                     return Err(refused);
                 }
                 due += 1;
+                turns.reach(due);
             }
         }
         Ok(())
     })
+}
+
+/// Which result is due, and whether no other work is to begin.
+struct Turns {
+    state: Mutex<(usize, bool)>,
+    moved: Condvar,
+    most: usize,
+}
+
+impl Turns {
+    fn state(&self) -> MutexGuard<'_, (usize, bool)> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until few enough results wait for this one's predecessors; false when it is over.
+    fn may_begin(&self, i: usize) -> bool {
+        let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
+        !self.moved.wait_while(self.state(), is_early).unwrap_or_else(PoisonError::into_inner).1
+    }
+
+    fn reach(&self, due: usize) {
+        self.state().0 = due;
+        self.moved.notify_all();
+    }
+
+    fn end(&self) {
+        self.state().1 = true;
+        self.moved.notify_all();
+    }
 }
 
 #[cfg(test)]
@@ -86,5 +126,34 @@ mod tests {
             assert_eq!(refused, Err("enough"));
             assert!(begun.load(Ordering::Relaxed) < 10_000);
         }
+    }
+
+    #[test]
+    fn few_results_wait_for_a_slow_one() {
+        let begun = AtomicUsize::new(0);
+        let work = |i: usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            if i == 0 {
+                // As many as may, and no more, however long it takes.
+                while begun.load(Ordering::SeqCst) < 3 * WAITING {
+                    std::thread::yield_now();
+                }
+                std::thread::sleep(std::time::Duration::from_millis(20));
+                assert_eq!(begun.load(Ordering::SeqCst), 3 * WAITING);
+            }
+            i
+        };
+        assert_eq!(in_order(1000, 3, work, |_| Ok::<_, ()>(())), Ok(()));
+    }
+
+    #[test]
+    fn a_panic_ends_the_work() {
+        let begun = AtomicUsize::new(0);
+        let work = |i: usize| {
+            begun.fetch_add(1, Ordering::SeqCst);
+            assert_ne!(i, 10, "this one fails");
+        };
+        let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |()| Ok::<_, ()>(()))));
+        assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
     }
 }
