@@ -46,6 +46,7 @@ mod reach;
 mod result;
 mod settings;
 mod survey;
+mod views;
 mod wall;
 
 pub use explorer::explore;
