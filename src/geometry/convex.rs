@@ -16,6 +16,12 @@ pub enum ConvexError {
         /// The radius as it was given.
         radius: f64,
     },
+    /// A bar has no length, or not a finite one.
+    #[error("its length is {length}, which is to be greater than 0")]
+    Length {
+        /// The length as it was given.
+        length: f64,
+    },
     /// A coordinate is infinite or not a number.
     #[error("corner {} is not finite", corner + 1)]
     NotFinite {

@@ -78,7 +78,7 @@ impl Arm {
     /// ```
     ///
     /// # Errors
-    /// Sizes that are not finite and positive.
+    /// As [`Link::bar`].
     pub fn rr(lengths: [f64; 2], width: f64) -> Result<Self, ConvexError> {
         let links = [Link::bar("link 1", lengths[0], width)?, Link::bar("link 2", lengths[1], width)?];
         Ok(Self::new([Joint::continuous("joint 1"), Joint::continuous("joint 2")], links, lengths))

@@ -53,11 +53,21 @@ impl Link {
         Self { name: name.into(), parts, source }
     }
 
-    /// A bar with round ends along x from the joint, metres.
+    /// A bar with round ends along x from the joint, metres; without a width it is a line.
+    ///
+    /// ```
+    /// use cplan::model::Link;
+    ///
+    /// assert!(Link::bar("thin", 0.8, 0.0).is_ok());
+    /// assert!(Link::bar("backwards", -0.8, 0.06).is_err() && Link::bar("hollow", 0.8, -0.06).is_err());
+    /// ```
     ///
     /// # Errors
-    /// A width or length that is not finite and positive.
+    /// A length that is not finite and positive, and a width that is negative or not finite.
     pub fn bar(name: &str, length: f64, width: f64) -> Result<Self, ConvexError> {
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(ConvexError::Length { length });
+        }
         Ok(Self::of(name, [Convex::new(vec![Point::origin(), Point::new(length, 0.0)], width / 2.0)?]))
     }
 }
