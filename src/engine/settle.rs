@@ -11,6 +11,10 @@ use crate::search::{Connectivity, connectivity, slab_connectivity};
 /// Slabs that decide all but contrived questions; a few thousand take some milliseconds.
 const SLABS: usize = 10_000;
 
+/// What slabs and boxes may take before the other is asked. Either may need ten times as many where the other is done soon: slabs
+/// along a slanted way that is closed by little, boxes in a narrow passage.
+const AT_FIRST: [usize; 2] = [1000, 4000];
+
 /// A proof of more boxes than this is large: where slabs have only such a one, boxes that are halved need fewer, as where obstacles overlap little all
 /// along a slanted line, which slabs tile with boxes as narrow as themselves.
 pub(super) const LARGE_PROOF: usize = 10_000;
@@ -76,17 +80,22 @@ fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) 
     let (scene, start, goals) = (some.scene(), some.start(), some.goals());
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
-    let by_slabs = |most: usize| slab_connectivity(scene, start, goals, clearance, limits.slabs, most);
-    match by_slabs(LARGE_PROOF) {
+    let by_slabs = |slabs: usize, most: usize| slab_connectivity(scene, start, goals, clearance, slabs, most);
+    let either = |slabs: usize, boxes: usize| match by_slabs(slabs, LARGE_PROOF) {
         // There is none, but slabs take no end of boxes to state it.
         Connectivity::Undecided { closed: true, .. } => match by_boxes(limits.for_smaller) {
-            Verdict::Unknown(_) => judged(problem, in_truth, by_slabs(LARGEST_PROOF)),
+            Verdict::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
             known => known,
         },
         answer => match judged(problem, in_truth, answer) {
-            Verdict::Unknown(_) => by_boxes(limits.boxes),
+            Verdict::Unknown(_) => by_boxes(boxes),
             known => known,
         },
+    };
+    let [slabs, boxes] = AT_FIRST;
+    match either(limits.slabs.min(slabs), limits.boxes.min(boxes)) {
+        Verdict::Unknown(_) if limits.slabs > slabs || limits.boxes > boxes => either(limits.slabs, limits.boxes),
+        verdict => verdict,
     }
 }
 

@@ -38,6 +38,7 @@ mod separating;
 mod slab;
 mod slabs;
 mod slim;
+mod tiles;
 
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};

@@ -6,7 +6,6 @@
 //! over the slab; where a point of it lies more than `m` deep in both shapes, it is stuck all over the slab.
 
 use crate::check::Cell;
-use crate::check::StuckBox;
 use crate::check::{Deviation, Posture};
 use crate::geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use crate::interrupt::checkpoint;
@@ -20,9 +19,6 @@ pub(super) const OUTWARD: f64 = 2.0 * ROUNDING;
 /// the boxes that state the proof (about as far, at the ends of a stuck interval, as joint 1 moves over a quarter of the
 /// slab).
 const OVERLAP: f64 = 1.25;
-
-/// Boxes into which a stuck interval of a slab is cut at most: shallow ends need boxes about as high as the slab is wide.
-const MOST_TILES: usize = 4096;
 
 /// A part of link 2, or what stands still in one of its pairs.
 struct Deep {
@@ -131,6 +127,11 @@ impl<'a> SecondLink<'a> {
         Self { contacts, clearance, parts, pieces, scratch: Vec::new(), near: Vec::new() }
     }
 
+    /// The clearance to keep, metres.
+    pub fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
     /// The scene, prepared.
     pub fn contacts(&self) -> &Contacts<'a> {
         &self.contacts
@@ -203,30 +204,6 @@ impl<'a> SecondLink<'a> {
             Some(eroded) => eroded.hits(moving, standing, elbow, heading, out),
         }
     }
-
-    /// The boxes that state that pair `index` is stuck for `q2` in `interval`, all over the slab. Whether the bounds that
-    /// boxes are judged by see it.
-    pub fn tile(&self, from: f64, to: f64, index: usize, interval: [f64; 2], boxes: &mut Vec<StuckBox>) -> bool {
-        let scene = self.contacts.scene();
-        let pair = scene.pairs()[index];
-        let begin = boxes.len();
-        let mut open = vec![interval];
-        while let Some([lower, upper]) = open.pop() {
-            checkpoint();
-            let cell = Cell { lower: [from, lower], upper: [to, upper] };
-            if is_stuck(scene, pair, &cell, self.clearance) {
-                boxes.push(StuckBox { cell, pair });
-                continue;
-            }
-            let middle = (lower + upper) / 2.0;
-            if open.len() + boxes.len() - begin > MOST_TILES || middle <= lower || middle >= upper {
-                return false;
-            }
-            open.push([middle, upper]);
-            open.push([lower, middle]);
-        }
-        true
-    }
 }
 
 /// Whether the pair is too near all over the box, by the bounds that boxes are judged by.
@@ -236,6 +213,7 @@ pub(super) fn is_stuck(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -
 
 #[cfg(test)]
 mod tests {
+    use super::super::tiles::tile;
     use super::*;
     use crate::geometry::hull;
     use crate::model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
@@ -320,7 +298,8 @@ mod tests {
             // The boxes that state it say neither more nor less.
             for &(pair, interval) in &inner {
                 let mut boxes = Vec::new();
-                prop_assert!(second.tile(from, to, pair, interval, &mut boxes), "{interval:?}");
+                let pair = scene.pairs()[pair];
+                prop_assert!(tile(&scene, clearance, [from, to], pair, interval, &mut boxes), "{interval:?}");
                 boxes.sort_by(|a, b| a.cell.lower[1].total_cmp(&b.cell.lower[1]));
                 prop_assert!(boxes.windows(2).all(|w| w[0].cell.upper[1] == w[1].cell.lower[1]));
                 prop_assert_eq!([boxes[0].cell.lower[1], boxes[boxes.len() - 1].cell.upper[1]], interval);

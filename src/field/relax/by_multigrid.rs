@@ -12,6 +12,12 @@ const RESTART: usize = 16;
 /// The error to which a step solves for the equation without its drift. It only leads the way: a digit is enough.
 const ADVICE: f64 = 0.1;
 
+/// The least error to which a step solves where there is no drift: about what single precision allows.
+const FINEST: f64 = 1e-6;
+
+/// The part of what is asked for that a step is content with: the residual is what counts, not its estimate, and rounding adds to it.
+const ENOUGH: f64 = 0.5;
+
 /// Solves a linear equation from `start`, such as the field for obstacles that have moved a little since. Flexible GMRES (Saad 1993),
 /// preconditioned by the multigrid solution of the same problem without the drift, to a digit. A step costs as much as that; how many
 /// there are depends on the drift times the width of what it holds in, not on the number of cells: 2 to 14 from nothing in the
@@ -101,6 +107,14 @@ pub(in crate::field) fn by_multigrid_in(
             return Ok(Relaxed { values, stages: vec![stage] });
         }
         let advice = preconditioner.get_or_insert_with(|| Preconditioner::new(&system, memory));
+        if !has_drift {
+            // The advice is the solution: as near to it as is asked for.
+            let error = (ENOUGH * stopping.below / stage.change).sqrt().clamp(FINEST, ADVICE);
+            let way = advice.way(&system, &residual, error);
+            values.iter_mut().zip(&way).for_each(|(value, way)| *value += way);
+            stage.sweeps += 1;
+            continue;
+        }
         let most = RESTART.min(stopping.max_sweeps - stage.sweeps);
         stage.sweeps += system.round(advice, residual, stopping.below, most, &mut values);
     }
@@ -225,7 +239,7 @@ impl System {
         let (mut columns, mut turns): (Vec<Vec<f64>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
         while ways.len() < most {
             checkpoint();
-            let way = advice.way(self, &basis[basis.len() - 1]);
+            let way = advice.way(self, &basis[basis.len() - 1], ADVICE);
             // The residual falls by this where the values go the way.
             let mut image = scaled(self.residual(&way), -1.0);
             ways.push(way);
@@ -254,8 +268,7 @@ impl System {
             let last = left[k];
             left[k] = turn[0] * last;
             left.push(-turn[1] * last);
-            // Half of what is asked for, since the residual is what counts, and rounding adds to it.
-            if beyond == 0.0 || left[k + 1] * left[k + 1] < 0.5 * below {
+            if beyond == 0.0 || left[k + 1] * left[k + 1] < ENOUGH * below {
                 break;
             }
             basis.push(scaled(image, 1.0 / beyond));
@@ -291,12 +304,12 @@ impl Preconditioner {
         Self { workspace, multigrid, right: vec![0.0; system.sought.len()] }
     }
 
-    /// Where the values are to go for their residual to fall by this: one a cell, and last 0 for what is beyond limits.
-    fn way(&mut self, system: &System, residual: &[f64]) -> Vec<f64> {
+    /// Where the values are to go for their residual to fall by this, up to an `error`: one a cell, and last 0 for what is beyond limits.
+    fn way(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
         let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
         self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);
         let mut way = vec![0.0; self.right.len()];
-        self.multigrid.solve(&self.right, &mut way, ADVICE, &mut self.workspace);
+        self.multigrid.solve(&self.right, &mut way, error, &mut self.workspace);
         way.push(0.0);
         way
     }

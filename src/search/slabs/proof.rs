@@ -5,6 +5,7 @@ use crate::check::{Disconnection, StuckBox};
 use crate::geometry::merge_in_place;
 use crate::interrupt::checkpoint;
 use crate::search::chain::{Mosaic, ends};
+use crate::search::tiles::{Stuck, lay};
 use crate::space::{Configuration, GoalSet, Segment};
 
 impl Slabs<'_> {
@@ -47,6 +48,9 @@ impl Slabs<'_> {
         let reached = self.reached(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();
         let mut boxes = Vec::new();
+        let mut stuck: Vec<Stuck> = Vec::new();
+        let scene = self.second.contacts().scene();
+        let (bottom, top) = self.topology.ranges[1].domain();
         for number in 0..index(self.slabs.len()) {
             checkpoint();
             let slab = self.slabs[number as usize];
@@ -56,7 +60,6 @@ impl Slabs<'_> {
             let holds_places =
                 |[lower, upper]: [f64; 2]| places.iter().any(|piece| piece.meets([slab.from, lower], [slab.to, upper]));
             let axis = self.topology.ranges[1];
-            let (bottom, top) = axis.domain();
             if own.is_empty() && beside.is_empty() && !holds_places([bottom, top]) {
                 continue;
             }
@@ -80,14 +83,14 @@ impl Slabs<'_> {
                     || holds_places([lower, upper])
             };
             merged.retain(touches);
-            for (pair, interval) in &self.verdicts.inner {
-                let needed = merged.iter().any(|m| m[0] <= interval[0] && interval[1] <= m[1]);
-                if needed && !self.second.tile(slab.from, slab.to, *pair, *interval, &mut boxes) || boxes.len() > most {
-                    return None;
-                }
-            }
+            let needed = |[lower, upper]: [f64; 2]| merged.iter().any(|m| m[0] <= lower && upper <= m[1]);
+            let by = self.verdicts.inner.iter().filter(|(_, interval)| needed(*interval));
+            let by = by.map(|&(pair, interval)| (scene.pairs()[pair], interval)).collect();
+            stuck.push(Stuck { from: slab.from, to: slab.to, by });
         }
-        Some(boxes)
+        let side_by_side = |a: &Stuck, b: &Stuck| a.to == b.from;
+        let mut runs = stuck.chunk_by(side_by_side);
+        runs.all(|run| lay(scene, self.second.clearance(), run, [bottom, top], most, &mut boxes)).then_some(boxes)
     }
 
     /// The verdicts on a slab once more.
