@@ -6,6 +6,8 @@ mod check;
 mod compare;
 mod completions;
 mod converge;
+#[cfg(feature = "study")]
+mod ctrl_c;
 mod demo;
 mod error_json;
 mod explore;

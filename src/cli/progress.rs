@@ -34,6 +34,8 @@ enum Manner {
 #[derive(Debug)]
 pub struct Progress {
     manner: Manner,
+    /// What is counted: runs, or layouts.
+    things: &'static str,
     total: usize,
     started: Instant,
     state: Mutex<State>,
@@ -48,9 +50,9 @@ struct State {
 }
 
 impl Progress {
-    /// For `total` runs. Those of a single problem are told line by line, with whatever the planners have to say; of
+    /// For `total` runs, or other `things`. Those of a single problem are told line by line, with whatever the planners have to say; of
     /// several there is a bar on a terminal, elsewhere a line every ten seconds.
-    pub fn new(total: usize, single: bool, quiet: bool) -> Self {
+    pub fn new(total: usize, things: &'static str, single: bool, quiet: bool) -> Self {
         let manner = match (quiet, single) {
             (true, _) => Manner::Silent,
             (false, true) => Manner::Told,
@@ -58,7 +60,13 @@ impl Progress {
             (false, false) => Manner::Lines,
         };
         let now = Instant::now();
-        Self { manner, total, started: now, state: Mutex::new(State { done: 0, now: String::new(), shown: now }) }
+        Self {
+            manner,
+            things,
+            total,
+            started: now,
+            state: Mutex::new(State { done: 0, now: String::new(), shown: now }),
+        }
     }
 
     /// A run begins.
@@ -93,7 +101,7 @@ impl Progress {
             Manner::Silent | Manner::Told | Manner::Bar => {}
             Manner::Lines if state.shown.elapsed() >= INTERVAL => {
                 state.shown = Instant::now();
-                sinks::say(&line(state.done, self.total, self.started.elapsed()));
+                sinks::say(&line(state.done, self.total, self.things, self.started.elapsed()));
             }
             Manner::Lines => {}
         }
@@ -104,7 +112,7 @@ impl Progress {
         match self.manner {
             Manner::Silent | Manner::Told => {}
             Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
-            Manner::Lines => sinks::say(&line(self.state().done, self.total, self.started.elapsed())),
+            Manner::Lines => sinks::say(&line(self.state().done, self.total, self.things, self.started.elapsed())),
         }
     }
 
@@ -130,10 +138,10 @@ fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<f64>) {
 }
 
 /// `37 of 1000 runs, 12.3 a second, 78 s left`.
-fn line(done: usize, total: usize, elapsed: Duration) -> String {
+fn line(done: usize, total: usize, things: &str, elapsed: Duration) -> String {
     let (rate, left) = rate(done, total, elapsed);
     let left = left.map_or_else(String::new, |left| format!(", {left:.0} s left"));
-    format!("{done} of {total} runs, {rate:.1} a second{left}")
+    format!("{done} of {total} {things}, {rate:.1} a second{left}")
 }
 
 /// A bar, the same numbers in short, and what runs now, as far as there is room; as wide each time.
@@ -162,10 +170,10 @@ mod tests {
 
     #[test]
     fn lines_tell_the_rate_and_what_is_left() {
-        assert_eq!(line(20, 100, Duration::from_secs(4)), "20 of 100 runs, 5.0 a second, 16 s left");
-        assert_eq!(line(100, 100, Duration::from_secs(4)), "100 of 100 runs, 25.0 a second");
+        assert_eq!(line(20, 100, "runs", Duration::from_secs(4)), "20 of 100 runs, 5.0 a second, 16 s left");
+        assert_eq!(line(100, 100, "layouts", Duration::from_secs(4)), "100 of 100 layouts, 25.0 a second");
         let bar = bar(20, 100, Duration::from_secs(4), "visibility on shelf");
         assert_eq!(bar.trim_end(), "[###.............] 20/100 5.0/s 16 s left  visibility on shelf");
-        assert_eq!(line(0, 9, Duration::ZERO), "0 of 9 runs, 0.0 a second");
+        assert_eq!(line(0, 9, "runs", Duration::ZERO), "0 of 9 runs, 0.0 a second");
     }
 }

@@ -69,7 +69,8 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     files().try_for_each(check_writable)?;
     sinks::distinct(files())?;
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
-    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&overrides)?;
+    let world = input::load_scene(&args.files.urdf, &args.files.world)?.explorable(&overrides);
+    let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
     sinks::spare_inputs(files())?;
     let cell = args.cell.unwrap_or(world.scene.arm().reach() / CELLS);

@@ -1,6 +1,7 @@
 //! `cplan study`: many layouts, a row each.
 
 use super::DONE;
+use super::ctrl_c;
 use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
@@ -11,7 +12,8 @@ use crate::text::counted;
 use clap::{Args, ValueHint};
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::available_parallelism;
 
 /// Arguments of `study`.
@@ -31,8 +33,9 @@ A study file (TOML) names a robot, a world, numbers of both that differ from lay
   to = 0.2
   steps = 21                      # or values = [...], or draw = \"latin\" with draws = 1000 above
 
-Each layout is planned in as the two files with its numbers in place. Rows are the same for any number of jobs. While it runs, rows are
-kept beside the first output (FILE.part): the same command goes on where it was stopped.
+Each layout is planned in as the two files with its numbers in place. Rows are the same for any number of jobs. Until all are there, rows
+are kept beside the first output (FILE.part): after Ctrl-C the same command goes on. One in which obstacles stand in each other that do
+not in the world is refused, but for overlap = true.
 
 Examples:
   cplan study workspaces/studies/base.toml
@@ -55,7 +58,7 @@ pub struct StudyArgs {
     /// Layouts at the same time [default: one for each core].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub jobs: Option<u16>,
-    /// Begin anew, whatever an earlier run has left.
+    /// Begin anew, whatever rows are left of a study that was stopped.
     #[arg(long)]
     pub fresh: bool,
     #[command(flatten)]
@@ -87,19 +90,24 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let journal = files.first().map(|(path, _)| part(path));
     sinks::spare_inputs(journal.iter().map(PathBuf::as_path))?;
     let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
-    let (mut journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
+    let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
-        args.print.say(&format!("goes on after {} that an earlier run has planned in", counted(rows.len(), "layout")));
+        args.print.say(&format!("goes on after {} that are known already", counted(rows.len(), "layout")));
     }
     let total = study.count() + study.searched;
-    let progress = Progress::new(total.saturating_sub(rows.len()), false, args.print.quiet);
+    let kept = Kept::new(journal, rows.len());
+    ctrl_c::before_it_ends({
+        let kept = kept.clone();
+        move || sinks::say(&kept.stopped(total))
+    });
+    let progress = Progress::new(total.saturating_sub(rows.len()), "layouts", false, args.print.quiet);
     let jobs = args.jobs.map_or_else(|| available_parallelism().map_or(1, NonZeroUsize::get), usize::from);
     let tried = rows.split_off(study.count().min(rows.len()));
-    let mut keep = |row: &Row, is_new: bool| -> Result<(), JournalError> {
+    let keep = |row: &Row, is_new: bool| -> Result<(), JournalError> {
         if is_new {
             progress.begin(&study.name, &format!("layout {}", row.layout));
             progress.done();
-            journal.as_mut().map_or(Ok(()), |journal| journal.add(row))?;
+            kept.add(row)?;
         }
         Ok(())
     };
@@ -119,7 +127,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let summary = Summary::new(&study, &rows);
     let mut written = Vec::new();
     for (path, content) in &files {
-        match bytes(&study, &rows, &summary, *content)? {
+        match bytes(&study, &rows, &summary, *content, &files)? {
             Some(bytes) => written.push((path.clone(), bytes)),
             None => {
                 sinks::say(&format!("warning: {} is not written: no layout fits, so none is the best", path.display()))
@@ -127,8 +135,11 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         }
     }
     write_whole_set(&written)?;
-    journal.map_or(Ok(()), Journal::remove)?;
-    args.print.tell(|| sinks::pretty(&summary.to_json()), || summary.to_text())?;
+    kept.remove()?;
+    let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
+    let planned =
+        planned.map_or_else(String::new, |(best, command)| format!("layout {best} is planned by: {command}\n"));
+    args.print.tell(|| sinks::pretty(&summary.to_json()), || summary.to_text() + &planned)?;
     Ok(DONE)
 }
 
@@ -177,18 +188,27 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
         );
         return Err(Failure::Option(message));
     }
-    let [world, urdf] = study.layout(&study.values(layout));
+    let [world, urdf] = texts(study, layout, &study.values(layout), files);
     if files.is_empty() {
-        sinks::print(world.text())?;
+        sinks::print(&world)?;
     }
-    let text = |content| if content == Content::Robot { urdf.text() } else { world.text() };
+    let text = |content| if content == Content::Robot { &urdf } else { &world };
     write_whole_set(&files.iter().map(|(path, content)| (path.clone(), text(*content))).collect::<Vec<_>>())?;
     Ok(DONE)
 }
 
 /// What a file holds; none of the best layout where there is none.
-fn bytes(study: &Study, rows: &[Row], summary: &Summary, content: Content) -> Result<Option<Vec<u8>>, Failure> {
-    let best = |which: usize| Some(study.layout(&summary.best()?.values)[which].text().as_bytes().to_vec());
+fn bytes(
+    study: &Study,
+    rows: &[Row],
+    summary: &Summary,
+    content: Content,
+    files: &[(PathBuf, Content)],
+) -> Result<Option<Vec<u8>>, Failure> {
+    let best = |which: usize| {
+        let best = summary.best()?;
+        Some(texts(study, best.layout, &best.values, files)[which].clone().into_bytes())
+    };
     Ok(match content {
         Content::Csv => Some(study.csv(rows).into_bytes()),
         Content::Parquet => Some(study.parquet(rows).map_err(|error| Failure::Option(format!("Parquet: {error}")))?),
@@ -197,4 +217,113 @@ fn bytes(study: &Study, rows: &[Row], summary: &Summary, content: Content) -> Re
         Content::World => best(0),
         Content::Robot => best(1),
     })
+}
+
+/// World and robot of a layout. The world begins with the command that plans it.
+fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Content)]) -> [String; 2] {
+    let [world, urdf] = study.layout(values);
+    let command = command(study, files).unwrap_or_else(|| command_of(study, "world.toml", files));
+    let [source, ..] = study.sources();
+    let head =
+        format!("# Layout {layout} of the study {}. What plans it as it does:\n# {command}\n", short(&source.name()));
+    [head + world.text(), urdf.text().to_owned()]
+}
+
+/// What plans in the layout whose world is written; none where no world is.
+fn command(study: &Study, files: &[(PathBuf, Content)]) -> Option<String> {
+    let (world, _) = files.iter().find(|(_, content)| *content == Content::World)?;
+    Some(command_of(study, &world.to_string_lossy(), files))
+}
+
+fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> String {
+    let [_, urdf, _] = study.sources();
+    let written = files.iter().find(|(_, content)| *content == Content::Robot).map(|(path, _)| path.to_string_lossy());
+    let robot = match written {
+        Some(written) => written.into_owned(),
+        // That of the study would be another one.
+        None if study.varies_robots() => Path::new(world).with_extension("urdf").to_string_lossy().into_owned(),
+        None => short(&urdf.name()),
+    };
+    let words = ["cplan", &robot, world].into_iter().chain(study.options().iter().map(String::as_str));
+    words.map(for_a_shell).collect::<Vec<_>>().join(" ")
+}
+
+/// A path without steps into folders and out again, if it leads to the same file.
+fn short(name: &str) -> String {
+    let mut short = PathBuf::new();
+    for part in Path::new(name).components() {
+        match part {
+            Component::ParentDir if matches!(short.components().next_back(), Some(Component::Normal(_))) => {
+                short.pop();
+            }
+            part => short.push(part),
+        }
+    }
+    let same = [Path::new(name), &short].map(|path| path.canonicalize().ok());
+    if same[0].is_some() && same[0] == same[1] { short.to_string_lossy().into_owned() } else { name.to_owned() }
+}
+
+/// A word as a shell takes it for one.
+fn for_a_shell(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// Rows that are kept while a study runs, which Ctrl-C asks for, too.
+#[derive(Debug, Clone)]
+struct Kept(Arc<Mutex<Rows>>);
+
+#[derive(Debug)]
+struct Rows {
+    journal: Option<Journal>,
+    count: usize,
+}
+
+impl Kept {
+    fn new(journal: Option<Journal>, count: usize) -> Self {
+        Self(Arc::new(Mutex::new(Rows { journal, count })))
+    }
+
+    fn add(&self, row: &Row) -> Result<(), JournalError> {
+        let mut rows = self.rows();
+        rows.count += 1;
+        rows.journal.as_mut().map_or(Ok(()), |journal| journal.add(row))
+    }
+
+    /// The rows are where they belong: there is nothing to go on from.
+    fn remove(&self) -> Result<(), JournalError> {
+        self.rows().journal.take().map_or(Ok(()), Journal::remove)
+    }
+
+    /// Puts all rows on disk, and says how many of `total` there are.
+    fn stopped(&self, total: usize) -> String {
+        let mut rows = self.rows();
+        let count = rows.count;
+        match rows.journal.as_mut().map(|journal| (journal.flush(), journal.path().display().to_string())) {
+            Some((Ok(()), path)) => {
+                format!("\nstopped: {count} of {total} rows are kept in {path}; the same command goes on")
+            }
+            Some((Err(error), _)) => format!("\nstopped: {error}"),
+            None => "\nstopped: no rows are kept without --output".to_owned(),
+        }
+    }
+
+    fn rows(&self) -> MutexGuard<'_, Rows> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_where_a_shell_would_part_them() {
+        let words = ["--start=-0.6,1.2", "a b.toml", "it's", ""];
+        assert_eq!(words.map(for_a_shell), ["--start=-0.6,1.2", "'a b.toml'", "'it'\\''s'", "''"]);
+    }
 }

@@ -1,12 +1,13 @@
 //! What the main job can be told, for callers that are no shell.
 
-use super::args::QueryArgs;
+use super::args::{Cli, QueryArgs};
 use super::failure::Failure;
 use super::message_args::MessageArgs;
 use crate::engine::{Method, Options};
 use crate::grammar::{MotionArgs, PlannerArgs};
 use crate::input::Overrides;
-use clap::Parser;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser};
 
 /// All that says how to plan and what to override, as words of the main job's command line.
 #[derive(Debug, Parser)]
@@ -44,10 +45,19 @@ pub fn read_words(words: &[String]) -> Result<(Options, Overrides), String> {
 /// # Errors
 /// What is wrong with them, in a line or two.
 pub(super) fn asked(words: &[String]) -> Result<Asked, Failure> {
-    let words = Words::try_parse_from(words).map_err(|error| Failure::Usage(told(&error)))?;
+    let refused = |error| Failure::Usage(misplaced(&error).unwrap_or_else(|| told(&error)));
+    let words = Words::try_parse_from(words).map_err(refused)?;
     let Words { planner, query, motion, message, options: given } = words;
     let options = self::options(planner, &given, &motion, &message)?;
     Ok(Asked { options, overrides: query.overrides() })
+}
+
+/// What is wrong with an option of the main job that says nothing of how to plan, but of files and printing.
+fn misplaced(error: &clap::Error) -> Option<String> {
+    let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
+    let is_known = error.kind() == ErrorKind::UnknownArgument
+        && Cli::command().get_arguments().any(|known| known.get_long() == option.strip_prefix("--"));
+    is_known.then(|| format!("{option} is about files or what is printed, and has no place here"))
 }
 
 /// What is wrong with words, without the usage of a program.

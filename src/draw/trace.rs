@@ -73,6 +73,7 @@ pub fn keys(trace: &TraceView) -> Vec<Key> {
             let extent = if *whole { "" } else { ", as far as searched" };
             vec![(line(EDGE), format!("visibility graph{extent}"))]
         }
+        TraceView::Slices { free } if free.is_empty() => Vec::new(),
         TraceView::Slices { .. } => vec![(line(EDGE), "slices that the path passes".to_owned())],
         TraceView::Channel { channel, expanded, .. } => {
             let found = (!channel.is_empty()).then(|| (Sign::Swatch(CHANNEL), "channel".to_owned()));

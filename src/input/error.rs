@@ -92,6 +92,18 @@ impl InputError {
         &self.diagnostics
     }
 
+    /// The same for a command that has an option under another name.
+    #[cfg(feature = "program")]
+    pub(crate) fn with_option(mut self, name: &str, called: &str) -> Self {
+        for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
+            [Some(origin), Some(message), help.as_mut()]
+                .into_iter()
+                .flatten()
+                .for_each(|text| *text = text.replace(name, called));
+        }
+        self
+    }
+
     /// The same about something else.
     pub(super) fn about(self, kind: DiagnosticKind) -> Self {
         Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.about(kind)).collect() }

@@ -65,8 +65,10 @@ pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
 #[cfg(feature = "study")]
-pub(crate) use schema::toml_schema;
+pub(crate) use quantity::Quantity;
 pub use schema::world_schema;
+#[cfg(feature = "study")]
+pub(crate) use schema::{AngleOrLength, toml_schema};
 pub use source::{Position, Source};
 pub use suite::{Asked, MANIFEST, Member, Refused, Suite, load_folder, load_suite};
 pub use task::LoadedTask;

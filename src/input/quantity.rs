@@ -12,7 +12,7 @@ use toml::Spanned;
 
 /// A joint's value or an angle: in radians or metres, whether it was written so or in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Quantity {
+pub(crate) struct Quantity {
     pub value: f64,
     /// Written in degrees, so that it is no length.
     pub in_degrees: bool,

@@ -62,7 +62,7 @@ pub(super) type Two = [f64; 2];
 macro_rules! stands_for {
     ($(#[$doc:meta])* $name:ident, $schema:tt) => {
         $(#[$doc])*
-        pub(super) struct $name;
+        pub(crate) struct $name;
 
         impl JsonSchema for $name {
             fn inline_schema() -> bool {

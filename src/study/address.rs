@@ -186,6 +186,118 @@ pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<Found, String> {
     }
 }
 
+/// Where what the steps lead to stands in a TOML document, if it is there.
+pub(super) fn entry_in(text: &str, steps: &[Step]) -> Option<Range<usize>> {
+    let document = DeTable::parse(text).ok()?;
+    descend(document.get_ref(), document.span(), steps).ok().map(|(_, at)| at)
+}
+
+/// Whether an address is that of an angle, or of a joint's value.
+pub(super) fn is_angle(address: &str) -> bool {
+    const ANGLES: [&str; 7] = ["angle", "joints", "fixed", "limits", "rpy", "lower", "upper"];
+    let steps = steps(address).unwrap_or_default();
+    let mut names = steps.iter().rev().filter_map(|step| match step {
+        Step::Name(name) => Some(name.as_str()),
+        Step::Number(_) => None,
+    });
+    // The name of a joint may be the last.
+    names.by_ref().take(2).any(|name| ANGLES.contains(&name))
+}
+
+/// Addresses of all numbers of a world file, and of those that it leaves unsaid; without `world.`.
+pub(super) fn all_in_world(text: &str) -> Vec<String> {
+    let mut found = vec!["robot.at[0]".to_owned(), "robot.at[1]".to_owned(), "robot.angle".to_owned()];
+    if let Ok(document) = DeTable::parse(text) {
+        numbers_of_table(document.get_ref(), "", &mut found);
+    }
+    found
+}
+
+fn numbers_of_table(table: &DeTable, path: &str, found: &mut Vec<String>) {
+    for (key, value) in table {
+        let dot = if path.is_empty() { "" } else { "." };
+        numbers_of(value.get_ref(), &format!("{path}{dot}{}", quoted(key.get_ref())), found);
+    }
+}
+
+fn numbers_of(value: &DeValue, path: &str, found: &mut Vec<String>) {
+    match value {
+        DeValue::Table(table) => numbers_of_table(table, path, found),
+        DeValue::Array(array) => {
+            for (number, entry) in array.iter().enumerate() {
+                let DeValue::Table(table) = entry.get_ref() else {
+                    numbers_of(entry.get_ref(), &format!("{path}[{number}]"), found);
+                    continue;
+                };
+                let name = table.get("name").and_then(|name| name.get_ref().as_str());
+                let entry = name.map_or_else(|| format!("{path}[{number}]"), |name| format!("{path}.{}", quoted(name)));
+                if path == "obstacle" {
+                    found.extend(["at[0]", "at[1]", "angle"].map(|silent| format!("{entry}.{silent}")));
+                }
+                numbers_of_table(table, &entry, found);
+            }
+        }
+        DeValue::Float(_) | DeValue::Integer(_) => found.push(path.to_owned()),
+        _ => {}
+    }
+}
+
+/// A name as addresses have it.
+fn quoted(name: &str) -> String {
+    if name.contains([' ', '.', '[']) { format!("\"{name}\"") } else { name.to_owned() }
+}
+
+/// Addresses of all numbers of a URDF, without `urdf.`.
+pub(super) fn all_in_urdf(text: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    if let Ok(document) = roxmltree::Document::parse(text) {
+        numbers_of_element(document.root_element(), "", &mut found);
+    }
+    found
+}
+
+fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<String>) {
+    for attribute in element.attributes() {
+        let words: Vec<&str> = attribute.value().split_whitespace().collect();
+        let numbers = words.iter().enumerate().filter(|(_, word)| word.parse::<f64>().is_ok());
+        let entry = |k: usize| if words.len() > 1 { format!("[{k}]") } else { String::new() };
+        found.extend(numbers.map(|(k, _)| format!("{path}{}{}", attribute.name(), entry(k))));
+    }
+    for child in element.children().filter(roxmltree::Node::is_element) {
+        let tag = child.tag_name().name();
+        let mut twins = element.children().filter(|twin| twin.has_tag_name(tag));
+        let which = match child.attribute("name").filter(|_| ["joint", "link"].contains(&tag)) {
+            Some(name) => format!(".{}", quoted(name)),
+            None if twins.clone().count() > 1 => format!("[{}]", twins.position(|twin| twin == child).unwrap_or(0)),
+            None => String::new(),
+        };
+        numbers_of_element(child, &format!("{path}{tag}{which}."), found);
+    }
+}
+
+/// Addresses that are compared with a wrong one, at most: maps and drawings have very many.
+const COMPARED: usize = 10_000;
+
+/// The address that differs least from this one.
+pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
+    known.into_iter().take(COMPARED).min_by_key(|known| edits(address, known))
+}
+
+/// How many characters are to be put in, taken out or replaced to make one word of another (Levenshtein).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut before = std::mem::replace(&mut row[0], i + 1);
+        for (j, y) in b.iter().enumerate() {
+            let replaced = before + usize::from(x != *y);
+            before = row[j + 1];
+            row[j + 1] = replaced.min(before + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
 /// The number of a URDF that the steps lead to: elements by tag, `joint` and `link` by name, then an attribute, and the number of the
 /// entry in it.
 ///

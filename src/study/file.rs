@@ -1,11 +1,14 @@
 //! The study file.
 
 use super::Study;
+use super::address::{Step, entry_in, is_angle};
 use super::measure::{Condition, Measure, Objective};
 use super::parameter::{Design, Parameter, Values};
 use super::template::{Place, Setting, Template, place};
 use crate::engine::Options;
-use crate::input::{Diagnostic, InputError, Overrides, Source, in_toml_words, scene_from, toml_schema};
+use crate::input::{
+    AngleOrLength, Diagnostic, InputError, Overrides, Quantity, Source, in_toml_words, scene_from, toml_schema,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -49,6 +52,9 @@ struct StudyFile {
     /// What is measured: length, over_bound, lower_bound, clearance, duration; by default all of them.
     #[schemars(with = "Option<Vec<String>>")]
     measure: Option<Vec<Text>>,
+    /// Whether obstacles may stand in each other that do not in the world file; by default such a layout is refused.
+    #[serde(default)]
+    overlap: bool,
     /// What a layout must meet, such as ["clearance >= 0.01", "duration <= 3"].
     #[serde(default)]
     #[schemars(with = "Vec<String>")]
@@ -84,15 +90,15 @@ struct ParameterTable {
     /// What it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or several.
     #[schemars(with = "Targets")]
     sets: Spanned<Targets>,
-    /// Its values.
-    #[schemars(with = "Option<Vec<f64>>")]
-    values: Option<Spanned<Vec<f64>>>,
+    /// Its values; angles may be written as "30deg".
+    #[schemars(with = "Option<Vec<AngleOrLength>>")]
+    values: Option<Spanned<Vec<Quantity>>>,
     /// Its least value.
-    #[schemars(with = "Option<f64>")]
-    from: Option<Spanned<f64>>,
+    #[schemars(with = "Option<AngleOrLength>")]
+    from: Option<Spanned<Quantity>>,
     /// Its greatest value.
-    #[schemars(with = "Option<f64>")]
-    to: Option<Spanned<f64>>,
+    #[schemars(with = "Option<AngleOrLength>")]
+    to: Option<Spanned<Quantity>>,
     /// The number of its values from the least to the greatest, in equal steps.
     #[schemars(with = "Option<u64>")]
     steps: Option<Spanned<u64>>,
@@ -131,6 +137,15 @@ struct Scaled {
     factor: Option<f64>,
     /// By default 0.
     offset: Option<f64>,
+}
+
+impl ParameterTable {
+    /// Whether a value is written in degrees, and the place of the first that is.
+    fn degrees(&self) -> Option<Range<usize>> {
+        let listed = self.values.iter().filter(|values| values.get_ref().iter().any(|value| value.in_degrees));
+        let ends = [&self.from, &self.to].into_iter().flatten().filter(|end| end.get_ref().in_degrees);
+        listed.map(Spanned::span).chain(ends.map(Spanned::span)).next()
+    }
 }
 
 impl Targets {
@@ -215,9 +230,7 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
     let world = reader.named(Named::World, file.world.as_ref(), open)?;
     let (options, overrides) = match &file.options {
         None => (Options::default(), Overrides::default()),
-        Some(words) => read_options(words.get_ref()).map_err(|why| {
-            reader.wrong(words.span(), format!("options: {why}"), "write options of the main job: `cplan --help`")
-        })?,
+        Some(words) => read_options(words.get_ref()).map_err(|why| reader.options(words, &why))?,
     };
     let parameters = file.parameter.iter().map(|table| reader.parameter(table.get_ref(), table.span()));
     let parameters = parameters.collect::<Result<Vec<_>, _>>()?;
@@ -286,6 +299,8 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
         urdf,
         base,
         options,
+        words: file.options.map(Spanned::into_inner).unwrap_or_default(),
+        may_overlap: file.overlap,
         overrides,
     })
 }
@@ -293,6 +308,13 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: Open) -> Re
 impl Reader<'_> {
     fn wrong(&self, at: Range<usize>, message: impl Into<String>, help: &str) -> Diagnostic {
         self.source.diagnostic_at(at, message).help(help)
+    }
+
+    /// What is wrong with the options, on a line.
+    fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
+        let said: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
+        let help = "options say how to plan (`cplan --help`); files are named to `cplan study` itself";
+        self.wrong(words.span(), format!("options: {}", said.join("; ")), help)
     }
 
     /// A file that the study names.
@@ -319,7 +341,14 @@ impl Reader<'_> {
         if name.trim().is_empty() || name.contains(['\n', '\r']) {
             return Err(self.wrong(table.name.span(), "a parameter needs a name on one line", "name = \"base x\""));
         }
-        let finite = |value: &Spanned<f64>| match *value.get_ref() {
+        if let Some(at) = table.degrees() {
+            let sets = table.sets.get_ref();
+            if let Some((address, ..)) = sets.all().into_iter().find(|(address, ..)| !is_angle(address)) {
+                let message = format!("{what}: {address} is no angle, so its values cannot be in degrees");
+                return Err(self.wrong(at, message, "write numbers, as in 0.1"));
+            }
+        }
+        let finite = |value: &Spanned<Quantity>| match value.get_ref().value {
             value if value.is_finite() => Ok(value),
             other => Err(self.wrong(value.span(), format!("{what}: {other} is not finite"), "write a number")),
         };
@@ -348,7 +377,7 @@ impl Reader<'_> {
         }
         let values = match (&table.values, ends, &table.steps, &table.draw) {
             (Some(values), None, None, None) => {
-                let given = values.get_ref();
+                let given: Vec<f64> = values.get_ref().iter().map(|value| value.value).collect();
                 if given.is_empty() || given.iter().any(|value| !value.is_finite()) {
                     return Err(self.wrong(
                         values.span(),
@@ -356,7 +385,7 @@ impl Reader<'_> {
                         "values = [0.1, 0.2]",
                     ));
                 }
-                Values::Listed(given.clone())
+                Values::Listed(given)
             }
             (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
                 n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
@@ -366,6 +395,14 @@ impl Reader<'_> {
                 }
             },
             (None, Some((from, to)), None, Some(draw)) => match draw.get_ref().as_str() {
+                "uniform" | "latin" if from == to => {
+                    let message = format!("{what}: from {from} to {to} there is nothing to draw");
+                    return Err(self.wrong(
+                        draw.span(),
+                        message,
+                        &format!("write values = [{from}], or a wider range"),
+                    ));
+                }
                 word @ ("uniform" | "latin") => Values::Drawn { from, to, latin: word == "latin" },
                 other => {
                     let message = format!("{what}: values are drawn \"uniform\" or \"latin\", not \"{other}\"");
@@ -377,7 +414,8 @@ impl Reader<'_> {
                 return Err(self.wrong(at, format!("it is not clear which values {what} takes"), help));
             }
         };
-        Ok(Parameter { name, unit: table.unit.clone(), values })
+        let unit = table.unit.clone().or_else(|| table.degrees().map(|_| "rad".into()));
+        Ok(Parameter { name, unit, values })
     }
 
     /// Refuses two parameters of one name, and names of other columns.
@@ -430,27 +468,39 @@ impl Reader<'_> {
         let mut settings = [Vec::new(), Vec::new()];
         let mut owners = [Vec::new(), Vec::new()];
         for (parameter, table) in tables.iter().enumerate() {
-            let sets = &table.get_ref().sets;
-            for (address, factor, offset) in sets.get_ref().all() {
+            for (number, (address, factor, offset)) in table.get_ref().sets.get_ref().all().into_iter().enumerate() {
+                let at = || self.target(tables, parameter, number);
                 let (file, steps) = place(address).map_err(|why| {
-                    self.wrong(sets.span(), why, "as in \"world.robot.at[0]\" or \"urdf.joint.elbow.origin.xyz[0]\"")
+                    self.wrong(at(), why, "as in \"world.robot.at[0]\" or \"urdf.joint.elbow.origin.xyz[0]\"")
                 })?;
                 if !(factor.is_finite() && offset.is_finite()) {
-                    return Err(self.wrong(sets.span(), "factor and offset must be finite", "write numbers"));
+                    return Err(self.wrong(at(), "factor and offset must be finite", "write numbers"));
                 }
                 settings[file as usize].push((steps, Setting { parameter, factor, offset }));
-                owners[file as usize].push((parameter, address));
+                owners[file as usize].push((parameter, number, address));
             }
         }
         let template = |source: Source, file: Place| {
             let name = source.name();
-            Template::new(source, file, &settings[file as usize]).map_err(|(number, why)| {
-                let (parameter, address) = owners[file as usize][number];
+            let text = source.text().to_owned();
+            Template::new(source, file, &settings[file as usize]).map_err(|(which, why)| {
+                let (parameter, number, address) = owners[file as usize][which];
                 let message = format!("{address}: {why} (in {name})");
-                self.wrong(tables[parameter].get_ref().sets.span(), message, "name a number that the file has")
+                let near = file.nearest(&text, address);
+                let help =
+                    near.map_or("name a number that the file has".into(), |near| format!("{near} is a number there"));
+                self.wrong(self.target(tables, parameter, number), message, &help)
             })
         };
         Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
+    }
+
+    /// Where one of the addresses that a parameter sets stands.
+    fn target(&self, tables: &[Spanned<ParameterTable>], parameter: usize, number: usize) -> Range<usize> {
+        let sets = &tables[parameter].get_ref().sets;
+        let entry =
+            [Step::Name("parameter".into()), Step::Number(parameter), Step::Name("sets".into()), Step::Number(number)];
+        entry_in(self.source.text(), &entry).unwrap_or(sets.span())
     }
 
     fn search(

@@ -22,7 +22,7 @@ pub enum JournalError {
         path: PathBuf,
     },
     /// Another run keeps its rows there.
-    #[error("{}: another run of the study is at work: wait for it, or give this one another first output", path.display())]
+    #[error("{}: the study is at work elsewhere: wait for it, or give this one another first output", path.display())]
     Busy {
         /// The journal.
         path: PathBuf,
@@ -107,6 +107,12 @@ impl Journal {
             journal.file.write_all(head_text(&head).as_bytes()).and_then(|()| journal.file.flush()).map_err(system)?;
         }
         Ok((journal, rows))
+    }
+
+    /// Where the rows are.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// Adds the next row.

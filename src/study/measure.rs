@@ -162,7 +162,7 @@ impl Objective {
         }
     }
 
-    /// A value of the objective as a cost: less is better.
+    /// A value of the objective as a cost: less is better. The cost of a cost is the value.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

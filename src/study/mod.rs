@@ -15,6 +15,7 @@ mod address;
 mod file;
 mod journal;
 mod measure;
+mod overlap;
 mod page;
 mod parameter;
 mod pictures;
@@ -36,6 +37,7 @@ use crate::engine::{Options, Plan, Problem, plan, solve};
 use crate::input::{InputError, LoadedScene, Overrides, Source};
 use crate::parallel::in_order;
 use file::Named;
+use overlap::overlap;
 use parameter::Design;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -67,6 +69,10 @@ pub struct Study {
     /// Robot and world as the files have them.
     base: LoadedScene,
     options: Options,
+    /// The same as they are written.
+    words: Vec<String>,
+    /// Whether obstacles may stand in each other.
+    may_overlap: bool,
     overrides: Overrides,
 }
 
@@ -95,6 +101,18 @@ impl Study {
         [&self.source, self.urdf.source(), self.world.source()]
     }
 
+    /// Options of the main job with which it plans, as they are written.
+    #[must_use]
+    pub fn options(&self) -> &[String] {
+        &self.words
+    }
+
+    /// Whether robots differ from layout to layout.
+    #[must_use]
+    pub fn varies_robots(&self) -> bool {
+        !self.urdf.is_fixed()
+    }
+
     /// The number of layouts that are listed and drawn.
     #[must_use]
     pub fn count(&self) -> usize {
@@ -121,13 +139,17 @@ impl Study {
     /// What is asked with these values.
     ///
     /// # Errors
-    /// Values that make no sense; a start or goal that is out of reach or not free.
+    /// Values that make no sense; obstacles that stand in each other; a start or goal that is out of reach or not free.
     pub fn problem(&self, values: &[f64]) -> Result<Problem, InputError> {
         let [world, urdf] = self.layout(values);
         let scene = match self.urdf.is_fixed() {
             true => self.base.edited(&urdf, world)?,
             false => crate::input::scene_from(urdf, world)?,
         };
+        if let (false, Some(why)) = (self.may_overlap, overlap(&self.base.world.workspace, &scene.world.workspace)) {
+            let source = self.world.source();
+            return Err(source.diagnostic(why).help("a study in which that may be says overlap = true").into());
+        }
         Problem::of_scene(scene, &self.overrides)
     }
 

@@ -1,7 +1,7 @@
 //! A study as one page of HTML: heat maps, the front of two measures, the best and the worst layouts, why others fail.
 
 use super::Study;
-use super::measure::Measure;
+use super::measure::{Measure, Objective};
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
 use super::summary::{Summary, shown};
@@ -27,10 +27,12 @@ impl Study {
         let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join("; "));
         let mut html = head(&self.name, &subtitle);
         html += &section("Outcomes", &self.outcomes(&summary));
-        html += &self.maps(rows);
+        html += &self.maps(&summary, rows);
         html += &self.fronts(&summary, rows);
         if summary.best().is_some() {
-            html += &section("Best layouts", &table(&summary.best_table()));
+            let edges: String =
+                summary.edges().iter().map(|edge| format!("<p class=\"sub\">{}</p>\n", markup(edge))).collect();
+            html += &section("Best layouts", &(table(&summary.best_table()) + &edges));
         }
         html += &pictured(pictures);
         html + &foot(HOW)
@@ -48,28 +50,34 @@ impl Study {
         for (ending, reason, count) in summary.reasons().into_iter().take(REASONS) {
             rows.push(vec![Some(format!("\u{2026} {}", ending.name())), Some(count.to_string()), Some(reason)]);
         }
-        table(&Table { columns: columns.collect(), rows })
+        // Causes are sentences, which are wrapped.
+        table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
     }
 
     /// A map of each pair of parameters: where there is a motion, and what the objective is at best.
-    fn maps(&self, rows: &[Row]) -> String {
+    fn maps(&self, summary: &Summary, rows: &[Row]) -> String {
         let mapped = self.parameters.len().min(MAPPED);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
-        let maps: String = pairs.map(|pair| self.map(rows, pair)).collect();
+        let maps: String = pairs.map(|pair| self.map(summary, rows, pair)).collect();
         if maps.is_empty() {
             return maps;
         }
-        let what = self
-            .objective
-            .map_or_else(String::new, |objective| format!(" The colour is the {objective} of the layouts in a cell,"));
+        let what = self.objective.map_or_else(String::new, |objective| {
+            format!("The colour is the {objective} of the layouts in a cell that fit; ")
+        });
+        let key = |(color, text): (&str, &str)| {
+            format!(
+                "<li><svg viewBox=\"0 0 12 12\"><rect width=\"12\" height=\"12\" fill=\"{color}\"/></svg> {text}</li>\n"
+            )
+        };
+        let keys: String = LEGEND.into_iter().map(key).collect();
         let note = format!(
-            "<p class=\"sub\">{what} from dark blue (best) to yellow; orange: a proof that there is no motion, in all of them; grey: nothing \
-             to plan, or unknown.</p>\n"
+            "<p class=\"sub\">{what}the cross is the best of all.</p>\n<ul class=\"key signs\">\n{keys}</ul>\n"
         );
         section("Maps", &format!("{note}<div class=\"charts\">\n{maps}</div>\n"))
     }
 
-    fn map(&self, rows: &[Row], [a, b]: [usize; 2]) -> String {
+    fn map(&self, summary: &Summary, rows: &[Row], [a, b]: [usize; 2]) -> String {
         let bins = [a, b].map(|k| Bins::of(&self.parameters[k]));
         let mut cells = vec![Cell::default(); bins[0].count * bins[1].count];
         for row in rows {
@@ -95,8 +103,17 @@ impl Study {
                 markup(&text)
             );
         }
+        if let Some(best) = summary.best() {
+            let [x, y] = place([(a, axes[0]), (b, axes[1])].map(|(k, axis)| axis.place(best.values[k]))).map(number);
+            let cross = format!("M{x} {y}m-6 -6l12 12m0 -12l-12 12");
+            svg += &format!(
+                "<g class=\"best\"><title>best: layout {}</title><path class=\"halo\" d=\"{cross}\"/><path d=\"{cross}\"/></g>\n",
+                best.layout
+            );
+        }
         let title = format!("{} by {}", titles[1], titles[0]);
-        figure(&title, &(svg + "</svg>\n"))
+        let scale = self.objective.map_or_else(String::new, |objective| scale(objective, least, greatest));
+        figure(&title, &(svg + "</svg>\n" + &scale))
     }
 
     /// The objective against each other measure, with the layouts that no other beats in both.
@@ -104,42 +121,104 @@ impl Study {
         let Some(objective) = self.objective else { return String::new() };
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
         let of = |row: &Row, measure: Measure| self.column(measure).and_then(|column| row.measured[column]);
-        let chart = |other: &Measure| {
+        let titled = |measure: Measure| {
+            measure.unit().map_or_else(|| measure.name().to_owned(), |unit| format!("{}, {unit}", measure.name()))
+        };
+        let mut charts = String::new();
+        // Where the dots of earlier charts are: of two with the same ones the second says nothing.
+        let mut drawn: Vec<Vec<[f64; 2]>> = Vec::new();
+        for other in others {
             let pair = [objective.measure, *other];
             let point = |row: &Row| Some([of(row, pair[0])?, of(row, pair[1])?]);
             let points: Vec<[f64; 2]> = rows.iter().filter(|row| row.fits).filter_map(point).collect();
             let axis = |k: usize| Axis::over(points.iter().map(|point| point[k]), None);
-            let axes = [axis(0)?, axis(1)?];
-            let titles = pair.map(|measure| {
-                measure.unit().map_or_else(|| measure.name().into(), |unit| format!("{}, {unit}", measure.name()))
-            });
-            let Frame { mut svg, place } = frame(axes, titles.each_ref().map(|title: &String| title.as_str()), "Chart");
-            let dot = |point: [f64; 2], radius: &str| {
-                let [x, y] = place([axes[0].place(point[0]), axes[1].place(point[1])]).map(number);
+            let (Some(first), Some(second)) = (axis(0), axis(1)) else { continue };
+            let axes = [first, second];
+            let places = |point: [f64; 2]| [axes[0].place(point[0]), axes[1].place(point[1])];
+            let dots: Vec<[f64; 2]> = points.iter().map(|point| places(*point)).collect();
+            if drawn.iter().any(|earlier| are_alike(earlier, &dots)) {
+                continue;
+            }
+            let titles = pair.map(titled);
+            let Frame { mut svg, place } = frame(axes, titles.each_ref().map(String::as_str), "Chart");
+            let dot = |at: [f64; 2], radius: &str| {
+                let [x, y] = place(at).map(number);
                 format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
             };
-            let stride = points.len().div_ceil(POINTS).max(1);
+            let stride = dots.len().div_ceil(POINTS).max(1);
             svg += "<g class=\"p0 dot\">";
-            points.iter().step_by(stride).for_each(|point| svg += &dot(*point, "1.5"));
+            dots.iter().step_by(stride).for_each(|at| svg += &dot(*at, "1.5"));
             svg += "</g>\n<g class=\"p1 only\">";
-            for row in summary.pareto(pair) {
-                let text = format!(
-                    "layout {}: {}",
-                    row.layout,
-                    point(row).map_or_else(String::new, |p| p.map(shown).join(", "))
-                );
-                svg += &point(row)
-                    .map_or_else(String::new, |p| format!("<g><title>{}</title>{}</g>", markup(&text), dot(p, "4")));
+            for (row, point) in summary.pareto(pair).into_iter().filter_map(|row| Some((row, point(row)?))) {
+                let text = format!("layout {}: {}", row.layout, point.map(shown).join(", "));
+                svg += &format!("<g><title>{}</title>{}</g>", markup(&text), dot(places(point), "4"));
             }
-            Some(figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n")))
-        };
-        let charts: String = others.filter_map(chart).collect();
+            charts += &figure(&format!("{} against {}", titles[1], titles[0]), &(svg + "</g></svg>\n"));
+            drawn.push(dots);
+        }
         if charts.is_empty() {
             return charts;
         }
         let note = "<p class=\"sub\">Each dot is a layout that fits; large ones: none is better in both.</p>\n";
         section("Trade-offs", &format!("{note}<div class=\"charts\">\n{charts}</div>\n"))
     }
+}
+
+/// Cells whose layouts are all proven to have no motion.
+const BARRED: &str = "#c25100";
+/// Cells in which some have a motion, but none meets the conditions.
+const UNFIT: &str = "#f2b8cf";
+/// Cells in which none has one, for whatever reason.
+const NOTHING: &str = "#9aa1a9";
+
+/// What the colours of a map mean beside those of the objective.
+const LEGEND: [(&str, &str); 3] = [
+    (UNFIT, "a motion, but not one that meets the conditions"),
+    (BARRED, "a proof that there is no motion, in all of them"),
+    (NOTHING, "nothing to plan, or unknown"),
+];
+
+/// How near dots of two charts lie that look the same, as a share of the chart.
+const ALIKE: f64 = 0.01;
+
+fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let near = |(a, b): (&[f64; 2], &[f64; 2])| (0..2).all(|k| (a[k] - b[k]).abs() <= ALIKE);
+    a.len() == b.len() && a.iter().zip(b).all(near)
+}
+
+/// Pixels of a scale of colours: its width, its left end, its steps.
+const SCALE: [f64; 3] = [368.0, 78.0, 64.0];
+
+/// What the colours from the least cost to the greatest are of the objective; none where there is nothing between.
+fn scale(objective: Objective, least: f64, greatest: f64) -> String {
+    if greatest <= least || !(greatest - least).is_finite() {
+        return String::new();
+    }
+    let [width, left, steps] = SCALE;
+    let values = [least, greatest].map(|cost| objective.cost(cost));
+    let axis = Axis::between(values[0].min(values[1]), values[0].max(values[1]));
+    let mut svg =
+        String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
+    for step in 0..steps as usize {
+        let from = left + width * step as f64 / steps;
+        let color = shade((step as f64 + 0.5) / steps);
+        svg += &format!(
+            "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{color}\"/>",
+            number(from),
+            number(width / steps + 0.3)
+        );
+    }
+    for (value, text) in axis.ticks() {
+        // The best is on the left, be it the least or the greatest.
+        let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
+        svg += &format!("<text class=\"tick\" x=\"{}\" y=\"29\">{text}</text>\n", number(left + width * share));
+    }
+    let unit = objective.measure.unit().map_or_else(String::new, |unit| format!(", {unit}"));
+    svg + &format!(
+        "<text class=\"tick\" x=\"{}\" y=\"46\">{}{unit}</text>\n</svg>\n",
+        number(left + width / 2.0),
+        objective.measure.name()
+    )
 }
 
 const HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
@@ -202,6 +281,7 @@ struct Cell {
     layouts: usize,
     infeasible: usize,
     refused: usize,
+    found: usize,
     fitting: usize,
     cost: Option<f64>,
 }
@@ -211,6 +291,7 @@ impl Cell {
         self.layouts += 1;
         self.infeasible += usize::from(ending == Ending::Infeasible);
         self.refused += usize::from(ending == Ending::Refused);
+        self.found += usize::from(ending == Ending::Found);
         if cost.is_finite() {
             self.fitting += 1;
             self.cost = Some(self.cost.map_or(cost, |best| best.min(cost)));
@@ -224,8 +305,9 @@ impl Cell {
         }
         let best = self.cost.map_or_else(String::new, |cost| format!(", best {}", shown(cost.abs())));
         let text = format!(
-            "{}: {} fit, {} infeasible, {} refused{best}",
+            "{}: {} with a motion, {} fit, {} infeasible, {} refused{best}",
             counted(self.layouts, "layout"),
+            self.found,
             self.fitting,
             self.infeasible,
             self.refused
@@ -233,8 +315,9 @@ impl Cell {
         let color = match self.cost {
             Some(cost) if greatest > least => shade((cost - least) / (greatest - least)),
             Some(_) => shade(0.0),
-            None if self.infeasible == self.layouts => "#c25100".to_owned(),
-            None => "#9aa1a9".to_owned(),
+            None if self.found > 0 => UNFIT.to_owned(),
+            None if self.infeasible == self.layouts => BARRED.to_owned(),
+            None => NOTHING.to_owned(),
         };
         Some((color, text))
     }

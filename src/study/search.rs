@@ -11,6 +11,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng;
 use std::borrow::Borrow;
 use std::cell::RefCell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// Layouts of a generation, if the search may try ten times as many.
 const SWARM: usize = 40;
@@ -30,7 +32,7 @@ impl Study {
     }
 
     /// Searches on from `known` rows, those of all layouts of the study, on so many threads, and hands each row to `each`, in order. Rows that
-    /// `done` has of an earlier search, which was stopped, are not planned again. The same rows whatever the number of threads.
+    /// `done` has of an earlier search, which was stopped, are not planned again, and no layout is that has a row already: it has no other one. The same rows whatever the number of threads.
     ///
     /// # Errors
     /// What `each` refuses with.
@@ -48,7 +50,12 @@ impl Study {
         }
         let rooms: Vec<[f64; 2]> = self.parameters.iter().map(|parameter| parameter.values.room()).collect();
         let [lower, upper] = [0, 1].map(|end| rooms.iter().map(|room| room[end]).collect::<Vec<_>>());
-        let state = RefCell::new(State { each, tried: 0, refused: None });
+        let state = RefCell::new(State {
+            each,
+            costs: known.iter().map(|row| (key(&row.values), self.cost(row))).collect(),
+            tried: 0,
+            refused: None,
+        });
         let landscape = Landscape { study: self, done, jobs, first: known.len(), state: &state };
         let solver = ParticleSwarm::<Vec<f64>, f64, _>::new((lower, upper), swarm)
             .with_rng_generator(Xoshiro256PlusPlus::seed_from_u64(self.seed));
@@ -98,6 +105,8 @@ struct Landscape<'a, F, E> {
 
 struct State<F, E> {
     each: F,
+    /// Costs of all layouts that have a row, by their values.
+    costs: HashMap<Vec<u64>, f64>,
     tried: usize,
     refused: Option<E>,
 }
@@ -106,20 +115,29 @@ impl<F: FnMut(Row) -> Result<(), E>, E> Landscape<'_, F, E> {
     /// Costs of layouts, whose rows are handed on.
     fn costs(&self, places: &[&Vec<f64>]) -> Result<Vec<f64>, Error> {
         let Self { study, done, jobs, first, state } = self;
-        let State { each, tried, refused } = &mut *state.borrow_mut();
+        let State { each, costs, tried, refused } = &mut *state.borrow_mut();
         let values = |place: &Vec<f64>| -> Vec<f64> {
             study.parameters.iter().zip(place).map(|(parameter, place)| parameter.values.at(*place)).collect()
         };
-        let (before, mut costs) = (*tried, Vec::with_capacity(places.len()));
+        let places: Vec<Vec<f64>> = places.iter().map(|place| values(place)).collect();
+        let mut new: Vec<&Vec<f64>> = Vec::new();
+        for values in &places {
+            // Places of listed values are often the same, and so are those at the ends of ranges.
+            if let Entry::Vacant(entry) = costs.entry(key(values)) {
+                entry.insert(NOTHING);
+                new.push(values);
+            }
+        }
+        let before = *tried;
         let row = |i: usize| {
-            let values = values(places[i]);
+            let values = new[i].clone();
             match done.get(before + i).filter(|row| row.values == values) {
                 Some(row) => row.clone(),
                 None => study.row_of(first + before + i, values),
             }
         };
-        let handed = in_order(places.len(), *jobs, row, |row| {
-            costs.push(study.cost(&row));
+        let handed = in_order(new.len(), *jobs, row, |row| {
+            costs.insert(key(&row.values), study.cost(&row));
             *tried += 1;
             each(row)
         });
@@ -127,8 +145,13 @@ impl<F: FnMut(Row) -> Result<(), E>, E> Landscape<'_, F, E> {
             *refused = Some(error);
             Error::msg("a row is refused")
         })?;
-        Ok(costs)
+        Ok(places.iter().map(|values| costs.get(&key(values)).copied().unwrap_or(NOTHING)).collect())
     }
+}
+
+/// Values as a key: those of zero are the same.
+fn key(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| (value + 0.0).to_bits()).collect()
 }
 
 impl<F: FnMut(Row) -> Result<(), E>, E> CostFunction for Landscape<'_, F, E> {

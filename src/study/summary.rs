@@ -2,6 +2,7 @@
 
 use super::Study;
 use super::measure::Measure;
+use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
 use crate::report::{Align, Column, Table};
 use crate::text::counted;
@@ -10,7 +11,10 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Reasons that are listed.
-const REASONS: usize = 8;
+pub(super) const REASONS: usize = 6;
+
+/// What share of a range is its end.
+const EDGE: f64 = 0.05;
 
 /// Layouts that are listed as the best, and as the worst.
 const BEST: usize = 5;
@@ -65,13 +69,13 @@ impl<'a> Summary<'a> {
         self.ranked.iter().find(|&&i| i < self.designed).map(|&i| &self.rows[i])
     }
 
-    /// Why layouts have no motion: the reasons without their numbers, and how many layouts have each, the most frequent first.
+    /// Why layouts have no motion: the first cause of each without its numbers, and how many layouts have it, the most frequent first.
     #[must_use]
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
         for row in self.rows {
             if let Some(reason) = &row.reason {
-                *counts.entry((row.ending, without_numbers(reason))).or_default() += 1;
+                *counts.entry((row.ending, cause(reason))).or_default() += 1;
             }
         }
         let mut reasons: Vec<_> = counts.into_iter().map(|((ending, reason), count)| (ending, reason, count)).collect();
@@ -101,6 +105,27 @@ impl<'a> Summary<'a> {
             is_less
         };
         costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
+    }
+
+    /// Where the best layout lies at an end of a range, beyond which a better one may be: a line each.
+    #[must_use]
+    pub fn edges(&self) -> Vec<String> {
+        let Some(best) = self.best() else { return Vec::new() };
+        let edge = |(parameter, value): (&Parameter, &f64)| {
+            let [from, to] = match parameter.values {
+                Values::Listed(_) => return None,
+                Values::Stepped { from, to, .. } | Values::Drawn { from, to, .. } if from < to => [from, to],
+                _ => return None,
+            };
+            let near = EDGE * (to - from);
+            let which = match *value {
+                value if to - value <= near => format!("of at most {to}"),
+                value if value - from <= near => format!("of at least {from}"),
+                _ => return None,
+            };
+            Some(format!("{} = {} {which}: a wider range may do better", parameter.name, shown(*value)))
+        };
+        self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }
 
     /// For a terminal. Ends in a newline.
@@ -133,12 +158,15 @@ impl<'a> Summary<'a> {
             for (ending, reason, count) in reasons.iter().take(REASONS) {
                 text += &format!("  {count:>8}  {}: {reason}\n", ending.name());
             }
-            if reasons.len() > REASONS {
-                text += &format!("            and {} more\n", counted(reasons.len() - REASONS, "reason"));
+            let others: usize = reasons.iter().skip(REASONS).map(|(.., count)| count).sum();
+            if others > 0 {
+                let kinds = counted(reasons.len() - REASONS, "other cause");
+                text += &format!("  {others:>8}  for {kinds}: the table has each\n");
             }
         }
         if let (Some(objective), Some(_)) = (study.objective, self.best()) {
             text += &format!("best ({objective}):\n{}", indented(&self.table(self.ranked.iter().take(BEST)).to_text()));
+            self.edges().iter().for_each(|edge| text += &format!("  {edge}\n"));
             if self.ranked.len() > BEST {
                 text += &format!("worst:\n{}", indented(&self.table(self.ranked.iter().rev().take(1)).to_text()));
             }
@@ -167,6 +195,8 @@ impl<'a> Summary<'a> {
             "objective": self.study.objective.map(|objective| objective.to_string()),
             "best": self.best().map(|row| self.object(row)),
             "worst": self.worst().map(|row| self.object(row)),
+            "edges": self.edges(),
+            "options": self.study.options(),
         })
     }
 
@@ -228,9 +258,53 @@ fn without_numbers(reason: &str) -> String {
     reason.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
+/// The first cause in a reason, in short: without numbers, values of joints, and what else is wrong.
+fn cause(reason: &str) -> String {
+    let text = without_numbers(reason);
+    let (mut cause, mut depth, mut is_quoted) = (String::new(), 0, false);
+    let mut rest = text.as_str();
+    while let Some(c) = rest.chars().next() {
+        let ends = [", ", "; ", ". "].iter().any(|end| rest.starts_with(end));
+        match c {
+            '"' => is_quoted = !is_quoted,
+            _ if is_quoted => {}
+            '(' if depth == 0 && values_end(rest).is_some() => {
+                rest = &rest[values_end(rest).unwrap_or(1)..];
+                let kept = cause.trim_end().len();
+                cause.truncate(kept);
+                continue;
+            }
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ if ends && depth == 0 => break,
+            _ => {}
+        }
+        cause.push(c);
+        rest = &rest[c.len_utf8()..];
+    }
+    cause
+}
+
+/// Where the values of joints end that a text begins with: `(shoulder # rad, elbow # rad)`.
+fn values_end(text: &str) -> Option<usize> {
+    let end = text.find(')')? + 1;
+    let inside = &text[..end];
+    (inside.contains('#') && inside.contains(char::is_alphabetic)).then_some(end)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn reasons_are_told_by_their_first_cause() {
+        let hits = "the start (shoulder -0.9 rad, elbow 0.4 rad) is not free: link \"forearm\" hits obstacle \"crate, 2\", 0.0130 m deep; \
+                    link \"upper arm\" hits obstacle \"b\", 0.2 m deep";
+        assert_eq!(cause(hits), "the start is not free: link \"forearm\" hits obstacle \"crate, 2\"");
+        let far = "step 3: (0.3, 0.1) m is out of reach of the tip \"flange\", whatever the joint limits: it is 2 m from joint \"a\"";
+        assert_eq!(cause(far), "step #: (#, #) m is out of reach of the tip \"flange\"");
+        assert_eq!(cause("\"a (1)\" stands in \"b\""), "\"a (1)\" stands in \"b\"");
+    }
 
     #[test]
     fn reasons_differ_in_words_alone() {

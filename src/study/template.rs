@@ -1,6 +1,6 @@
 //! A text with numbers that differ from layout to layout.
 
-use super::address::{Found, Step, in_urdf, in_world, steps, written_out};
+use super::address::{Found, Step, all_in_urdf, all_in_world, in_urdf, in_world, nearest, steps, written_out};
 use crate::input::Source;
 use std::fmt::Write;
 use std::ops::Range;
@@ -34,6 +34,17 @@ pub(super) struct Setting {
 pub(super) enum Place {
     World,
     Urdf,
+}
+
+impl Place {
+    /// The address of a number of this text that differs least from this one.
+    pub fn nearest(self, text: &str, address: &str) -> Option<String> {
+        let (name, known) = match self {
+            Self::World => ("world.", all_in_world(text)),
+            Self::Urdf => ("urdf.", all_in_urdf(text)),
+        };
+        nearest(address.strip_prefix(name)?, known).map(|near| format!("{name}{near}"))
+    }
 }
 
 /// Reads an address with its file: `world...` or `urdf...`.

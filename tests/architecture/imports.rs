@@ -34,7 +34,7 @@ const MAY_IMPORT: [(&str, &[&str]); 26] = [
     ("draw", &["geometry", "space", "model", "input", "cspace", "planner", "check", "motion", "engine", "explore"]),
     ("report", &["geometry", "space", "model", "field", "planner", "check", "motion", "engine"]),
     ("output", &["geometry", "space", "model", "cspace", "planner", "check", "motion", "engine", "draw"]),
-    ("study", &["space", "model", "input", "engine", "report"]),
+    ("study", &["geometry", "space", "model", "input", "engine", "report"]),
     ("grammar", &["model", "field", "planner", "motion", "engine"]),
     (
         "serve",

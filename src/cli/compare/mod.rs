@@ -100,7 +100,7 @@ struct CompareWords {
 fn measured(args: &CompareArgs, cases: &Cases, meter: Option<MemoryMeter>) -> Result<(Study, Compared), Failure> {
     let entries = entries(args, cases)?;
     let total = cases.cases.len() * entries.first().map_or(0, Vec::len);
-    let progress = Progress::new(total, args.is_single(), args.quiet);
+    let progress = Progress::new(total, "runs", args.is_single(), args.quiet);
     let jobs = usize::from(args.jobs);
     let meter = runner::meter(meter, jobs, args.quiet);
     let runner = Runner { entries: &entries, jobs, meter, progress: &progress };

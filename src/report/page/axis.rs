@@ -62,20 +62,21 @@ impl Axis {
             let all = decades.clone().flat_map(|d| digits.iter().map(move |digit| digit * 10_f64.powi(d)));
             all.filter(|v| (self.lower..=self.upper).contains(v)).collect()
         };
-        let choices = [within(&[1.0, 2.0, 5.0]), within(&[1.0, 3.0]), within(&[1.0])];
+        let choices = [&[1.0, 2.0, 3.0, 5.0, 7.0][..], &[1.0, 2.0, 5.0], &[1.0, 3.0], &[1.0]].map(within);
         let fitting = choices.iter().find(|ticks| ticks.len() <= TICKS);
         fitting.cloned().unwrap_or_else(|| {
-            let stride = choices[2].len().div_ceil(TICKS);
-            choices[2].iter().copied().step_by(stride).collect()
+            let stride = choices[3].len().div_ceil(TICKS);
+            choices[3].iter().copied().step_by(stride).collect()
         })
     }
 
-    /// A round number of which a few multiples lie within the axis.
+    /// A round number of which a few multiples lie within the axis: at least three, which tell how far apart values are.
     fn step(&self) -> f64 {
         let least = (self.upper - self.lower) / (TICKS - 1) as f64;
         let power = 10_f64.powf(least.log10().floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * power).into_iter().find(|step| *step >= least);
-        step.unwrap_or(10.0 * power)
+        let steps = [0.5, 1.0, 2.0, 5.0, 10.0].map(|digit| digit * power);
+        let chosen = steps.iter().position(|step| *step >= least).unwrap_or(steps.len() - 1).max(1);
+        if self.multiples(steps[chosen]).len() < 3 { steps[chosen - 1] } else { steps[chosen] }
     }
 
     fn multiples(&self, step: f64) -> Vec<f64> {
@@ -138,7 +139,7 @@ mod tests {
             let places: Vec<f64> = sorted.iter().map(|v| axis.place(*v)).collect();
             prop_assert!(places.windows(2).all(|w| w[0] <= w[1]), "{places:?}");
             let ticks = axis.ticks();
-            prop_assert!((1..=9).contains(&ticks.len()), "{ticks:?}");
+            prop_assert!((3..=9).contains(&ticks.len()), "{ticks:?}");
             prop_assert!(ticks.windows(2).all(|w| w[0].0 < w[1].0 && w[0].1 != w[1].1), "{ticks:?}");
         }
     }
