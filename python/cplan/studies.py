@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cplan import _frames
-from cplan._cplan import Arm, Found, Infeasible, Rows, Unknown, World
+from cplan._cplan import Arm, Found, Infeasible, Options, Problem, Rows, Unknown, World
 from cplan._cplan import Journal as _Journal
 from cplan._cplan import Study as _Study
-from cplan.planning import plan
+from cplan._cplan import plan
+from cplan.planning import words
 
 # Layouts of a task for Ray: it takes longer than what a cluster costs.
 BATCH = 1000
@@ -115,6 +116,19 @@ def _batch(study: Study, first: int, last: int) -> Rows:
     return study.rows(first, last, 1)
 
 
+def _replaced(options: list[str], others: list[str]) -> list[str]:
+    """Words of a command line with others in place of those that say the same."""
+    names = {other.partition("=")[0] for other in others}
+    kept, keeps = [], True
+    for word in options:
+        # A value may be a word of its own.
+        if word.startswith("--"):
+            keeps = word.partition("=")[0] not in names
+        if keeps:
+            kept.append(word)
+    return kept + others
+
+
 class Results:
     """The rows of a study."""
 
@@ -165,10 +179,11 @@ class Results:
         """Robot and world of a row."""
         return self.study.layout(self.rows.values(row))
 
-    def plan(self, row: int, **options: Any) -> Found | Infeasible | Unknown:
-        """Plans in the layout of a row, with options of `plan`: those of the study are not repeated."""
+    def plan(self, row: int, *, progress: Callable[[str], object] | None = None, **options: Any) -> Found | Infeasible | Unknown:
+        """Plans in the layout of a row as the study did: with its options, but for those that are given here as to `plan`."""
         arm, world = self.layout(row)
-        return plan(arm, world, **options)
+        asked = Options(_replaced(self.study.options, words(**options)))
+        return plan(Problem(arm, world, asked), asked, progress)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the table (.csv, .parquet), the page (.html) or the summary (.json)."""
@@ -186,8 +201,12 @@ class Results:
                 raise ValueError(f"{path}: results are saved as .csv, .parquet, .html or .json, not {other or 'without an ending'}")
         # Whole or not at all.
         part = path.with_name(path.name + ".new")
-        part.write_bytes(content)
-        part.replace(path)
+        try:
+            part.write_bytes(content)
+            part.replace(path)
+        except OSError as error:
+            # The file that was asked for, not the one beside it.
+            raise OSError(error.errno, error.strerror, str(path)) from error
 
     def _repr_html_(self) -> str:
         page = self.study.html(self.rows).replace("&", "&amp;").replace('"', "&quot;")

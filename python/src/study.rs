@@ -66,6 +66,12 @@ impl Study {
         self.study.searched
     }
 
+    /// Options of the main job with which it plans, as the study has them.
+    #[getter]
+    fn options(&self) -> Vec<String> {
+        self.study.options().to_vec()
+    }
+
     /// The number of layouts that are listed and drawn.
     fn __len__(&self) -> usize {
         self.study.count()

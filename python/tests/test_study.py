@@ -109,6 +109,24 @@ def test_columns_and_the_best_layout(study: cplan.Study, results: cplan.Results)
     assert results._repr_html_().startswith("<iframe")
 
 
+def test_a_row_is_planned_with_the_options_of_its_study(tmp_path: Path) -> None:
+    head = 'options = ["--clearance=0.03", "--planner", "first"]\nmeasure = ["length", "clearance"]'
+    results = cplan.Study(written(tmp_path, head)).run()
+    for row in np.flatnonzero(results.to_columns()["fits"]):
+        plan = results.plan(int(row))
+        assert isinstance(plan, cplan.Found) and plan.length == results.column("length")[row]
+        assert plan.clearance == results.column("clearance")[row] >= 0.03
+        other = results.plan(int(row), planner="shortest", clearance=0.01)
+        assert isinstance(other, cplan.Found) and other.length < plan.length
+
+
+def test_a_file_that_cannot_be_written_is_named(results: cplan.Results, tmp_path: Path) -> None:
+    path = tmp_path / "nowhere" / "t.csv"
+    with pytest.raises(FileNotFoundError) as raised:
+        results.save(path)
+    assert raised.value.filename == str(path)
+
+
 def test_a_study_and_its_rows_are_pickled(study: cplan.Study, results: cplan.Results) -> None:
     again = pickle.loads(pickle.dumps(study))
     assert isinstance(again, cplan.Study) and len(again) == 25

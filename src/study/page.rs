@@ -186,26 +186,29 @@ fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Pixels of a scale of colours: its width, its left end, its steps.
-const SCALE: [f64; 3] = [368.0, 78.0, 64.0];
+/// Left end and width of a scale of colours, pixels: those of the map above it.
+const SCALE: [f64; 2] = [78.0, 368.0];
+/// Colours that it has.
+const SHADES: usize = 64;
 
 /// What the colours from the least cost to the greatest are of the objective; none where there is nothing between.
 fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     if greatest <= least || !(greatest - least).is_finite() {
         return String::new();
     }
-    let [width, left, steps] = SCALE;
+    let [left, width] = SCALE;
+    let shade_width = width / SHADES as f64;
     let values = [least, greatest].map(|cost| objective.cost(cost));
     let axis = Axis::between(values[0].min(values[1]), values[0].max(values[1]));
     let mut svg =
         String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
-    for step in 0..steps as usize {
-        let from = left + width * step as f64 / steps;
-        let color = shade((step as f64 + 0.5) / steps);
+    for k in 0..SHADES {
         svg += &format!(
-            "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{color}\"/>",
-            number(from),
-            number(width / steps + 0.3)
+            "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
+            number(left + shade_width * k as f64),
+            // Without seams.
+            number(shade_width + 0.3),
+            shade((k as f64 + 0.5) / SHADES as f64)
         );
     }
     for (value, text) in axis.ticks() {

@@ -152,6 +152,9 @@ impl<'a> Summary<'a> {
             let tried = counted(self.rows.len() - self.designed, "layout");
             text += &format!("  the search tried {tried}: {found} with a motion, {infeasible} proven to have none\n");
         }
+        if study.searched > 0 && self.rows.len() == study.count() {
+            text += "  the search found no layout to try that has no row yet\n";
+        }
         let reasons = self.reasons();
         if !reasons.is_empty() {
             text += "why there is no motion:\n";

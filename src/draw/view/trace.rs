@@ -56,6 +56,8 @@ impl TraceView {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
+            // Without a path there are none that it passes.
+            Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
             Trace::Channel { cells, channel, expanded } => Self::Channel {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),

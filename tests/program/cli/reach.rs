@@ -112,3 +112,11 @@ fn cells_and_homes_that_make_no_sense_are_refused() {
     reach(&place, &shelf(), "--picture r.html").refused(2, &["drawn as .svg or .png"]);
     assert!(!place.path("r.yaml").exists());
 }
+
+#[test]
+fn what_is_wrong_with_the_home_is_said_of_the_home() {
+    let place = Place::new();
+    let far = reach(&place, &shelf(), "--home 9,9");
+    far.refused(1, &["--home"]);
+    assert!(!far.stderr.contains("--start"), "{}", far.stderr);
+}

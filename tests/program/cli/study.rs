@@ -61,7 +61,8 @@ fn field<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
 #[test]
 fn each_row_is_what_the_program_says_of_the_layouts_own_files() {
     let place = Place::new();
-    study(&place, "draws = 5\nseed = 3", CRATE);
+    // Alone a layout may be planned in that the study would refuse.
+    study(&place, "draws = 5\nseed = 3\noverlap = true", CRATE);
     let done = run(&place, "--output t.csv --jobs 2 --json");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let rows = rows(&place.read("t.csv"));
@@ -149,7 +150,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     std::fs::write(&part, &text).unwrap();
     let done = run(&place, "--output t.csv --jobs 2");
     assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("that an earlier run has planned in"), "{}", done.stderr);
+    assert!(done.stderr.contains("layouts that are known already"), "{}", done.stderr);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are not taken, and not lost either.
@@ -193,10 +194,15 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     let counted: u64 =
         ["found", "infeasible", "unknown", "refused"].iter().map(|name| tried[name].as_u64().unwrap()).sum();
     assert_eq!(counted, 60);
-    // The best layout's files plan as its row says.
+    // The best layout's files plan as its row says, by the command that they name, and the summary, too.
+    let command = place.read("best.toml").lines().nth(1).unwrap().strip_prefix("# cplan ").unwrap().to_owned();
+    assert_eq!(command, "best.urdf best.toml --clearance=0.003");
     let alone: Value =
-        serde_json::from_str(&place.run(&["best.urdf", "best.toml"], "--json --clearance=0.003").stdout).unwrap();
+        serde_json::from_str(&place.run(&command.split(' ').collect::<Vec<_>>(), "--json").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
+    let told = run(&place, "--output best.toml").stdout;
+    assert!(told.contains(&format!("layout {} is planned by: cplan ", summary["best"]["layout"])), "{told}");
+    assert!(told.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{told}");
     assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
 }
@@ -249,7 +255,7 @@ fn two_runs_do_not_share_their_rows() {
     study(&place, "draws = 3", CRATE);
     let kept = std::fs::File::create(place.path("t.csv.part")).unwrap();
     kept.lock().unwrap();
-    run(&place, "--output t.csv").refused(1, &["t.csv.part: another run of the study is at work"]);
+    run(&place, "--output t.csv").refused(1, &["t.csv.part: the study is at work elsewhere"]);
     drop(kept);
     assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
     // Nor does a run take its own study for rows.
@@ -261,7 +267,29 @@ fn two_runs_do_not_share_their_rows() {
 fn what_is_wrong_with_a_study_has_its_place_and_cure() {
     let place = Place::new();
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
-    let cases: [(&str, String, &[&str]); 15] = [
+    let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
+    let cases: [(&str, String, &[&str]); 20] = [
+        ("", several.into(), &["line 6, column 41", "no \"shelves\"", "world.obstacle.shelf.at[0] is a number there"]),
+        (
+            "",
+            x.replace("to = 1", "to = 0") + "draw = \"latin\"\n",
+            &["from 0 to 0 there is nothing to draw", "write values = [0]"],
+        ),
+        (
+            "",
+            x.replace("from = 0", "from = \"9deg\"") + "steps = 2\n",
+            &["world.obstacle.crate.at[0] is no angle", "line 7"],
+        ),
+        (
+            "options = [\"--planer=first\"]",
+            format!("{x}steps = 2\n"),
+            &["options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'\n"],
+        ),
+        (
+            "options = [\"--picture=x.svg\"]",
+            format!("{x}steps = 2\n"),
+            &["options: --picture is about files or what is printed", "files are named to `cplan study` itself"],
+        ),
         ("", String::new(), &["a study without parameters", "[[parameter]]"]),
         ("", x.into(), &["line 4, column 1", "which values parameter \"x\" takes", "from, to and steps"]),
         ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
@@ -300,4 +328,137 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
     run(&place, "--layout 2").refused(1, &["the study has 2 layouts, from 0 on"]);
     run(&place, "--layout 1 --output t.csv").refused(2, &["a layout is written as .toml (world) or .urdf"]);
     run(&place, "--output study.toml").refused(1, &["is the input"]);
+}
+
+#[test]
+fn obstacles_stand_in_nothing_but_what_the_world_lets_them() {
+    let place = Place::new();
+    // The shelf is from 1.15 to 1.6 and from 0.18 to 0.3, the crate reaches 0.15 about its place: at 1.0, 0.03 and 0.45 they touch.
+    let crate_about = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nvalues = [0.9, 1.0, 1.05, 1.3]\n\
+                       [[parameter]]\nname = \"y\"\nsets = \"world.obstacle.crate.at[1]\"\nvalues = [0.0, 0.03, 0.1, 0.44, 0.45, 0.6]\n";
+    study(&place, "measure = [\"length\"]", crate_about);
+    let done = run(&place, "--output t.csv");
+    let inside = rows(&place.read("t.csv"));
+    let mut count = 0;
+    for row in &inside {
+        let [x, y]: [f64; 2] = ["x", "y"].map(|name| field(row, name).parse().unwrap());
+        let overlaps = x > 1.01 && y > 0.04 && y < 0.445;
+        assert_eq!(field_of(row) == ("refused", "\"crate\" stands in \"shelf\""), overlaps, "{row:?}");
+        count += usize::from(overlaps);
+    }
+    assert_eq!((inside.len(), count), (24, 4));
+    assert!(done.stdout.contains("         4  refused: \"crate\" stands in \"shelf\"\n"), "{}", done.stdout);
+    // Low things are below the shelf.
+    let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
+    place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));
+    assert_eq!(run(&place, "--output t.csv").code, 0);
+    assert!(!place.read("t.csv").contains("stands in"));
+    // A study may want it.
+    study(&place, "measure = [\"length\"]\noverlap = true", crate_about);
+    assert_eq!(run(&place, "--output t.csv").code, 0);
+    assert!(!place.read("t.csv").contains("stands in"));
+}
+
+#[test]
+fn the_page_tells_apart_what_colours_mean() {
+    let place = Place::new();
+    let base = CRATE.replace("draw = \"latin\"", "steps = 5");
+    let page = |head: &str| {
+        study(&place, head, &base);
+        let done = run(&place, "--output t.html");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        (place.read("t.html"), done.stdout)
+    };
+    // Of two measures that look the same against the objective one is shown.
+    let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
+    assert!(html.contains("length against duration, s") && !html.contains("lower_bound against"));
+    for part in
+        ["Scale of colours", ">duration, s</text>", "<title>best: layout ", "#9aa1a9", "<table class=\"words\">"]
+    {
+        assert!(html.contains(part), "{part}");
+    }
+    // Cells of layouts that have a motion, but not one that is short enough, are neither grey nor those of a proof.
+    let unfit = "fill=\"#f2b8cf\"><title>";
+    assert!(!html.contains(unfit));
+    let (html, _) = page("conditions = [\"duration <= 0.01\"]");
+    assert!(html.contains(unfit) && html.contains("a motion, but not one that meets the conditions"));
+    assert!(!html.contains("<title>best: layout "));
+}
+
+#[test]
+fn a_best_layout_at_the_end_of_a_range_is_said() {
+    let place = Place::new();
+    let speed = |values: &str| {
+        let [urdf, _] = shelf();
+        let text = std::fs::read_to_string(urdf).unwrap();
+        let joint = text.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
+        let parameter =
+            format!("[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\n{values}\n");
+        study(&place, "measure = [\"duration\"]", &parameter);
+        run(&place, "")
+    };
+    let edge = "speed = 1.0000 of at most 1: a wider range may do better\n";
+    let stepped = speed("from = 0.5\nto = 1\nsteps = 3");
+    assert!(stepped.stdout.contains(edge), "{} {}", stepped.stdout, stepped.stderr);
+    assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
+}
+
+#[test]
+fn a_search_plans_in_no_layout_twice() {
+    let place = Place::new();
+    let listed = CRATE.replace("from = -1.5\nto = 1.5\ndraw = \"latin\"", "values = [-1.45, 1.2]");
+    let listed = listed.replace("from = -1.5\nto = 1.5\nsteps = 4", "values = [-1, 0.65, 1]");
+    study(&place, "[search]\nlayouts = 40", &listed);
+    let done = run(&place, "--output t.csv");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert_eq!(rows(&place.read("t.csv")).len(), 6);
+    assert!(done.stdout.contains("the search found no layout to try that has no row yet"), "{}", done.stdout);
+}
+
+#[test]
+fn angles_may_be_in_degrees() {
+    let place = Place::new();
+    let angle = "[[parameter]]\nname = \"a\"\nsets = \"world.obstacle.crate.angle\"\nvalues = [0, \"90deg\"]\n";
+    study(&place, "", angle);
+    assert_eq!(run(&place, "--output t.csv").code, 0);
+    let turned = &rows(&place.read("t.csv"))[1];
+    assert_eq!(field(turned, "a").parse::<f64>().unwrap(), std::f64::consts::FRAC_PI_2);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_says_what_is_kept() {
+    let place = Place::new();
+    study(&place, "draws = 2000", CRATE);
+    let mut stopped = place.command();
+    stopped.args(["study", "study.toml", "--output", "t.csv", "--quiet", "--jobs", "1"]);
+    let stopped = stopped.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let part = place.path("t.csv.part");
+    let lines = || std::fs::read_to_string(&part).map_or(0, |text| text.lines().count());
+    let begun = Instant::now();
+    while lines() < 20 && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let sent = std::process::Command::new("kill").args(["-INT", &stopped.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let done = stopped.wait_with_output().unwrap();
+    let said = String::from_utf8(done.stderr).unwrap();
+    assert_eq!(done.status.code(), Some(130), "{said}");
+    let kept = said.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
+    assert!(kept > 0 && said.contains(" of 8000 rows are kept in t.csv.part; the same command goes on"), "{said}");
+    // Beside them is a line that says what they are rows of.
+    assert!(lines() > kept, "{} {kept}", lines());
+}
+
+/// A picture without a path explains no slices that one would pass.
+#[test]
+fn pictures_explain_what_they_show() {
+    let place = Place::new();
+    let legend = |files: [&str; 2], code: i32| {
+        let done = place.run(&files.map(shipped), "--picture p.svg --quiet");
+        assert_eq!(done.code, code, "{}", done.stderr);
+        place.read("p.svg").contains("slices that the path passes")
+    };
+    assert!(!legend(["robots/planar_2r_continuous.urdf", "workspaces/no_path.toml"], 3));
+    assert!(legend(["robots/planar_2r.urdf", "workspaces/shelf.toml"], 0));
 }
