@@ -123,7 +123,9 @@ impl<'a> Summary<'a> {
                 value if value - from <= near => format!("of at least {from}"),
                 _ => return None,
             };
-            Some(format!("{} = {} {which}: a wider range may do better", parameter.name, shown(*value)))
+            // The digits of tables, without zeros.
+            let value = shown(*value).parse().unwrap_or(*value);
+            Some(format!("{} = {value} {which}: a wider range may do better", parameter.name))
         };
         self.study.parameters.iter().zip(&best.values).filter_map(edge).collect()
     }

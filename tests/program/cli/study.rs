@@ -269,7 +269,7 @@ fn what_is_wrong_with_a_study_has_its_place_and_cure() {
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
     let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
     let cases: [(&str, String, &[&str]); 20] = [
-        ("", several.into(), &["line 6, column 41", "no \"shelves\"", "world.obstacle.shelf.at[0] is a number there"]),
+        ("", several.into(), &["line 6, column 39", "no \"shelves\"", "world.obstacle.shelf.at[0] is a number there"]),
         (
             "",
             x.replace("to = 1", "to = 0") + "draw = \"latin\"\n",
@@ -397,7 +397,7 @@ fn a_best_layout_at_the_end_of_a_range_is_said() {
         study(&place, "measure = [\"duration\"]", &parameter);
         run(&place, "")
     };
-    let edge = "speed = 1.0000 of at most 1: a wider range may do better\n";
+    let edge = "speed = 1 of at most 1: a wider range may do better\n";
     let stepped = speed("from = 0.5\nto = 1\nsteps = 3");
     assert!(stepped.stdout.contains(edge), "{} {}", stepped.stdout, stepped.stderr);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
