@@ -112,7 +112,11 @@ impl Progress {
         match self.manner {
             Manner::Silent | Manner::Told => {}
             Manner::Bar => put(&format!("\r{:WIDTH$}\r", "")),
-            Manner::Lines => sinks::say(&line(self.state().done, self.total, self.things, self.started.elapsed())),
+            Manner::Lines => {
+                // A search may have had less to do than it might.
+                let done = self.state().done;
+                sinks::say(&line(done, done, self.things, self.started.elapsed()));
+            }
         }
     }
 
