@@ -146,7 +146,9 @@ impl Study {
             true => self.base.edited(&urdf, world)?,
             false => crate::input::scene_from(urdf, world)?,
         };
-        if let (false, Some(why)) = (self.may_overlap, overlap(&self.base.world.workspace, &scene.world.workspace)) {
+        if !self.may_overlap
+            && let Some(why) = overlap(&self.base.world.workspace, &scene.world.workspace)
+        {
             let source = self.world.source();
             return Err(source.diagnostic(why).help("a study in which that may be says overlap = true").into());
         }

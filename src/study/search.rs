@@ -32,7 +32,8 @@ impl Study {
     }
 
     /// Searches on from `known` rows, those of all layouts of the study, on so many threads, and hands each row to `each`, in order. Rows that
-    /// `done` has of an earlier search, which was stopped, are not planned again, and no layout is that has a row already: it has no other one. The same rows whatever the number of threads.
+    /// `done` has of an earlier search, which was stopped, are not planned again, and a layout that has a row gets no other one. The same
+    /// rows whatever the number of threads.
     ///
     /// # Errors
     /// What `each` refuses with.

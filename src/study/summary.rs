@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// Reasons that are listed.
-pub(super) const REASONS: usize = 6;
+const REASONS: usize = 6;
 
 /// What share of a range is its end.
 const EDGE: f64 = 0.05;
