@@ -47,13 +47,17 @@ impl Ellipse {
         [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
     }
 
-    /// Points of the arc from parameter `from` on by `by`, without the first.
-    pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+    /// Half of its long axis.
+    fn longest(self) -> f64 {
         // No direction is stretched by more than both together.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
         let cross = self.u[0] * self.v[1] - self.u[1] * self.v[0];
-        let longest = (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt();
-        let count = chords(longest, by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
+        (square / 2.0 + ((square * square / 4.0 - cross * cross).max(0.0)).sqrt()).sqrt()
+    }
+
+    /// Points of the arc from parameter `from` on by `by`, without the first.
+    pub fn arc(self, from: f64, by: f64, tolerance: f64) -> Result<impl Iterator<Item = Point>, TooFine> {
+        let count = chords(self.longest(), by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
         Ok(along(count, move |part| self.at(from + by * part)))
     }
 
@@ -63,20 +67,53 @@ impl Ellipse {
     }
 }
 
+/// An arc of a circle.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Bow {
+    pub center: Point,
+    pub radius: f64,
+    pub from: f64,
+    /// What it turns by, to the left if that is positive.
+    pub by: f64,
+}
+
+impl Bow {
+    /// From `a` to `b`, turning by four times the arc tangent of `bulge`. None if that is straight.
+    pub fn new(a: Point, b: Point, bulge: f64) -> Option<Self> {
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+        // From the middle of the chord to the centre, in chords to the left of it.
+        let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
+        let center = [middle[0] - dy * aside, middle[1] + dx * aside];
+        let is_bent = bulge != 0.0 && a != b && center.iter().all(|x| x.is_finite());
+        is_bent.then(|| Self {
+            center,
+            radius: (a[0] - center[0]).hypot(a[1] - center[1]),
+            from: (a[1] - center[1]).atan2(a[0] - center[0]),
+            by: 4.0 * bulge.atan(),
+        })
+    }
+
+    /// What lies outwards of it by a distance that changes evenly, at most as far inwards as its centre. Fine enough for a map.
+    pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
+        let Self { center, radius, from, by } = self;
+        let bend = radius + first.abs().max(last.abs()) + 2.0 * (last - first).abs() / by.abs();
+        let stretch = Ellipse::circle(center, 1.0).mapped(map).longest();
+        let count = chords(bend * stretch, by.abs(), tolerance)?.max((by.abs() / FRAC_PI_2).ceil() as usize);
+        let at = |k: usize| {
+            let part = k as f64 / count as f64;
+            let radius = (radius + first + (last - first) * part).max(0.0);
+            Ellipse::circle(center, radius).at(from + by * part)
+        };
+        Ok((0..=count).map(at).collect())
+    }
+}
+
 /// An arc from `a` to `b` that turns by four times the arc tangent of `bulge`, to the left if that is positive, without `a`.
 pub(crate) fn bulge(a: Point, b: Point, bulge: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFine> {
     let end = map.point(b);
-    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
-    let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
-    // From the middle of the chord to the centre, in chords to the left of it.
-    let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
-    let center = [middle[0] - dy * aside, middle[1] + dx * aside];
-    if bulge == 0.0 || a == b || !center.iter().all(|x| x.is_finite()) {
-        return Ok(vec![end]);
-    }
-    let from = (a[1] - center[1]).atan2(a[0] - center[0]);
-    let radius = (a[0] - center[0]).hypot(a[1] - center[1]);
-    let arc = Ellipse::circle(center, radius).mapped(map).arc(from, 4.0 * bulge.atan(), tolerance)?;
+    let Some(Bow { center, radius, from, by }) = Bow::new(a, b, bulge) else { return Ok(vec![end]) };
+    let arc = Ellipse::circle(center, radius).mapped(map).arc(from, by, tolerance)?;
     let mut points: Vec<Point> = arc.collect();
     if let Some(last) = points.last_mut() {
         *last = end;

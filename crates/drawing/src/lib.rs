@@ -36,10 +36,12 @@ mod curve;
 mod dxf;
 mod fill;
 mod geojson;
+mod interpolation;
 mod join;
 mod map;
 mod notes;
 mod sheet;
+mod stroke;
 mod svg;
 mod unit;
 

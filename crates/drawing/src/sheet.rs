@@ -191,7 +191,7 @@ impl Sheet {
 }
 
 /// Points without those that repeat the one before them; of a ring the first follows the last.
-fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
+pub(crate) fn once(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
     points.dedup();
     while is_ring && points.len() > 1 && points.first() == points.last() {
         points.pop();

@@ -3,16 +3,19 @@
 use super::document::Entity;
 use super::tags::Record;
 use super::{Place, Reader, oriented, upwards};
-use crate::curve::{Ellipse, Spline, bulge};
+use crate::curve::{Ellipse, Spline, bulge, cubic};
+use crate::interpolation::{Ends, interpolated};
 use crate::map::Map;
-use crate::sheet::Origin;
-use crate::{Error, Point};
+use crate::sheet::{Origin, once};
+use crate::stroke::{Piece, covered};
+use crate::{Error, FillRule, Point, filled};
 use std::f64::consts::TAU;
 
-/// A corner of a polyline, and how the way to the next one bends.
+/// A corner of a polyline, and how the way to the next one bends and how wide it is at both ends.
 struct Corner {
     at: Point,
     bulge: f64,
+    widths: [f64; 2],
 }
 
 impl<'a> Reader<'_, 'a> {
@@ -78,13 +81,55 @@ impl<'a> Reader<'_, 'a> {
             return Ok(());
         };
         let mut points = vec![map.point(first.at)];
-        let ways = corners.windows(2).map(|pair| (&pair[0], &pair[1]));
         let closing = corners.last().filter(|_| is_closed).map(|last| (last, first));
-        for (from, to) in ways.chain(closing) {
+        let ways: Vec<_> = corners.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing).collect();
+        if ways.iter().any(|(from, to)| from.is_wide() && from.at != to.at) {
+            return self.wide(&ways, is_closed, map, place, origin);
+        }
+        for (from, to) in ways {
             let arc = bulge(from.at, to.at, from.bulge, map, self.sheet.tolerance);
             points.extend(self.sheet.chords(arc, origin)?);
         }
         if is_closed { self.sheet.closed(points, origin) } else { self.open(points, place, origin) }
+    }
+
+    /// What a polyline of some width covers, and lines where it has none.
+    fn wide(
+        &mut self,
+        ways: &[(&Corner, &Corner)],
+        is_closed: bool,
+        map: &Map,
+        place: &Place,
+        origin: &Origin,
+    ) -> Result<(), Error> {
+        let ways: Vec<_> = ways.iter().filter(|(from, to)| from.at != to.at).collect();
+        let mut rings = Vec::new();
+        for run in ways.chunk_by(|(a, _), (b, _)| a.is_wide() == b.is_wide()) {
+            if run[0].0.is_wide() {
+                let piece = |(from, to): &&(&Corner, &Corner)| Piece {
+                    ends: [from.at, to.at],
+                    bulge: from.bulge,
+                    widths: from.widths,
+                };
+                let pieces: Vec<Piece> = run.iter().map(piece).collect();
+                let is_whole = is_closed && run.len() == ways.len();
+                let covered = covered(&pieces, is_whole, map, self.sheet.tolerance);
+                rings.extend(self.sheet.chords(covered, origin)?);
+            } else {
+                let mut points = vec![map.point(run[0].0.at)];
+                for (from, to) in run {
+                    let arc = bulge(from.at, to.at, from.bulge, map, self.sheet.tolerance);
+                    points.extend(self.sheet.chords(arc, origin)?);
+                }
+                self.open(points, place, origin)?;
+            }
+        }
+        let parts = filled(&rings, FillRule::NonZero);
+        if is_closed && parts.iter().any(|(_, holes)| !holes.is_empty()) {
+            let message = "closed polylines of some width: frames as wide, what they go round is free";
+            self.sheet.notes.add(message, origin.line);
+        }
+        parts.into_iter().try_for_each(|(outer, holes)| self.sheet.polygon(outer, holes, origin))
     }
 
     /// The polyline of older programs: its vertices are records of their own.
@@ -96,10 +141,12 @@ impl<'a> Reader<'_, 'a> {
             self.sheet.leave_out("POLYLINE that is a mesh", Some(record.line));
             return Ok(());
         }
+        let widths = [record.number_or(40, 0.0)?, record.number_or(41, 0.0)?];
         let mut corners = Vec::new();
         for vertex in entity.parts.iter().filter(|part| part.kind == "VERTEX") {
             if !vertex.flag(CONTROL)? {
-                corners.push(Corner { at: vertex.point(10)?, bulge: vertex.number_or(42, 0.0)? });
+                let widths = [vertex.number_or(40, widths[0])?.abs(), vertex.number_or(41, widths[1])?.abs()];
+                corners.push(Corner { at: vertex.point(10)?, bulge: vertex.number_or(42, 0.0)?, widths });
             }
         }
         self.polyline(&corners, record.flag(1)?, map, place, origin)
@@ -124,9 +171,7 @@ impl<'a> Reader<'_, 'a> {
         let degree = usize::try_from(record.integer_or(71, 3)?).unwrap_or_default();
         let spline = Spline { degree, knots: record.numbers(40)?, control, weights };
         if spline.control.is_empty() && record.points(11)?.len() > 1 {
-            self.sheet.notes.add("SPLINE of fit points alone: straight from one to the next", origin.line);
-            let points = record.points(11)?.into_iter().map(|p| map.point(p)).collect();
-            return self.open(points, place, origin);
+            return self.fitted(record, map, place, origin);
         }
         if !spline.is_sound() {
             let message = "SPLINE whose degree, knots, weights and control points do not fit";
@@ -134,6 +179,21 @@ impl<'a> Reader<'_, 'a> {
         }
         let points = self.sheet.chords(spline.points(self.sheet.tolerance), origin)?;
         self.open(points, place, origin)
+    }
+
+    /// A spline of which the file has the points alone that it passes.
+    fn fitted(&mut self, record: &Record, map: &Map, place: &Place, origin: &Origin) -> Result<(), Error> {
+        const CLOSED: i64 = 1 | 2;
+        let is_closed = record.flag(CLOSED)?;
+        let fit = once(record.points(11)?, is_closed);
+        let direction = |code: i32| record.number(code)?.map(|_| record.point(code)).transpose();
+        let ends = if is_closed { Ends::Closed } else { Ends::Open([direction(12)?, direction(13)?]) };
+        let mut points: Vec<Point> = fit.first().map(|&p| map.point(p)).into_iter().collect();
+        for piece in interpolated(&fit, ends) {
+            let piece = cubic(piece.map(|p| map.point(p)), self.sheet.tolerance);
+            points.extend(self.sheet.chords(piece, origin)?);
+        }
+        if is_closed { self.sheet.closed(points, origin) } else { self.open(points, place, origin) }
     }
 }
 
@@ -156,14 +216,24 @@ fn is_tilted(record: &Record) -> Result<bool, Error> {
 
 /// Corners of a polyline in one record.
 fn corners(record: &Record) -> Result<Vec<Corner>, Error> {
-    let mut corners: Vec<Corner> = record.points(10)?.into_iter().map(|at| Corner { at, bulge: 0.0 }).collect();
+    let width = record.number_or(43, 0.0)?.abs();
+    let corner = |at: Point| Corner { at, bulge: 0.0, widths: [width; 2] };
+    let mut corners: Vec<Corner> = record.points(10)?.into_iter().map(corner).collect();
     let mut count = 0;
     for tag in record.tags {
         match tag.code {
             10 => count += 1,
+            40 if count > 0 => corners[count - 1].widths[0] = tag.number()?.abs(),
+            41 if count > 0 => corners[count - 1].widths[1] = tag.number()?.abs(),
             42 if count > 0 => corners[count - 1].bulge = tag.number()?,
             _ => {}
         }
     }
     Ok(corners)
+}
+
+impl Corner {
+    fn is_wide(&self) -> bool {
+        self.widths.iter().any(|&width| width > 0.0)
+    }
 }

@@ -1,7 +1,7 @@
 //! Entities, units, blocks, layers and ends that meet.
 
 use super::{apart, area, drawing, length, near, notes, one, ring, same, wall};
-use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Unit, read};
+use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Shape, Unit, read};
 use std::f64::consts::PI;
 
 /// A DXF in millimetres: words in turn are codes and values.
@@ -83,6 +83,57 @@ fn polylines_of_older_programs_are_the_same() {
     assert_eq!(notes(&mesh), ["POLYLINE that is a mesh: left out (line 28)"]);
 }
 
+/// The area of a polygon without its holes, and the number of these.
+fn covers(shape: &Shape) -> (f64, usize) {
+    let Geometry::Polygon { outer, holes } = &shape.geometry else { panic!("{shape:?}") };
+    (area(outer).abs() - holes.iter().map(|hole| area(hole).abs()).sum::<f64>(), holes.len())
+}
+
+#[test]
+fn a_polyline_of_some_width_covers_it() {
+    // Areas in mm2 by ezdxf's `TraceBuilder` and Shapely, and by hand: what a bent piece covers is its length by its middle width.
+    let quarters = 2.0 * PI * 50.0;
+    for (corners, mm2, missing, holes) in [
+        ("70 0 43 20 10 0 20 0 10 200 20 0 10 200 20 100", 6000.0, 0.0, 0),
+        ("70 1 43 20 10 0 20 0 10 200 20 0 10 200 20 100 10 0 20 100", 12000.0, 0.0, 1),
+        ("70 0 43 20 10 0 20 0 10 200 20 0 10 300 20 80", 6561.2496949731385, 0.0, 0),
+        ("70 0 10 0 20 0 40 40 41 10 10 200 20 0", 5000.0, 0.0, 0),
+        ("70 0 43 20 10 0 20 0 42 1 10 100 20 0", quarters / 2.0 * 20.0, 30.0, 0),
+        ("70 0 10 0 20 0 40 20 41 60 42 0.5 10 100 20 0", 4636.476013758015, 30.0, 0),
+        // AutoCAD's DONUTs: a ring and a disc of 60 mm.
+        ("70 1 43 20 10 -50 20 0 42 1 10 50 20 0 42 1", quarters * 20.0, 60.0, 1),
+        ("70 1 43 60 10 -30 20 0 42 1 10 30 20 0 42 1", PI * 3600.0, 40.0, 0),
+        // A line that goes on as an arc, and another one.
+        ("70 0 43 20 10 0 20 0 10 100 20 0 42 1 10 100 20 100 10 0 20 100", 20.0 * (200.0 + PI * 50.0), 30.0, 0),
+    ] {
+        for entity in ["0 LWPOLYLINE 8 a ", "0 LWPOLYLINE 8 a 210 0 220 0 230 -1 "] {
+            let given = dxf(&(entity.to_owned() + corners));
+            let (covered, count) = covers(one(&given));
+            assert!((mm2 - missing - 1e-3..=mm2 + missing + 1e-3).contains(&(covered * 1e6)), "{corners}: {covered}");
+            assert_eq!(count, holes, "{corners}");
+            let told = "closed polylines of some width: frames as wide, what they go round is free (line 28)";
+            assert_eq!(notes(&given), vec![told; holes], "{corners}");
+        }
+    }
+    // Widths of older polylines: of all, and of one vertex. Ends are butt, and a sharp corner is cut off where it is reached.
+    let old = dxf("0 POLYLINE 8 a 66 1 70 0 40 40 41 40 0 VERTEX 10 0 20 0 41 10 0 VERTEX 10 200 20 0 0 SEQEND");
+    let trapezoid = ring(one(&old));
+    assert_eq!(trapezoid.iter().filter(|p| p[0] == 0.0 || p[0] == 0.2).count(), trapezoid.len());
+    assert!(
+        trapezoid.iter().any(|p| *p == [0.0, 0.02]) && trapezoid.iter().any(|p| *p == [0.2, -0.005]),
+        "{trapezoid:?}"
+    );
+    near(covers(one(&old)).0, 0.005, 1e-12);
+    let sharp = dxf("0 LWPOLYLINE 8 a 70 0 43 20 10 0 20 0 10 200 20 0 10 20 20 20");
+    let farthest = ring(one(&sharp)).iter().map(|p| p[0]).fold(0.0, f64::max);
+    assert!((0.2..0.2012).contains(&farthest), "{farthest}");
+    // A piece of no width is a line still.
+    let both = dxf("0 LWPOLYLINE 8 a 70 0 10 0 20 0 40 20 41 20 10 200 20 0 10 200 20 100 10 300 20 100");
+    assert_eq!(both.shapes.len(), 2);
+    same(wall(&both.shapes[0]), &[[0.2, 0.0], [0.2, 0.1], [0.3, 0.1]]);
+    near(covers(&both.shapes[1]).0, 0.004, 1e-12);
+}
+
 #[test]
 fn circles_stay_circles_and_ellipses_are_within_the_tolerance() {
     let disc = dxf("0 CIRCLE 8 a 10 30 20 -40 40 25");
@@ -137,6 +188,39 @@ fn splines_pass_where_their_definition_says() {
     let exact = 2.0 * (PI / 4.0 - 0.5) * 0.05 * 0.05;
     let given = area(ring(one(&lens)));
     assert!(given <= exact && given > exact - 0.16 * TOLERANCE, "{given} against {exact}");
+}
+
+#[test]
+fn splines_of_fit_points_are_those_of_cad_programs() {
+    // ezdxf's `fit_points_to_cad_cv`: points in the middle of each piece, and the length, mm.
+    let by_ezdxf = [
+        ("", [[21.883073, 55.606669], [93.993097, 50.592198], [172.24533, 40.524983]], 305.6862947934623),
+        (
+            "12 0 22 2 13 0.5 23 0",
+            [[14.877077, 52.157546], [98.036154, 46.348697], [165.780538, 57.755407]],
+            309.1909390573607,
+        ),
+    ];
+    for (directions, middles, mm) in by_ezdxf {
+        let fit = "11 0 21 0 11 50 21 80 11 50 21 80 11 140 21 20 11 200 21 90";
+        let given = dxf(&format!("0 SPLINE 8 a 70 8 71 3 74 5 {directions} {fit}"));
+        assert_eq!(notes(&given), [""; 0]);
+        let points = wall(one(&given));
+        for exact in middles.map(|p: Point| p.map(|x| x / 1000.0)) {
+            let off = points.windows(2).map(|w| to_segment(exact, w[0], w[1])).fold(f64::INFINITY, f64::min);
+            assert!(off <= TOLERANCE, "{off}");
+        }
+        let short = mm / 1000.0 - length(points);
+        assert!((0.0..3e-4).contains(&short), "{short} m shorter than the curve");
+    }
+    // Through the four ends of a cross of half a metre, closed: four Bézier curves whose inner points are the corners of an octagon,
+    // (1, 1/2) and so on, so they surround 3.05 times the square of the half metre. The first point may be given twice.
+    for again in ["", "11 500 21 0"] {
+        let cross = format!("0 SPLINE 8 a 70 11 71 3 11 500 21 0 11 0 21 500 11 -500 21 0 11 0 21 -500 {again}");
+        let given = area(ring(one(&dxf(&cross))));
+        let exact = 3.05 * 0.25;
+        assert!(given <= exact && given > exact - 3.2 * TOLERANCE, "{given} against {exact}");
+    }
 }
 
 fn to_segment(p: Point, a: Point, b: Point) -> f64 {

@@ -1,0 +1,121 @@
+//! What a line of some width covers: butt ends, mitred corners.
+
+use crate::curve::{Bow, TooFine};
+use crate::map::Map;
+use crate::{Point, Ring};
+
+/// A way from a corner to the next, straight or bent, whose width changes evenly.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    pub ends: [Point; 2],
+    pub bulge: f64,
+    pub widths: [f64; 2],
+}
+
+/// A mitre longer than this many half widths is cut off, as in SVG and PostScript.
+const LONGEST_MITRE: f64 = 4.0;
+
+/// Edges that are apart by less than this share of the width go on smoothly, but for rounding.
+const SMOOTH: f64 = 1e-9;
+
+impl Piece {
+    /// Its edges to the left and to the right.
+    fn edges(&self, map: &Map, tolerance: f64) -> Result<[Vec<Point>; 2], TooFine> {
+        let [a, b] = self.ends;
+        if let Some(bow) = Bow::new(a, b, self.bulge) {
+            let [from, to] = self.widths.map(|width| width / 2.0);
+            let inwards = bow.by.signum();
+            let edge = |side: f64| bow.spiral(side * inwards * from, side * inwards * to, map, tolerance);
+            return Ok([edge(-1.0)?, edge(1.0)?]);
+        }
+        let [left, _] = self.directions().map(|[x, y]| [-y, x]);
+        let edge = |side: f64| [0, 1].map(|end| beside(self.ends[end], left, side * self.widths[end] / 2.0)).to_vec();
+        Ok([edge(1.0), edge(-1.0)])
+    }
+
+    /// Of its middle line, at both ends.
+    fn directions(&self) -> [Point; 2] {
+        let [a, b] = self.ends;
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        let length = dx.hypot(dy);
+        let along = [dx / length, dy / length];
+        if Bow::new(a, b, self.bulge).is_none() {
+            return [along; 2];
+        }
+        // An arc leaves its chord by half of the angle that it turns by.
+        [-1.0, 1.0].map(|side| {
+            let (sin, cos) = (side * 2.0 * self.bulge.atan()).sin_cos();
+            [cos * along[0] - sin * along[1], sin * along[0] + cos * along[1]]
+        })
+    }
+}
+
+/// A point at a distance in some direction.
+fn beside(p: Point, direction: Point, distance: f64) -> Point {
+    [0, 1].map(|k| p[k] + direction[k] * distance)
+}
+
+/// Rings, all counter-clockwise where the map puts them, that cover what the pieces do. Each piece begins where the last one ends, has
+/// a length, and is wider than 0 somewhere.
+pub(crate) fn covered(pieces: &[Piece], is_closed: bool, map: &Map, tolerance: f64) -> Result<Vec<Ring>, TooFine> {
+    let mut edges = pieces.iter().map(|piece| piece.edges(map, tolerance)).collect::<Result<Vec<_>, _>>()?;
+    let closing = (is_closed && pieces.len() > 1).then_some((pieces.len() - 1, 0));
+    let corners: Vec<(usize, usize)> = (1..pieces.len()).map(|j| (j - 1, j)).chain(closing).collect();
+    for &(i, j) in &corners {
+        for side in 0..2 {
+            let (from, to) = (edges[i][side][edges[i][side].len() - 1], edges[j][side][0]);
+            if (from[0] - to[0]).hypot(from[1] - to[1]) <= SMOOTH * pieces[i].widths[1] {
+                edges[j][side][0] = from;
+            }
+        }
+    }
+    let mut rings = Vec::new();
+    // Corners are in the rings as well, so that neighbours share their borders to the last bit.
+    for (piece, [left, right]) in pieces.iter().zip(&edges) {
+        let [a, b] = piece.ends;
+        let back: Vec<Point> = right.iter().rev().copied().collect();
+        rings.push([&[a], &left[..], &[b], &back[..]].concat());
+    }
+    for (i, j) in corners {
+        rings.extend(corner([&pieces[i], &pieces[j]], [&edges[i], &edges[j]]));
+    }
+    for ring in &mut rings {
+        ring.iter_mut().for_each(|p| *p = map.point(*p));
+        if doubled_area(ring) < 0.0 {
+            ring.reverse();
+        }
+    }
+    Ok(rings)
+}
+
+/// Twice the area that a ring surrounds, positive if it is counter-clockwise.
+fn doubled_area(ring: &[Point]) -> f64 {
+    let from_first = |p: &Point| [p[0] - ring[0][0], p[1] - ring[0][1]];
+    let cross = |w: &[Point]| {
+        let [p, q] = [from_first(&w[0]), from_first(&w[1])];
+        p[0] * q[1] - p[1] * q[0]
+    };
+    ring.windows(2).map(cross).sum()
+}
+
+/// What lies between two pieces on the outer side of their corner.
+fn corner([before, after]: [&Piece; 2], [edges, next_edges]: [&[Vec<Point>; 2]; 2]) -> Option<Ring> {
+    let ([_, d], [e, _]) = (before.directions(), after.directions());
+    let (cross, cos) = (d[0] * e[1] - d[1] * e[0], d[0] * e[0] + d[1] * e[1]);
+    let outer = usize::from(cross > 0.0);
+    let (from, to) = (*edges[outer].last()?, next_edges[outer][0]);
+    if from == to {
+        return None;
+    }
+    let [width, next_width] = [before.widths[1], after.widths[0]];
+    let at = after.ends[0];
+    let mut ring = vec![at, from];
+    // A mitre is longer than half of the width by one over the cosine of half of the turn.
+    let half_turn = ((1.0 + cos) / 2.0).max(0.0).sqrt();
+    if width == next_width && half_turn * LONGEST_MITRE >= 1.0 {
+        let toward = [0, 1].map(|k| (from[k] - at[k] + to[k] - at[k]) / (2.0 * half_turn * half_turn));
+        ring.push([0, 1].map(|k| at[k] + toward[k]));
+    }
+    ring.push(to);
+    Some(ring)
+}
