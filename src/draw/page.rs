@@ -30,7 +30,7 @@ const MOST: usize = 24;
 /// The whole page of a view.
 #[must_use]
 pub fn compose(view: &View) -> Figure {
-    let mut items = titles(&view.title, &view.status);
+    let mut items = titles(&view.title, &view.status, WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
     let keys = legend::layout(legend::keys(view), WIDTH - 2.0 * MARGIN);
     let height = match &view.still.panels[..] {
@@ -56,16 +56,22 @@ pub fn compose(view: &View) -> Figure {
     Figure { width: WIDTH, height, items }
 }
 
-/// A page with a single panel, which fills the part that it is given, and a legend below.
+/// A page with a single panel, and a legend below. The panel has the aspect that it is given, height by width, as far as a page has room.
 #[must_use]
-pub fn alone(title: &[String], keys: Vec<Key>, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
-    let mut items = titles(title, "");
-    let top = 44.0 + 18.0 * title.len().max(1) as f64;
-    let keys = legend::layout(keys, WIDTH - 2.0 * MARGIN);
-    let below = HEIGHT - 14.0 - legend::ROW * keys.len() as f64;
-    items.extend(panel(Rect { y: top, width: WIDTH - LEFT.x - MARGIN, height: below - AXES - top, ..LEFT }));
-    items.extend(legend::items(&keys, WIDTH / 2.0, below));
-    Figure { width: WIDTH, height: HEIGHT, items }
+pub fn alone(title: &[String], keys: Vec<Key>, aspect: f64, panel: impl FnOnce(Rect) -> Vec<Item>) -> Figure {
+    const HEIGHTS: [f64; 2] = [300.0, 960.0];
+    const LEAST_WIDTH: f64 = 600.0;
+    let widest = WIDTH - LEFT.x - MARGIN;
+    let height = (widest * aspect).clamp(HEIGHTS[0], HEIGHTS[1]);
+    let room = Rect { width: (height / aspect).clamp(LEAST_WIDTH, widest), height, ..LEFT };
+    let width = room.right() + MARGIN;
+    let mut items = titles(title, "", width);
+    let room = Rect { y: 44.0 + 18.0 * title.len().max(1) as f64, ..room };
+    let keys = legend::layout(keys, width - 2.0 * MARGIN);
+    items.extend(panel(room));
+    let below = room.bottom() + AXES;
+    items.extend(legend::items(&keys, width / 2.0, below));
+    Figure { width, height: below + legend::ROW * keys.len() as f64 + 14.0, items }
 }
 
 /// The workspace, a configuration space for each payload state, and the steps; returns the height of the page.
@@ -129,13 +135,13 @@ fn heading(column: Rect, y: f64, text: &str) -> Item {
 }
 
 /// The title and the lines below it, and the status in the opposite corner.
-fn titles(lines: &[String], status: &str) -> Vec<Item> {
+fn titles(lines: &[String], status: &str, width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = text_width(status, 18.0);
-    items.push(label([WIDTH - MARGIN, 36.0], status, 18.0, Anchor::End, INK));
+    items.push(label([width - MARGIN, 36.0], status, 18.0, Anchor::End, INK));
     for (i, line) in lines.iter().enumerate() {
         let (size, color, y) = if i == 0 { (22.0, INK, 36.0) } else { (14.0, GREY, 40.0 + 18.0 * i as f64) };
-        let room = WIDTH - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
+        let room = width - 2.0 * MARGIN - if i == 0 { status_width + 30.0 } else { 0.0 };
         items.push(label([MARGIN, y], shortened(line, size, room), size, Anchor::Start, color));
     }
     items

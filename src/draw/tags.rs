@@ -84,7 +84,7 @@ fn around([x, y]: Spot, [width, height]: [f64; 2]) -> Rect {
 }
 
 /// The common area, square pixels.
-fn overlap(a: &Rect, b: &Rect) -> f64 {
+pub fn overlap(a: &Rect, b: &Rect) -> f64 {
     let width = a.right().min(b.right()) - a.x.max(b.x);
     let height = a.bottom().min(b.bottom()) - a.y.max(b.y);
     width.max(0.0) * height.max(0.0)

@@ -25,6 +25,7 @@ mod identity;
 mod inspection;
 mod line_map;
 mod map_text;
+mod nearness;
 mod notes;
 mod object;
 mod obstacle;
@@ -205,11 +206,12 @@ impl LoadedScene {
 
 /// The arm in its world.
 fn among(world: World, urdf: Source) -> Result<LoadedScene, InputError> {
-    let (arm, robot) = urdf::load(urdf, &world)?;
+    let (arm, mut robot) = urdf::load(urdf, &world)?;
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
     }
     let scene = Scene::trusted(standing(&arm, &world), world.at_first());
+    robot.warnings.extend(nearness::warning(&scene));
     Ok(LoadedScene { scene, world, arm, robot })
 }
 
@@ -235,6 +237,7 @@ pub fn inspect(urdf: &Path, world: Option<&Path>) -> Inspection {
     if let Some(error) = unread {
         inspection.errors.insert(0, error);
     }
+    inspection.warnings.extend(inspection.scene.as_ref().and_then(nearness::warning));
     if world.is_some() && inspection.is_plannable() {
         let loaded = inspection.scene.clone().map(|scene| {
             let arm = scene.arm().clone();

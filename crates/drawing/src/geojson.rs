@@ -70,7 +70,7 @@ impl Reader {
                 match value.get("geometry") {
                     Some(geometry) if !geometry.is_null() => self.object(geometry, &format!("{at}.geometry"), &named),
                     _ => {
-                        self.sheet.leave_out("Feature without geometry", None);
+                        self.sheet.leave_out("Feature without geometry", &named);
                         Ok(())
                     }
                 }
@@ -92,7 +92,7 @@ impl Reader {
                 self.each(lines, &at, |reader, line, at| reader.line(line, at, origin))
             }
             "Point" | "MultiPoint" => {
-                self.sheet.leave_out(kind, None);
+                self.sheet.leave_out(kind, origin);
                 Ok(())
             }
             "Topology" => {
@@ -121,7 +121,7 @@ impl Reader {
         match rings.next() {
             Some(outer) => self.sheet.polygon(outer, rings.collect(), origin),
             None => {
-                self.sheet.leave_out("Polygon without rings", None);
+                self.sheet.leave_out("Polygon without rings", origin);
                 Ok(())
             }
         }

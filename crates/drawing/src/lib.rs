@@ -84,6 +84,42 @@ pub struct Shape {
     pub kind: String,
     /// Where it begins, in formats that have lines.
     pub line: Option<usize>,
+    /// Where it is inserted, if it comes in with a block.
+    pub frame: Option<Frame>,
+}
+
+impl Shape {
+    /// All that it may be asked for by: its layer, its name, what hides it.
+    #[must_use]
+    pub fn called(&self) -> Vec<String> {
+        [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
+    }
+}
+
+/// Where the outermost block that a shape comes in with is inserted, and how it is turned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// The insertion point.
+    pub at: Point,
+    /// Counter-clockwise, radians.
+    pub angle: f64,
+}
+
+impl Frame {
+    /// Where a point of the frame lies.
+    #[must_use]
+    pub fn placed(&self, [x, y]: Point) -> Point {
+        let (sin, cos) = self.angle.sin_cos();
+        [cos * x - sin * y + self.at[0], sin * x + cos * y + self.at[1]]
+    }
+
+    /// A point as seen from the frame.
+    #[must_use]
+    pub fn local(&self, p: Point) -> Point {
+        let (sin, cos) = self.angle.sin_cos();
+        let [x, y] = [p[0] - self.at[0], p[1] - self.at[1]];
+        [cos * x + sin * y, cos * y - sin * x]
+    }
 }
 
 /// Where a shape is.

@@ -1,6 +1,6 @@
 //! Affine maps of the plane.
 
-use crate::Point;
+use crate::{Frame, Point};
 
 /// Where a point goes: `x u + y v + o`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +40,12 @@ impl Map {
     /// First `inner`, then this.
     pub fn after(&self, inner: &Map) -> Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
+    }
+
+    /// Where it takes the origin, and the turn of whatever it mirrors or scales alike in all directions: that of the y axis, since what is
+    /// seen from below has x turned round.
+    pub fn frame(&self) -> Frame {
+        Frame { at: self.o, angle: (-self.v[0]).atan2(self.v[1]) }
     }
 
     /// The factor by which it scales, if it stretches no direction more than another.

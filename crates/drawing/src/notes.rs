@@ -1,5 +1,6 @@
 //! What is to be said of a drawing, counted by kind, so that a thousand texts make one line.
 
+use std::collections::HashMap;
 use std::fmt;
 
 /// Something that was not taken, or not as it is written.
@@ -28,24 +29,51 @@ impl fmt::Display for Note {
 /// More kinds than this are counted as one: nobody reads them.
 const MOST_KINDS: usize = 48;
 
-/// Notes in the order in which their kinds came up.
+/// Notes, and whose they are: counted by both.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Notes(Vec<Note>);
+pub struct Notes {
+    counted: Vec<(Vec<String>, Note)>,
+    /// Where each is, by whose it is and what it says.
+    places: HashMap<(Vec<String>, String), usize>,
+}
 
 impl Notes {
-    /// Notes something, and the line that it is in.
+    /// Notes something of the whole drawing, and the line that it is in.
     pub fn add(&mut self, message: impl Into<String>, line: Option<usize>) {
-        let message = message.into();
-        match self.0.iter_mut().position(|note| note.message == message) {
-            Some(known) => self.0[known].count += 1,
-            None if self.0.len() < MOST_KINDS => self.0.push(Note { message, count: 1, line }),
-            None if self.0.len() == MOST_KINDS => self.0.push(Note { message: "other things".into(), count: 1, line }),
-            None => self.0[MOST_KINDS].count += 1,
-        }
+        self.add_of(Vec::new(), message, line);
     }
 
-    /// All of them.
-    pub fn iter(&self) -> impl Iterator<Item = &Note> {
-        self.0.iter()
+    /// Notes something of what lies on a layer or has a name: `whose` has all that it may be asked for by.
+    pub fn add_of(&mut self, whose: Vec<String>, message: impl Into<String>, line: Option<usize>) {
+        let message = message.into();
+        let place = *self.places.entry((whose.clone(), message.clone())).or_insert_with(|| {
+            self.counted.push((whose, Note { message, count: 0, line }));
+            self.counted.len() - 1
+        });
+        self.counted[place].1.count += 1;
+    }
+
+    /// All of them, in the order in which their kinds came up.
+    #[must_use]
+    pub fn all(&self) -> Vec<Note> {
+        self.of(|_| true)
+    }
+
+    /// Those of the whole drawing and of whom it is asked for.
+    #[must_use]
+    pub fn of(&self, is_asked_for: impl Fn(&[String]) -> bool) -> Vec<Note> {
+        let mut kinds: Vec<Note> = Vec::new();
+        let asked = self.counted.iter().filter(|(whose, _)| whose.is_empty() || is_asked_for(whose));
+        for (_, note) in asked {
+            match kinds.iter().position(|kind| kind.message == note.message) {
+                Some(known) => kinds[known].count += note.count,
+                None if kinds.len() < MOST_KINDS => kinds.push(note.clone()),
+                None if kinds.len() == MOST_KINDS => {
+                    kinds.push(Note { message: "other things".into(), ..note.clone() });
+                }
+                None => kinds[MOST_KINDS].count += note.count,
+            }
+        }
+        kinds
     }
 }

@@ -5,7 +5,7 @@ use crate::fill::{FillRule, filled};
 use crate::join::joined;
 use crate::map::Map;
 use crate::notes::Notes;
-use crate::{Drawing, Error, Geometry, Point, Ring, Settings, Shape};
+use crate::{Drawing, Error, Frame, Geometry, Point, Ring, Settings, Shape};
 use std::collections::BTreeMap;
 
 /// More points a drawing does not have: neither a planner nor a person could make use of it.
@@ -26,6 +26,14 @@ pub(crate) struct Origin {
     pub hidden_by: Option<String>,
     pub kind: String,
     pub line: Option<usize>,
+    pub frame: Option<Frame>,
+}
+
+impl Origin {
+    /// What it may be asked for by.
+    pub fn called(&self) -> Vec<String> {
+        [&self.layer, &self.name, &self.hidden_by].into_iter().flatten().cloned().collect()
+    }
 }
 
 /// Shapes in the order of the file, and open curves that are still to be joined.
@@ -46,9 +54,14 @@ impl Sheet {
         Self { tolerance: settings.tolerance, notes, shapes, open, count: 0, points: 0 }
     }
 
+    /// Says something of what is drawn.
+    pub fn note(&mut self, message: impl Into<String>, origin: &Origin) {
+        self.notes.add_of(origin.called(), message, origin.line);
+    }
+
     /// Says that something is not taken.
-    pub fn leave_out(&mut self, what: &str, line: Option<usize>) {
-        self.notes.add(format!("{what}: left out"), line);
+    pub fn leave_out(&mut self, what: &str, origin: &Origin) {
+        self.note(format!("{what}: left out"), origin);
     }
 
     /// A curve that needs too many chords.
@@ -97,7 +110,7 @@ impl Sheet {
     pub fn wall(&mut self, points: Vec<Point>, origin: &Origin) -> Result<(), Error> {
         let points = once(points, false);
         if points.len() < 2 {
-            self.leave_out(&format!("{} without extent", origin.kind), origin.line);
+            self.leave_out(&format!("{} without extent", origin.kind), origin);
             return Ok(());
         }
         self.counted(points.iter(), origin)?;
@@ -158,8 +171,8 @@ impl Sheet {
     }
 
     fn put_at(&mut self, number: usize, geometry: Geometry, origin: &Origin) {
-        let Origin { name, layer, height, hidden_by, kind, line } = origin.clone();
-        self.shapes.push((number, Shape { name, layer, geometry, height, hidden_by, kind, line }));
+        let Origin { name, layer, height, hidden_by, kind, line, frame } = origin.clone();
+        self.shapes.push((number, Shape { name, layer, geometry, height, hidden_by, kind, line, frame }));
     }
 
     /// The drawing, ends that meet joined.
@@ -174,7 +187,7 @@ impl Sheet {
                 }
                 if chain.gap > ROUNDING {
                     let message = format!("ends less than {} m apart: joined", self.tolerance);
-                    self.notes.add(message, origin.line);
+                    self.note(message, &origin);
                 }
                 let points = once(chain.points, chain.is_closed);
                 let geometry = if chain.is_closed && !has_no_area(&points) {

@@ -1,11 +1,12 @@
 //! Which parts of a drawing are taken, and as what.
 
 use super::Failure;
-use super::obstacles::Taken;
+use super::obstacles::{Names, Taken, rounded};
 use crate::input::LARGEST;
 use crate::text::{counted, plain_line};
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::{PI, TAU};
 use std::str::FromStr;
 
 /// `NAME=LOW:HIGH`.
@@ -34,13 +35,16 @@ impl FromStr for LayerHeight {
 /// What the options say of layers and names.
 pub(super) struct Layers<'a> {
     pub only: &'a [String],
+    pub without: &'a [String],
     pub heights: &'a [LayerHeight],
     pub walls: &'a [String],
+    /// Greatest distance of a circle from the wall that is made of it, metres.
+    pub tolerance: f64,
 }
 
-/// Whether a shape, what it lies on or what hides it has this name.
-fn is_called(shape: &Shape, name: &str) -> bool {
-    names(shape).any(|own| is_same(own, name))
+/// Whether an obstacle, what it lies on or what hides it has this name.
+fn is_called(taken: &Taken, name: &str) -> bool {
+    is_same(&taken.name, name) || taken.shape.called().iter().any(|own| is_same(own, name))
 }
 
 /// Names are the same in upper and lower case.
@@ -48,65 +52,98 @@ fn is_same(name: &str, other: &str) -> bool {
     name.to_lowercase() == other.to_lowercase()
 }
 
-fn names(shape: &Shape) -> impl Iterator<Item = &String> {
-    [&shape.layer, &shape.name, &shape.hidden_by].into_iter().flatten()
-}
-
 impl Layers<'_> {
     /// Refuses names that the drawing does not have.
-    pub fn check(&self, shapes: &[Shape]) -> Result<(), Failure> {
+    pub fn check(&self, found: &[Taken]) -> Result<(), Failure> {
         let only = self.only.iter().map(|name| ("--layer", name));
+        let without = self.without.iter().map(|name| ("--without", name));
         let heights = self.heights.iter().map(|height| ("--height", &height.name));
         let walls = self.walls.iter().map(|name| ("--walls", name));
-        let unknown = |(_, name): &(&str, &String)| !shapes.iter().any(|shape| is_called(shape, name));
-        let Some((option, name)) = only.chain(heights).chain(walls).find(unknown) else { return Ok(()) };
-        let known: BTreeSet<&String> = shapes.iter().flat_map(names).collect();
+        let unknown = |(_, name): &(&str, &String)| !found.iter().any(|taken| is_called(taken, name));
+        let Some((option, name)) = only.chain(without).chain(heights).chain(walls).find(unknown) else {
+            return Ok(());
+        };
+        let known: BTreeSet<String> = found.iter().flat_map(|taken| taken.shape.called()).collect();
         const SHOWN: usize = 24;
         let more = known.len().saturating_sub(SHOWN);
         let known: Vec<String> = known.into_iter().take(SHOWN).map(|name| format!("\"{name}\"")).collect();
         let known = match (known.is_empty(), more) {
             (true, _) => "nothing that is taken of the drawing has a name or a layer".to_owned(),
-            (false, 0) => format!("the drawing has {}", known.join(", ")),
+            (false, 0) => format!("the drawing has {}, and the names that the world gives", known.join(", ")),
             (false, more) => format!("the drawing has {} and {more} more", known.join(", ")),
         };
         Err(Failure::Option(format!("{option}: the drawing has nothing called \"{name}\"\n  cure: {known}")))
     }
 
-    /// The shapes that are taken, with what the options say of them.
-    pub fn chosen(&self, shapes: Vec<Shape>, notes: &mut Notes) -> Vec<Shape> {
+    /// Whether what may be asked for by these names is taken.
+    pub fn asks_for(&self, names: &[String]) -> bool {
+        let among = |asked: &[String]| asked.iter().any(|name| names.iter().any(|own| is_same(own, name)));
+        (self.only.is_empty() || among(self.only)) && !among(self.without)
+    }
+
+    /// What is taken, with what the options say of it.
+    pub fn chosen(&self, found: Vec<Taken>, notes: &mut Notes) -> Vec<Taken> {
+        let mut names = Names::of(&found);
         let mut chosen = Vec::new();
-        for mut shape in shapes {
-            if !self.only.is_empty() && !self.only.iter().any(|name| is_called(&shape, name)) {
+        for mut taken in found {
+            let among = |asked: &[String]| asked.iter().any(|name| is_called(&taken, name));
+            if !self.only.is_empty() && !among(self.only) || among(self.without) {
                 continue;
             }
             // What is asked for by its own layer alone may still lie in a block that is hidden as a whole.
+            let shape = &taken.shape;
             let is_asked_for = |own: &String| self.only.iter().any(|name| is_same(own, name));
-            let is_taken = || [&shape.hidden_by, &shape.name].into_iter().flatten().any(is_asked_for);
+            let is_taken = || {
+                [shape.hidden_by.as_ref(), shape.name.as_ref(), Some(&taken.name)]
+                    .into_iter()
+                    .flatten()
+                    .any(is_asked_for)
+            };
             if let Some(layer) = shape.hidden_by.as_ref().filter(|_| !is_taken()) {
-                notes.add(format!("layer \"{layer}\" is switched off: left out, --layer takes it"), shape.line);
+                let message = format!("layer \"{layer}\" is switched off: left out, --layer takes it");
+                notes.add_of(shape.called(), message, shape.line);
                 continue;
             }
-            if let Some(height) = self.heights.iter().rev().find(|height| is_called(&shape, &height.name)) {
-                shape.height = Some(height.height);
+            let is_wall = among(self.walls);
+            if let Some(height) = self.heights.iter().rev().find(|height| is_called(&taken, &height.name)) {
+                taken.shape.height = Some(height.height);
             }
-            if self.walls.iter().any(|name| is_called(&shape, name)) {
-                chosen.extend(walls(shape));
+            if is_wall {
+                chosen.extend(walls(taken, self.tolerance, &mut names));
             } else {
-                chosen.push(shape);
+                chosen.push(taken);
             }
         }
         chosen
     }
 }
 
-/// The outlines of a shape as thin walls.
-fn walls(shape: Shape) -> Vec<Shape> {
-    let Geometry::Polygon { outer, holes } = shape.geometry.clone() else { return vec![shape] };
-    let wall = |mut ring: Vec<[f64; 2]>| {
-        ring.extend(ring.first().copied());
-        Shape { geometry: Geometry::Polyline(ring), ..shape.clone() }
+/// The outlines of an obstacle as thin walls.
+fn walls(taken: Taken, tolerance: f64, names: &mut Names) -> Vec<Taken> {
+    let rings = match taken.shape.geometry.clone() {
+        Geometry::Polygon { outer, holes } => [outer].into_iter().chain(holes).collect(),
+        Geometry::Circle { center, radius } => vec![chords(center, radius, tolerance)],
+        Geometry::Polyline(_) => return vec![taken],
     };
-    [outer].into_iter().chain(holes).map(wall).collect()
+    let is_one = rings.len() == 1;
+    let mut wall = |mut ring: Vec<[f64; 2]>| {
+        ring.extend(ring.first().copied());
+        let name = if is_one { taken.name.clone() } else { names.numbered(&taken.name) };
+        Taken { name, shape: Shape { geometry: Geometry::Polyline(ring), ..taken.shape.clone() } }
+    };
+    rings.into_iter().map(&mut wall).collect()
+}
+
+/// Corners on a circle, whose chords are as near to it as that.
+fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
+    const LEAST: f64 = 8.0;
+    let half = (1.0 - tolerance / radius).clamp(0.0, 1.0).acos();
+    let count = (PI / half).ceil().clamp(LEAST, 1e5) as usize;
+    let at = |k: usize| {
+        let (sin, cos) = (TAU * k as f64 / count as f64).sin_cos();
+        [x + radius * cos, y + radius * sin].map(rounded)
+    };
+    (0..count).map(at).collect()
 }
 
 /// What was taken of each layer.

@@ -1,5 +1,6 @@
 //! `cplan import`: a drawing becomes a world.
 
+mod advice;
 mod layers;
 mod obstacles;
 mod world_file;
@@ -21,13 +22,15 @@ use cplan_drawing::{Drawing, FINEST, Format, Note, Settings, Unit};
 use layers::{LayerHeight, Layers};
 use obstacles::{Placement, Taken};
 use serde::Serialize;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `import`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-What is closed is solid, what is open is a thin wall, and what cannot be taken is told. NAME is a layer or the name of something drawn:
-in DXF of a block, in SVG of an element or a group, in GeoJSON of a feature. The drawing is scaled, then turned, then moved.
+What is closed is solid, what is open is a thin wall, and what cannot be taken is told. NAME is a layer, or the name of something drawn:
+in DXF of a block, in SVG of an element or a group, in GeoJSON of a feature; or one that the world gives, such as \"feeder 2\".
+The drawing is scaled, then turned, then moved.
 
 Examples:
   cplan import workspaces/drawings/cell.dxf --output cell.toml --picture cell.svg
@@ -49,6 +52,9 @@ pub struct ImportArgs {
     /// Take only this, even if its layer is switched off. Can be repeated.
     #[arg(long, value_name = "NAME")]
     pub layer: Vec<String>,
+    /// Leave this out, such as what lies where the arm's base is. Can be repeated.
+    #[arg(long, value_name = "NAME")]
+    pub without: Vec<String>,
     /// Where it is along the plane's normal, metres, such as conveyor=0:0.2. Can be repeated.
     #[arg(long, value_name = "NAME=LOW:HIGH")]
     pub height: Vec<LayerHeight>,
@@ -139,11 +145,21 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let Drawing { shapes, mut notes } = drawing;
     let shift = args.shift.map_or([0.0; 2], |TipPoint(point)| point.into());
     let placement = Placement { turn: args.turn, shift };
-    let layers = Layers { only: &args.layer, heights: &args.height, walls: &args.walls };
-    layers.check(&shapes)?;
-    let shapes = layers.chosen(shapes, &mut notes);
-    let taken = obstacles::taken(shapes, &placement, &mut notes).map_err(|diagnostic| refused(args, diagnostic))?;
-    let notes: Vec<String> = notes.iter().map(Note::to_string).collect();
+    let found = obstacles::found(shapes, &placement, &mut notes);
+    let layers = Layers {
+        only: &args.layer,
+        without: &args.without,
+        heights: &args.height,
+        walls: &args.walls,
+        tolerance: args.tolerance,
+    };
+    layers.check(&found)?;
+    let taken = layers.chosen(found, &mut notes);
+    obstacles::within_reach(&taken).map_err(|diagnostic| refused(args, diagnostic))?;
+    advice::note(&taken, &mut notes);
+    let known: HashSet<Vec<String>> = taken.iter().map(|taken| taken.shape.called()).collect();
+    let is_told = |names: &[String]| layers.asks_for(names) || known.contains(names);
+    let notes: Vec<String> = notes.of(is_told).iter().map(Note::to_string).collect();
     if taken.is_empty() {
         let cure = "draw outlines as closed polylines, lines, arcs or circles, or say by --layer which layers to take";
         let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();
@@ -157,7 +173,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
         let Sink::Picture(format, path) = sink else { continue };
-        let svg = || picture(args, &world);
+        let svg = || picture(args, &world, &taken);
         files.push((path.clone(), format.bytes_of(svg, || draw::still_page(&title(args), &svg()))?));
     }
     files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
@@ -189,10 +205,11 @@ fn title(args: &ImportArgs) -> String {
     args.drawing.file_stem().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
-fn picture(args: &ImportArgs, world: &World) -> String {
+fn picture(args: &ImportArgs, world: &World, taken: &[Taken]) -> String {
     let obstacles = &world.workspace.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
-    draw::obstacles(&[title(args), below], obstacles)
+    let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
+    draw::obstacles(&[title(args), below], obstacles, &layers)
 }
 
 /// Says what was made: on stdout, or on stderr where stdout has the world.

@@ -2,13 +2,15 @@
 
 use crate::geometry::{Point, Polygon};
 use crate::input::{Diagnostic, LARGEST, Position};
-use cplan_drawing::{FillRule, Geometry, Notes, Ring, Shape, filled};
-use std::collections::HashMap;
+use cplan_drawing::{FillRule, Frame, Geometry, Notes, Ring, Shape, filled};
+use std::collections::{HashMap, HashSet};
+use std::f64::consts::PI;
 
 /// An obstacle of the world.
+#[derive(Clone)]
 pub(super) struct Taken {
     pub name: String,
-    /// In metres, as the world file has it.
+    /// In metres, as the world file has it: in its frame, if it has one.
     pub shape: Shape,
 }
 
@@ -25,14 +27,22 @@ pub(super) struct Placement {
 const GRAINS: f64 = 1e9;
 
 impl Placement {
-    fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let (sin, cos) = self.turn.sin_cos();
-        let turned = [cos * x - sin * y, sin * x + cos * y];
-        [0, 1].map(|k| rounded(turned[k] + self.shift[k]))
+    /// The frame of a block, as it lies in the world.
+    fn frame(&self, frame: Frame) -> Frame {
+        let drawing = Frame { at: self.shift, angle: self.turn };
+        let angle = frame.angle + self.turn;
+        let angle = if angle.abs() <= PI { angle } else { angle.sin().atan2(angle.cos()) };
+        Frame { at: drawing.placed(frame.at).map(rounded), angle: angle + 0.0 }
     }
 
-    fn ring(&self, ring: Ring) -> Ring {
-        let mut ring: Ring = ring.into_iter().map(|p| self.point(p)).collect();
+    /// As the file has it: seen from the frame of a block, else in the world.
+    fn point(&self, p: [f64; 2], frame: Option<&Frame>) -> [f64; 2] {
+        let drawing = Frame { at: self.shift, angle: self.turn };
+        frame.map_or_else(|| drawing.placed(p), |frame| frame.local(p)).map(rounded)
+    }
+
+    fn ring(&self, ring: Ring, frame: Option<&Frame>) -> Ring {
+        let mut ring: Ring = ring.into_iter().map(|p| self.point(p, frame)).collect();
         ring.dedup();
         while ring.len() > 1 && ring.first() == ring.last() {
             ring.pop();
@@ -46,45 +56,41 @@ pub(super) fn rounded(value: f64) -> f64 {
     (value * GRAINS).round() / GRAINS + 0.0
 }
 
-/// The obstacles. An outline that crosses itself is what it goes round, or thin walls where even that is too narrow.
-pub(super) fn taken(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Result<Vec<Taken>, Diagnostic> {
+/// What a drawing has, each with the name that the world gives it. An outline that crosses itself is what it goes round, or thin walls
+/// where even that is too narrow.
+pub(super) fn found(shapes: Vec<Shape>, placement: &Placement, notes: &mut Notes) -> Vec<Taken> {
     let mut sound: Vec<Shape> = Vec::new();
     for shape in shapes {
+        let frame = shape.frame.as_ref();
         let geometries = match shape.geometry.clone() {
             Geometry::Circle { center, radius } => {
-                let (center, radius) = (placement.point(center), rounded(radius));
+                let (center, radius) = (placement.point(center, frame), rounded(radius));
                 if radius > 0.0 {
                     vec![Geometry::Circle { center, radius }]
                 } else {
-                    notes.add(NO_EXTENT, shape.line);
+                    notes.add_of(shape.called(), NO_EXTENT, shape.line);
                     Vec::new()
                 }
             }
             Geometry::Polyline(points) => {
-                let mut points: Vec<_> = points.into_iter().map(|p| placement.point(p)).collect();
+                let mut points: Vec<_> = points.into_iter().map(|p| placement.point(p, frame)).collect();
                 points.dedup();
                 if points.len() > 1 {
                     vec![Geometry::Polyline(points)]
                 } else {
-                    notes.add(NO_EXTENT, shape.line);
+                    notes.add_of(shape.called(), NO_EXTENT, shape.line);
                     Vec::new()
                 }
             }
             Geometry::Polygon { outer, holes } => {
-                let holes = holes.into_iter().map(|hole| placement.ring(hole)).collect();
-                untangled(placement.ring(outer), holes, &shape, notes)
+                let holes = holes.into_iter().map(|hole| placement.ring(hole, frame)).collect();
+                untangled(placement.ring(outer, frame), holes, &shape, notes)
             }
         };
-        for geometry in geometries {
-            within_reach(&geometry, &shape)?;
-            sound.push(Shape { geometry, ..shape.clone() });
-        }
+        let frame = frame.map(|frame| placement.frame(*frame));
+        sound.extend(geometries.into_iter().map(|geometry| Shape { geometry, frame, ..shape.clone() }));
     }
-    if let Some(border) = border(&sound) {
-        let name = border.name.as_ref().or(border.layer.as_ref()).map_or("an outline", String::as_str);
-        notes.add(format!("\"{name}\" is solid and lies around all else: --walls makes a wall of it"), border.line);
-    }
-    Ok(named(sound))
+    named(sound)
 }
 
 /// Rings as polygons that do not cross themselves.
@@ -96,7 +102,11 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
     let rings: Vec<Ring> = [outer].into_iter().chain(holes).collect();
     let parts = filled(&rings, rule);
     if !parts.is_empty() && parts.iter().all(|(outer, holes)| is_sound(outer, holes)) {
-        notes.add("outlines that cross or touch themselves: what they go round is solid", shape.line);
+        notes.add_of(
+            shape.called(),
+            "outlines that cross or touch themselves: what they go round is solid",
+            shape.line,
+        );
         return parts.into_iter().map(|(outer, holes)| Geometry::Polygon { outer, holes }).collect();
     }
     let closed = |mut ring: Ring| {
@@ -106,7 +116,7 @@ fn untangled(outer: Ring, holes: Vec<Ring>, shape: &Shape, notes: &mut Notes) ->
     let walls: Vec<_> =
         rings.into_iter().filter(|ring| ring.len() > 1).map(|ring| Geometry::Polyline(closed(ring))).collect();
     let what = if walls.is_empty() { NO_EXTENT } else { "outlines that surround nothing: taken as thin walls" };
-    notes.add(what, shape.line);
+    notes.add_of(shape.called(), what, shape.line);
     walls
 }
 
@@ -116,86 +126,96 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
 }
 
 /// Refuses what lies where no arm can be.
-fn within_reach(geometry: &Geometry, shape: &Shape) -> Result<(), Diagnostic> {
-    let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
-    let farthest = greatest(&mut coordinates(geometry).flatten());
-    let highest = greatest(&mut shape.height.into_iter().flatten());
-    let (what, value, help) = if farthest > LARGEST {
-        ("a coordinate", farthest, "bring the drawing to the arm by --move, or say its --unit")
-    } else {
-        ("a height", highest, "say where it is by --height, or the drawing's --unit")
-    };
-    if value <= LARGEST {
-        return Ok(());
-    }
-    let message = format!("{} has {what} of {value:.2e} m (at most {LARGEST:e})", shape.kind);
-    let position = shape.line.map(|line| Position { line, column: 1 });
-    Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
+pub(super) fn within_reach(taken: &[Taken]) -> Result<(), Diagnostic> {
+    taken.iter().try_for_each(|Taken { shape, .. }| {
+        let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
+        let farthest = greatest(&mut coordinates(shape).flatten());
+        let highest = greatest(&mut shape.height.into_iter().flatten());
+        let (what, value, help) = if farthest > LARGEST {
+            ("a coordinate", farthest, "bring the drawing to the arm by --move, or say its --unit")
+        } else {
+            ("a height", highest, "say where it is by --height, or the drawing's --unit")
+        };
+        if value <= LARGEST {
+            return Ok(());
+        }
+        let message = format!("{} has {what} of {value:.2e} m (at most {LARGEST:e})", shape.kind);
+        let position = shape.line.map(|line| Position { line, column: 1 });
+        Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
+    })
 }
 
-/// Points as far out as the shape.
-fn coordinates(geometry: &Geometry) -> Box<dyn Iterator<Item = [f64; 2]> + '_> {
-    match geometry {
-        Geometry::Polygon { outer, holes } => Box::new(outer.iter().chain(holes.iter().flatten()).copied()),
-        Geometry::Polyline(points) => Box::new(points.iter().copied()),
-        Geometry::Circle { center: [x, y], radius } => {
-            Box::new([[x - radius, y - radius], [x + radius, y + radius]].into_iter())
+/// Points of the world that are as far out as the shape.
+pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
+    let points = match &shape.geometry {
+        Geometry::Polygon { outer, holes } => outer.iter().chain(holes.iter().flatten()).copied().collect(),
+        Geometry::Polyline(points) => points.clone(),
+        Geometry::Circle { center, radius } => {
+            let [x, y] = placed(shape, *center);
+            let corners = [[x - radius, y - radius], [x + radius, y + radius]];
+            return corners.to_vec().into_iter();
         }
-    }
+    };
+    points.into_iter().map(|p| placed(shape, p)).collect::<Vec<_>>().into_iter()
 }
 
-/// The solid that lies around all others, if one does: people draw the walls of a room like that.
-fn border(shapes: &[Shape]) -> Option<&Shape> {
-    let around = |shape: &Shape| {
-        let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
-        for p in coordinates(&shape.geometry) {
-            bounds = [0, 1].map(|k| (bounds[k].0.min(p[k]), bounds[k].1.max(p[k])));
-        }
-        bounds
-    };
-    let bounds: Vec<_> = shapes.iter().map(around).collect();
-    let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
-    let is_solid = |i: usize| matches!(&shapes[i].geometry, Geometry::Polygon { holes, .. } if holes.is_empty());
-    let others = |i: usize| (0..shapes.len()).filter(move |&j| j != i);
-    // The widest is the only one that can.
-    let widest = (0..shapes.len()).max_by(|&i, &j| {
-        let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
-        width(i).total_cmp(&width(j))
-    })?;
-    let is_border = shapes.len() > 1 && is_solid(widest) && others(widest).all(|j| holds(widest, j));
-    is_border.then(|| &shapes[widest])
+/// Where a point of a shape lies in the world.
+pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
+    shape.frame.map_or(p, |frame| frame.placed(p))
 }
 
 /// No names: that of the layer which every DXF has is none, either.
 const UNNAMED: [&str; 2] = ["", "0"];
 
-/// Gives each a name of its own: that of what is drawn, or of its layer, with a number where several have it.
+/// Gives each a name of its own: that of what is drawn, or of its layer, with a number where several have it. What is hidden comes
+/// after what is seen, so that names stay whatever is taken.
 fn named(shapes: Vec<Shape>) -> Vec<Taken> {
     let base = |shape: &Shape| {
         let name =
             shape.name.as_deref().or(shape.layer.as_deref()).map(str::trim).filter(|name| !UNNAMED.contains(name));
         name.unwrap_or("obstacle").to_owned()
     };
-    let mut counts = HashMap::<String, usize>::new();
-    shapes.iter().for_each(|shape| *counts.entry(base(shape)).or_default() += 1);
-    let mut numbers = HashMap::<String, usize>::new();
-    let mut taken = Vec::with_capacity(shapes.len());
-    for shape in shapes {
-        let base = base(&shape);
-        let name = if counts[&base] == 1 {
-            base
-        } else {
-            // Somebody may have numbered some already.
-            let number = numbers.entry(base.clone()).or_default();
-            loop {
-                *number += 1;
-                let name = format!("{base} {number}");
-                if !counts.contains_key(&name) {
-                    break name;
-                }
-            }
-        };
-        taken.push(Taken { name, shape });
+    let mut given = vec![String::new(); shapes.len()];
+    let mut names = Names::default();
+    for is_hidden in [false, true] {
+        let group: Vec<usize> = (0..shapes.len()).filter(|&i| shapes[i].hidden_by.is_some() == is_hidden).collect();
+        let mut counts = HashMap::<String, usize>::new();
+        group.iter().for_each(|&i| *counts.entry(base(&shapes[i])).or_default() += 1);
+        // Somebody may have numbered some already.
+        let single: HashSet<String> =
+            counts.into_iter().filter(|(_, count)| *count == 1).map(|(name, _)| name).collect();
+        let single: HashSet<String> = single.into_iter().filter(|name| names.taken.insert(name.clone())).collect();
+        for i in group {
+            let base = base(&shapes[i]);
+            given[i] = if single.contains(&base) { base } else { names.numbered(&base) };
+        }
     }
-    taken
+    given.into_iter().zip(shapes).map(|(name, shape)| Taken { name, shape }).collect()
+}
+
+/// Names that are given already.
+#[derive(Default)]
+pub(super) struct Names {
+    taken: HashSet<String>,
+    /// The last number that follows a name.
+    numbers: HashMap<String, usize>,
+}
+
+impl Names {
+    /// Those of obstacles.
+    pub fn of(taken: &[Taken]) -> Self {
+        Self { taken: taken.iter().map(|taken| taken.name.clone()).collect(), ..Self::default() }
+    }
+
+    /// The next that is free: the name and a number.
+    pub fn numbered(&mut self, name: &str) -> String {
+        let number = self.numbers.entry(name.to_owned()).or_default();
+        loop {
+            *number += 1;
+            let numbered = format!("{name} {number}");
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
+    }
 }

@@ -66,6 +66,12 @@ fn obstacle(Taken { name, shape }: &Taken) -> String {
             let _ = writeln!(text, "circle = {{ center = {center:?}, radius = {radius:?} }}");
         }
     }
+    if let Some(frame) = shape.frame {
+        let _ = writeln!(text, "at = {:?}", frame.at);
+        if frame.angle != 0.0 {
+            let _ = writeln!(text, "angle = {:?}", frame.angle);
+        }
+    }
     if let Some(height) = shape.height {
         let _ = writeln!(text, "height = {:?}", height.map(rounded));
     }

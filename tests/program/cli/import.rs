@@ -39,15 +39,11 @@ fn a_cell_by_cad_is_planned_in() {
     assert_eq!(heights, [on_belt, None, of_feeder.clone(), of_feeder.clone(), of_feeder.clone(), of_feeder]);
     let picture = place.read("cell.svg");
     assert!(picture.contains("<svg") && picture.contains("conveyor") && picture.contains("feeder 4"), "{picture}");
-    for part in [
-        "6 obstacles",
-        "extent     x -1.500 to 2.400 m, y -1.500 to 1.500 m",
-        "TEXT: left out",
-        "HATCH: left out",
-        "cell.toml",
-    ] {
+    for part in ["6 obstacles", "extent     x -1.500 to 2.400 m, y -1.500 to 1.500 m", "cell.toml"] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
     }
+    // What lies on other layers was not asked for.
+    assert!(!done.stdout.contains("left out"), "{}", done.stdout);
     let planned = place.run(&[shipped("robots/planar_2r.urdf"), "cell.toml".into()], "--json").json();
     assert_eq!(planned["status"], "found");
 }
@@ -158,7 +154,7 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     for part in [
         "outlines that cross or touch themselves: what they go round is solid (line 16)",
         "outlines that surround nothing: taken as thin walls (line 38)",
-        "--walls makes a wall of it",
+        "\"room\" is solid and lies around all else: --walls room makes a wall of it, --without room leaves it out (line 60)",
     ] {
         assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
     }
@@ -166,6 +162,157 @@ fn outlines_that_are_none_are_taken_as_what_they_surround() {
     assert!(!done.stdout.contains("--walls"), "{}", done.stdout);
     let made = world(&place, "w.toml");
     assert_eq!(made["obstacle"][3]["polyline"].as_array().unwrap().len(), 5);
+}
+
+/// Two layers: three squares and a ring of two polygons would be WALLS, a disc FEEDER.
+fn hall() -> String {
+    let square = |x: f64| {
+        let [a, b] = [x, x + 100.0];
+        format!("0 LWPOLYLINE 8 WALLS 70 1 10 {a} 20 200 10 {b} 20 200 10 {b} 20 300 10 {a} 20 300 ")
+    };
+    let texts = "0 TEXT 8 WALLS 1 a 0 HATCH 8 FEEDER 0 TEXT 8 FEEDER 1 b ";
+    dxf(&(square(200.0) + &square(400.0) + &square(600.0) + texts + "0 CIRCLE 8 FEEDER 10 500 20 0 40 50"))
+}
+
+#[test]
+fn options_take_the_names_that_the_world_gives() {
+    let place = Place::new();
+    place.write("hall.dxf", hall());
+    let made = |options: &[&str]| {
+        let done = place.run(&[&["import", "hall.dxf"], options].concat(), "--output w.toml");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        world(&place, "w.toml")
+    };
+    let kinds = |made: &toml::Table| -> Vec<String> {
+        let kind = |o: &toml::Value| ["polygon", "polyline", "circle"].into_iter().find(|key| o.get(key).is_some());
+        made["obstacle"].as_array().unwrap().iter().map(|o| kind(o).unwrap().to_owned()).collect()
+    };
+    assert_eq!(names(&made(&[])), ["WALLS 1", "WALLS 2", "WALLS 3", "FEEDER"]);
+    // One is a wall, the others are solid; so is a circle, whose chords are as near as they must be.
+    let walls = made(&["--walls", "WALLS 2", "--walls", "feeder"]);
+    assert_eq!(kinds(&walls), ["polygon", "polyline", "polygon", "polyline"]);
+    for p in walls["obstacle"][3]["polyline"].as_array().unwrap() {
+        let [x, y] = [0, 1].map(|k| p[k].as_float().unwrap());
+        assert!(((x - 0.5).hypot(y) - 0.05).abs() < 1e-8, "{p}");
+    }
+    // Whatever is left out, the others keep their names.
+    assert_eq!(names(&made(&["--without", "walls"])), ["FEEDER"]);
+    let some = made(&["--without", "WALLS 1", "--height", "WALLS 3=0:2"]);
+    assert_eq!(names(&some), ["WALLS 2", "WALLS 3", "FEEDER"]);
+    assert!(some["obstacle"][0].get("height").is_none() && some["obstacle"][1].get("height").is_some());
+    assert_eq!(names(&made(&["--layer", "WALLS 3"])), ["WALLS 3"]);
+    place
+        .run(&["import", "hall.dxf", "--without", "WALLS 4"], "")
+        .refused(1, &["--without: the drawing has nothing called \"WALLS 4\""]);
+}
+
+#[test]
+fn notes_are_of_what_is_taken() {
+    let place = Place::new();
+    place.write("hall.dxf", hall());
+    let told = |options: &str| {
+        let told = place.run(&["import", "hall.dxf"], &format!("{options} --json")).json();
+        told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(told(""), ["TEXT: left out (2 times, first in line 82)", "HATCH: left out (line 88)"]);
+    assert_eq!(told("--layer FEEDER"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
+    assert_eq!(told("--layer walls"), ["TEXT: left out (line 82)"]);
+    assert_eq!(told("--without walls"), ["HATCH: left out (line 88)", "TEXT: left out (line 92)"]);
+}
+
+#[test]
+fn what_comes_in_with_a_block_has_its_place() {
+    let place = Place::new();
+    // A triangle and a disc about the base point (1, 1), within a block that is mirrored, scaled by 2 and turned by 90 degrees.
+    let block = "0 SECTION 2 BLOCKS 0 BLOCK 2 unit 10 1 20 1 0 LWPOLYLINE 8 0 70 1 10 1 20 1 10 101 20 1 10 1 20 51 \
+                 0 CIRCLE 8 0 10 201 20 1 40 10 0 ENDBLK \
+                 0 BLOCK 2 pair 10 0 20 0 0 INSERT 8 0 2 unit 10 0 20 0 0 INSERT 8 0 2 unit 10 0 20 100 50 90 0 ENDBLK 0 ENDSEC";
+    let insert = "0 INSERT 8 fix 2 pair 10 500 20 600 41 2 42 -2 50 90 0 CIRCLE 8 fix 10 -500 20 0 40 10";
+    let text = format!("{block} 0 SECTION 2 ENTITIES {insert} 0 ENDSEC 0 EOF");
+    place.write("units.dxf", text.split_whitespace().map(|word| format!("{word}\n")).collect::<String>());
+    let done = place.run(&["import", "units.dxf"], "--move 1,0 --turn 90deg --output w.toml");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let made = world(&place, "w.toml");
+    assert_eq!(names(&made), ["pair 1", "pair 2", "pair 3", "pair 4", "fix"]);
+    let shown = |i: usize, key: &str| made["obstacle"][i].get(key).map(ToString::to_string);
+    for i in 0..4 {
+        // (0.5, 0.6) turned by 90 degrees is (-0.6, 0.5).
+        assert_eq!(shown(i, "at").as_deref(), Some("[0.4, 0.5]"));
+        let angle = made["obstacle"][i]["angle"].as_float().unwrap();
+        assert!((angle - std::f64::consts::PI).abs() < 1e-12, "{angle}");
+    }
+    // Twice as large and upside down, but not turned.
+    let own = |i: usize| {
+        let corners = made["obstacle"][i]["polygon"].as_array().unwrap();
+        corners.iter().map(|p| [0, 1].map(|k| (p[k].as_float().unwrap() * 1e6).round() / 1e6 + 0.0)).collect::<Vec<_>>()
+    };
+    assert_eq!(own(0), [[0.0, 0.0], [0.2, 0.0], [0.0, -0.1]]);
+    assert_eq!(shown(1, "circle").as_deref(), Some("{ center = [0.4, 0.0], radius = 0.02 }"));
+    assert_eq!(own(2), [[0.0, -0.2], [0.0, -0.4], [-0.1, -0.2]]);
+    assert_eq!((shown(4, "at"), shown(4, "circle")), (None, Some("{ center = [1.0, -0.5], radius = 0.01 }".into())));
+}
+
+#[test]
+fn what_is_hardly_meant_is_told_with_its_cure() {
+    let place = Place::new();
+    let told = |entities: &str, options: &str| {
+        place.write("w.dxf", dxf(entities));
+        let told = place.run(&["import", "w.dxf"], &format!("{options} --json")).json();
+        told["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let base = "0 LWPOLYLINE 8 robot 70 1 10 -50 20 -50 10 50 20 -50 10 50 20 50 10 -50 20 50 ";
+    let post = "0 CIRCLE 8 post 10 500 20 0 40 20 ";
+    let reach = "0 CIRCLE 8 reach 10 0 20 0 40 700 ";
+    let over = "\"robot\" lies over (0, 0), where the arm's base is: --without robot leaves it out, \
+                --move says where the drawing lies (line 16)";
+    assert_eq!(told(&format!("{base}{post}"), ""), [over]);
+    assert_eq!(told(&format!("{base}{post}"), "--without robot"), [""; 0]);
+    assert_eq!(told(&format!("{base}{post}"), "--move 0.2,0"), [""; 0]);
+    let around = "\"reach\" is solid and lies around all else: --walls reach makes a wall of it, --without reach leaves it out (line 16)";
+    assert_eq!(told(&format!("{reach}{post}"), ""), [around]);
+    assert_eq!(told(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
+    let wide = |width: &str| format!("all of it is {width} wide: if that is not meant, say the drawing's --unit");
+    let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
+    assert_eq!(told(&two, "--unit m"), [wide("440 m")]);
+    assert_eq!(told(&two, "--unit um"), [wide("0.440 mm")]);
+    // The main job and `inspect` say so, too.
+    assert_eq!(place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").code, 0);
+    let robot = shipped("robots/planar_2r.urdf");
+    let planned = place.run(&[robot.as_str(), "far.toml"], "");
+    let part = "no obstacle is within the arm's reach: the nearest is 480.0000 m from joint 1";
+    assert!(planned.code == 0 && planned.stderr.contains(part), "{}", planned.stderr);
+    let report = place.run(&["inspect", robot.as_str(), "far.toml"], "");
+    assert!(report.stdout.contains(part), "{}", report.stdout);
+    assert_eq!(place.run(&["import", "w.dxf"], "--start 0,1 --goal 1,0.5 --output near.toml").code, 0);
+    let report = place.run(&["inspect", robot.as_str(), "near.toml"], "");
+    assert!(!report.stdout.contains("no obstacle is within"), "{}", report.stdout);
+}
+
+#[test]
+fn a_picture_names_what_it_has_room_for_and_hides_nothing() {
+    let place = Place::new();
+    // Small ones first, then one that lies under them all; two layers.
+    let disc = |i: usize| format!("0 CIRCLE 8 pins 10 {} 20 {} 40 20 ", 100 * (i % 5), 100 * (i / 5));
+    let plate = "0 LWPOLYLINE 8 plate 70 1 10 -60 20 -60 10 460 20 -60 10 460 20 460 10 -60 20 460";
+    place.write("tray.dxf", dxf(&((0..24).map(disc).collect::<String>() + plate)));
+    assert_eq!(place.run(&["import", "tray.dxf"], "--output w.toml --picture w.svg").code, 0);
+    let picture = place.read("w.svg");
+    let xml = roxmltree::Document::parse(&picture).unwrap();
+    let texts: Vec<&str> =
+        xml.descendants().filter(|node| node.is_text()).filter_map(|node| node.text()).map(str::trim).collect();
+    for i in 1..=24 {
+        assert!(texts.contains(&format!("pins {i}").as_str()), "pins {i} is not in {texts:?}");
+    }
+    // A swatch for each layer, and the plate's own name.
+    assert_eq!(["pins", "plate"].map(|name| texts.iter().filter(|text| **text == name).count()), [1, 2]);
+    // The plate in the second colour comes before any disc, and these share the first.
+    let filled = |node: &roxmltree::Node| node.attribute("fill").map(str::to_owned);
+    let drawn: Vec<_> = xml.descendants().filter(|node| ["circle", "path"].contains(&node.tag_name().name())).collect();
+    let first = drawn.iter().position(|node| node.tag_name().name() == "circle").unwrap();
+    assert!(drawn[..first].iter().any(|node| filled(node).as_deref() == Some("#d98c99")), "{picture}");
+    let discs: std::collections::HashSet<_> =
+        drawn.iter().filter(|node| node.tag_name().name() == "circle").filter_map(filled).collect();
+    assert_eq!(discs.len(), 1, "{discs:?}");
 }
 
 #[test]

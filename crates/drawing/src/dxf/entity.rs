@@ -23,7 +23,7 @@ impl<'a> Reader<'_, 'a> {
     pub(super) fn entity(&mut self, entity: &Entity<'a>, place: &Place<'a>, origin: &Origin) -> Result<(), Error> {
         let record = entity.record;
         if is_tilted(&record)? {
-            self.sheet.leave_out(&format!("{} across the plane", record.kind), Some(record.line));
+            self.sheet.leave_out(&format!("{} across the plane", record.kind), origin);
             return Ok(());
         }
         // Lines, ellipses and splines are in coordinates of the drawing.
@@ -56,7 +56,7 @@ impl<'a> Reader<'_, 'a> {
                 self.sheet.closed(corners.map(|p| own.point(p)).to_vec(), origin)
             }
             kind => {
-                self.sheet.leave_out(kind, Some(record.line));
+                self.sheet.leave_out(kind, origin);
                 Ok(())
             }
         }
@@ -77,7 +77,7 @@ impl<'a> Reader<'_, 'a> {
         origin: &Origin,
     ) -> Result<(), Error> {
         let [first, ..] = corners else {
-            self.sheet.leave_out(&format!("{} without points", origin.kind), origin.line);
+            self.sheet.leave_out(&format!("{} without points", origin.kind), origin);
             return Ok(());
         };
         let mut points = vec![map.point(first.at)];
@@ -127,7 +127,7 @@ impl<'a> Reader<'_, 'a> {
         let parts = filled(&rings, FillRule::NonZero);
         if is_closed && parts.iter().any(|(_, holes)| !holes.is_empty()) {
             let message = "closed polylines of some width: frames as wide, what they go round is free";
-            self.sheet.notes.add(message, origin.line);
+            self.sheet.note(message, origin);
         }
         parts.into_iter().try_for_each(|(outer, holes)| self.sheet.polygon(outer, holes, origin))
     }
@@ -138,7 +138,7 @@ impl<'a> Reader<'_, 'a> {
         const CONTROL: i64 = 16;
         let record = entity.record;
         if record.flag(MESHES)? {
-            self.sheet.leave_out("POLYLINE that is a mesh", Some(record.line));
+            self.sheet.leave_out("POLYLINE that is a mesh", origin);
             return Ok(());
         }
         let widths = [record.number_or(40, 0.0)?, record.number_or(41, 0.0)?];

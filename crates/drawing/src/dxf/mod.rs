@@ -6,7 +6,7 @@ mod tags;
 
 use crate::map::Map;
 use crate::sheet::{Origin, Sheet};
-use crate::{Drawing, Error, Settings, Unit};
+use crate::{Drawing, Error, Frame, Settings, Unit};
 use document::{Document, Entity};
 use std::collections::HashMap;
 use tags::Tag;
@@ -56,11 +56,13 @@ struct Place<'a> {
     instance: usize,
     /// The layer of an insertion that is frozen: it hides whatever comes in, where one that is off hides its own alone.
     frozen: Option<&'a str>,
+    /// The outermost insertion.
+    frame: Option<Frame>,
 }
 
 impl Default for Place<'_> {
     fn default() -> Self {
-        Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, frozen: None }
+        Self { map: Map::IDENTITY, up: [1.0, 0.0], name: None, layer: None, instance: 0, frozen: None, frame: None }
     }
 }
 
@@ -84,9 +86,11 @@ impl<'d, 'a> Reader<'d, 'a> {
                 return Err(Error::new(record.line, message, "leave out what no arm can meet"));
             }
             if record.integer_or(67, 0)? == 1 {
-                self.sheet.leave_out("what lies in paper space", Some(record.line));
+                let origin = self.origin(entity, place)?;
+                self.sheet.leave_out("what lies in paper space", &origin);
             } else if record.integer_or(60, 0)? == 1 {
-                self.sheet.leave_out("what is invisible", Some(record.line));
+                let origin = self.origin(entity, place)?;
+                self.sheet.leave_out("what is invisible", &origin);
             } else if record.kind == "INSERT" {
                 self.insert(entity, place, within)?;
             } else {
@@ -113,6 +117,7 @@ impl<'d, 'a> Reader<'d, 'a> {
             hidden_by: place.frozen.or_else(|| self.document.hides(layer).then_some(layer)).map(str::to_owned),
             kind: record.kind.to_owned(),
             line: Some(record.line),
+            frame: place.frame,
         })
     }
 
@@ -127,13 +132,14 @@ impl<'d, 'a> Reader<'d, 'a> {
     fn insert(&mut self, entity: &Entity<'a>, place: &Place<'a>, within: &mut Vec<String>) -> Result<(), Error> {
         let record = entity.record;
         if !entity.parts.is_empty() {
-            self.sheet.leave_out("ATTRIB", Some(entity.parts[0].line));
+            let origin = Origin { line: Some(entity.parts[0].line), ..self.origin(entity, place)? };
+            self.sheet.leave_out("ATTRIB", &origin);
         }
         let name = record.text(2).unwrap_or_default();
         let key = name.to_uppercase();
         let Some(block) = self.document.blocks.get(&key) else {
-            let message = format!("INSERT of block \"{name}\", which the file does not hold");
-            self.sheet.leave_out(&message, Some(record.line));
+            let message = format!("INSERT of block \"{name}\", which the file does not hold: left out");
+            self.sheet.notes.add(message, Some(record.line));
             return Ok(());
         };
         if within.contains(&key) || within.len() == DEEPEST {
@@ -169,8 +175,10 @@ impl<'d, 'a> Reader<'d, 'a> {
                     return Err(Error::new(record.line, message, "leave out what no arm can meet"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);
-                let map = map.after(&at).after(&shift).after(&own);
-                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, frozen };
+                let here = map.after(&at).after(&shift);
+                let frame = place.frame.or(Some(here.frame()));
+                let map = here.after(&own);
+                let inner = Place { map, up, name, layer: Some(layer), instance: self.instances, frozen, frame };
                 self.all(&block.entities, &inner, within)?;
             }
         }

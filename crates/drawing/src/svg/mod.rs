@@ -223,8 +223,13 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Err(Error::new(line, message, "leave out what no arm can meet"));
         }
         let style = around.style.of(node, &self.styles);
+        let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
+        let own_name = own_name.filter(|_| !around.is_used);
+        let name = own_name.clone().or_else(|| around.name.clone());
         if !style.is_displayed {
-            self.sheet.leave_out("what is not displayed", Some(line));
+            let hidden =
+                Origin { hidden_by: around.name.clone(), ..origin(kind, line, &Inside { name, ..around.clone() }) };
+            self.sheet.leave_out("what is not displayed", &hidden);
             return Ok(());
         }
         if node.has_attribute("clip-path") || node.has_attribute("mask") {
@@ -234,9 +239,6 @@ impl<'a, 'i> Reader<'a, 'i> {
         let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
         let map = around.map.after(&Map { u: [a, b], v: [c, d], o: [e, f] });
         self.regular(&map, node)?;
-        let own_name = node.attribute((INKSCAPE, "label")).or(node.attribute("id")).map(str::to_owned);
-        let own_name = own_name.filter(|_| !around.is_used);
-        let name = own_name.clone().or_else(|| around.name.clone());
         let mut inside = Inside { map, style, name, ..around.clone() };
         match kind {
             "g" | "a" | "switch" => {
@@ -254,7 +256,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
             "use" => self.used(node, inside, own_name.is_some(), depth),
             "path" | "polygon" | "polyline" | "line" | "rect" | "circle" | "ellipse" if !style.is_visible => {
-                self.sheet.leave_out("what is not visible", Some(line));
+                self.sheet.leave_out("what is not visible", &origin(kind, line, &inside));
                 Ok(())
             }
             "path" => {
@@ -286,7 +288,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             "rect" => self.rect(node, &inside, &origin(kind, line, &inside)),
             "circle" | "ellipse" => self.round(node, &inside, &origin(kind, line, &inside)),
             "text" | "image" | "foreignObject" | "video" | "canvas" | "iframe" | "flowRoot" => {
-                self.sheet.leave_out(&format!("<{kind}>"), Some(line));
+                self.sheet.leave_out(&format!("<{kind}>"), &origin(kind, line, &inside));
                 Ok(())
             }
             // What is not drawn itself: definitions, titles, animations.
@@ -318,7 +320,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         let line = self.line(node);
         let reference = node.attribute("href").or(node.attribute((XLINK, "href"))).unwrap_or_default();
         let Some(&target) = reference.strip_prefix('#').and_then(|id| self.ids.get(id)) else {
-            self.sheet.leave_out(&format!("<use> of \"{reference}\", which the file does not hold"), Some(line));
+            self.sheet
+                .notes
+                .add(format!("<use> of \"{reference}\", which the file does not hold: left out"), Some(line));
             return Ok(());
         };
         let [x, y] = [0, 1].map(|k| self.length_or_0(node, ["x", "y"][k], inside.page[k]));
@@ -339,7 +343,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let [x, y] = [self.length_or_0(node, "x", page[0])?, self.length_or_0(node, "y", page[1])?];
         let [w, h] = [self.length_or_0(node, "width", page[0])?, self.length_or_0(node, "height", page[1])?];
         if w <= 0.0 || h <= 0.0 {
-            self.sheet.leave_out("<rect> without extent", origin.line);
+            self.sheet.leave_out("<rect> without extent", origin);
             return Ok(());
         }
         let radius = |name: &str, whole: f64| match node.attribute(name) {
@@ -374,7 +378,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             false => [self.length_or_0(node, "rx", page[0])?, self.length_or_0(node, "ry", page[1])?],
         };
         if rx <= 0.0 || ry <= 0.0 {
-            self.sheet.leave_out(&format!("<{}> without extent", origin.kind), origin.line);
+            self.sheet.leave_out(&format!("<{}> without extent", origin.kind), origin);
             return Ok(());
         }
         if rx == ry {
@@ -391,7 +395,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             if is_closed || comes_back {
                 rings.push(points);
             } else if style.is_filled && points.len() > 2 {
-                self.sheet.notes.add("open outlines that are filled: closed as SVG fills them", origin.line);
+                self.sheet.note("open outlines that are filled: closed as SVG fills them", origin);
                 rings.push(points);
             } else {
                 // A group of its own: elements are not joined with each other.
@@ -411,5 +415,6 @@ fn origin(kind: &str, line: usize, inside: &Inside) -> Origin {
         hidden_by: None,
         kind: format!("<{kind}>"),
         line: Some(line),
+        frame: None,
     }
 }

@@ -69,5 +69,5 @@ pub fn same(given: &[Point], expected: &[Point]) {
 
 /// Messages of all notes.
 pub fn notes(drawing: &Drawing) -> Vec<String> {
-    drawing.notes.iter().map(ToString::to_string).collect()
+    drawing.notes.all().iter().map(ToString::to_string).collect()
 }

@@ -1,0 +1,82 @@
+//! What of a world is hardly meant, with its cure.
+
+use super::obstacles::{Taken, coordinates, placed};
+use crate::cli::fresh::word;
+use cplan_drawing::{Geometry, Notes, Shape};
+use std::path::Path;
+
+/// Drawings of cells are neither wider than this nor narrower, metres.
+const USUAL: [f64; 2] = [0.01, 100.0];
+
+/// Least and greatest coordinates.
+type Bounds = [(f64, f64); 2];
+
+/// Notes what lies where the arm's base is or around all else, and an extent that no cell has.
+pub(super) fn note(taken: &[Taken], notes: &mut Notes) {
+    let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
+    let border = border(taken, &bounds);
+    for (i, Taken { name, shape }) in taken.iter().enumerate() {
+        let option = word(Path::new(name));
+        if border == Some(i) {
+            let message = format!(
+                "\"{name}\" is solid and lies around all else: --walls {option} makes a wall of it, --without {option} leaves it out"
+            );
+            notes.add(message, shape.line);
+        } else if holds(shape, [0.0, 0.0]) {
+            let message = format!(
+                "\"{name}\" lies over (0, 0), where the arm's base is: --without {option} leaves it out, --move says where the drawing lies"
+            );
+            notes.add(message, shape.line);
+        }
+    }
+    let all = bounds.iter().fold([(f64::INFINITY, f64::NEG_INFINITY); 2], |all, one| {
+        [0, 1].map(|k| (all[k].0.min(one[k].0), all[k].1.max(one[k].1)))
+    });
+    let width = all.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max);
+    if !(USUAL[0]..=USUAL[1]).contains(&width) {
+        let width = if width < 1.0 { format!("{:.3} mm", width * 1e3) } else { format!("{width:.0} m") };
+        notes.add(format!("all of it is {width} wide: if that is not meant, say the drawing's --unit"), None);
+    }
+}
+
+fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
+    points.fold([(f64::INFINITY, f64::NEG_INFINITY); 2], |bounds, p| {
+        [0, 1].map(|k| (bounds[k].0.min(p[k]), bounds[k].1.max(p[k])))
+    })
+}
+
+/// The solid that lies around all others, if one does: people draw the walls of a room like that, and how far an arm reaches.
+fn border(taken: &[Taken], bounds: &[Bounds]) -> Option<usize> {
+    let holds = |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
+    let is_solid = |shape: &Shape| match &shape.geometry {
+        Geometry::Polygon { holes, .. } => holes.is_empty(),
+        Geometry::Circle { .. } => true,
+        Geometry::Polyline(_) => false,
+    };
+    // The widest is the only one that can.
+    let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
+    let widest = (0..taken.len()).max_by(|&i, &j| width(i).total_cmp(&width(j)))?;
+    let others = (0..taken.len()).filter(|&j| j != widest);
+    (taken.len() > 1 && is_solid(&taken[widest].shape) && others.clone().all(|j| holds(widest, j))).then_some(widest)
+}
+
+/// Whether a point of the world lies in a solid.
+fn holds(shape: &Shape, point: [f64; 2]) -> bool {
+    let within = |ring: &[[f64; 2]]| {
+        let ring: Vec<[f64; 2]> = ring.iter().map(|&p| placed(shape, p)).collect();
+        let next = ring.iter().cycle().skip(1);
+        let crossed = ring.iter().zip(next).filter(|(p, q)| {
+            let along = (point[1] - p[1]) / (q[1] - p[1]);
+            (p[1] > point[1]) != (q[1] > point[1]) && point[0] < p[0] + along * (q[0] - p[0])
+        });
+        crossed.count() % 2 == 1
+    };
+    match &shape.geometry {
+        Geometry::Polygon { outer, holes } => within(outer) && !holes.iter().any(|hole| within(hole)),
+        Geometry::Circle { center, radius } => {
+            let [x, y] = placed(shape, *center);
+            (x - point[0]).hypot(y - point[1]) < *radius
+        }
+        Geometry::Polyline(_) => false,
+    }
+}

@@ -1,0 +1,29 @@
+//! Whether a world is about the arm at all: drawings and maps come in other units, and with their origin elsewhere.
+
+use crate::geometry::{Convex, separation};
+use crate::model::Scene;
+use crate::space::JointRange;
+
+/// What to say of a world with obstacles none of which the arm can reach. The first that it may reach ends the search.
+pub(super) fn warning(scene: &Scene) -> Option<String> {
+    let arm = scene.arm();
+    let slides = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| match joint.range {
+        JointRange::Interval { lower, upper } => lower.abs().max(upper.abs()),
+        JointRange::Circle => f64::INFINITY,
+    });
+    let reach = arm.reach() + slides.sum::<f64>();
+    let base = Convex::trusted(vec![arm.base], 0.0);
+    let mut nearest = f64::INFINITY;
+    for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
+        nearest = nearest.min(separation(&base, piece).distance);
+        if nearest <= reach {
+            return None;
+        }
+    }
+    nearest.is_finite().then(|| {
+        format!(
+            "no obstacle is within the arm's reach: the nearest is {nearest:.4} m from joint 1, no part of the arm comes farther than \
+             {reach:.4} m; is the world in metres, and [robot] `at` where the arm stands?"
+        )
+    })
+}
