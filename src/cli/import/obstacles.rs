@@ -152,8 +152,7 @@ pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
         Geometry::Polyline(points) => points.clone(),
         Geometry::Circle { center, radius } => {
             let [x, y] = placed(shape, *center);
-            let corners = [[x - radius, y - radius], [x + radius, y + radius]];
-            return corners.to_vec().into_iter();
+            return vec![[x - radius, y - radius], [x + radius, y + radius]].into_iter();
         }
     };
     points.into_iter().map(|p| placed(shape, p)).collect::<Vec<_>>().into_iter()
