@@ -2,6 +2,7 @@
 
 use super::args::{Files, PlanArgs};
 use super::failure::Failure;
+use super::print_args::PrintArgs;
 use super::result_files::ResultFiles;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN, words};
@@ -42,7 +43,7 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
     problem.robot().warnings.iter().for_each(|w| args.print.say(&format!("warning: {w}")));
     let plan = plan_with(&problem, &options, &mut |text| args.print.say(text))?;
     let begun = Instant::now();
-    let written = written(&plan, &sinks, &files)?;
+    let written = written(&plan, &sinks, &files, &args.print)?;
     let after = [("write", begun.elapsed())];
     args.print.tell(|| Ok(plan.to_json()), || plan.summary_with(&written, &after))?;
     Ok(match plan.status() {
@@ -56,8 +57,10 @@ pub fn answer(args: &PlanArgs, load: impl FnOnce() -> Result<LoadedScene, InputE
 ///
 /// # Errors
 /// I/O, or a picture that cannot be made of pixels.
-fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<String>, Failure> {
+fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles, print: &PrintArgs) -> Result<Vec<String>, Failure> {
     let mut written = files.write(plan)?;
+    let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.plays()));
+    let seen = || if plays { plan.view_with_replay() } else { plan.view() };
     let (mut view, mut spaces) = (None, None);
     for sink in sinks {
         match sink {
@@ -66,7 +69,8 @@ fn written(plan: &Plan, sinks: &[Sink], files: &ResultFiles) -> Result<Vec<Strin
                 write_whole(path, format.text(spaces.get_or_insert_with(|| plan.cspaces())).as_bytes())?;
             }
             Sink::Picture(format, path) => {
-                sinks::save_picture(*format, path, view.get_or_insert_with(|| plan.view()))?;
+                let mut progress = sinks::pictures_done(path, print);
+                write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
             }
         }
         written.push(sink.path().display().to_string());

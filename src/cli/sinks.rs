@@ -1,6 +1,7 @@
 //! Files and streams.
 
 use super::failure::Failure;
+use super::print_args::PrintArgs;
 use crate::draw::View;
 use crate::input::{FileIdentity, read_from};
 use crate::motion::{Format, check_writable, write_whole};
@@ -9,6 +10,7 @@ use crate::text::{plain, plain_json};
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// A file to write.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,6 +94,18 @@ pub fn warn_unwritten(path: &Path) {
 /// I/O, or a picture that cannot be made of pixels.
 pub fn save_picture(format: PictureFormat, path: &Path, view: &View) -> Result<(), Failure> {
     Ok(write_whole(path, &format.bytes(view)?)?)
+}
+
+/// Says now and then how many pictures of a picture in motion are done, if that takes long.
+pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
+    const INTERVAL: Duration = Duration::from_secs(5);
+    let mut told = Instant::now();
+    move |done, all| {
+        if told.elapsed() > INTERVAL {
+            told = Instant::now();
+            print.say(&format!("{}: {done} of {all} pictures", path.display()));
+        }
+    }
 }
 
 /// Prints a line on stderr: progress, warnings and errors. Nobody may be listening there; that stops no job.

@@ -1,7 +1,7 @@
 //! The arm in one configuration, with what it carries.
 
 use super::axes::Frame;
-use super::color::{BARRED, INK, PALE, Rgb, WHITE};
+use super::color::{ACCENT, BARRED, INK, PALE, Rgb, WHITE};
 use super::figure::{Item, Step, Style};
 use super::shapes::union;
 use super::view::PayloadView;
@@ -23,6 +23,8 @@ pub const START: Look = Look { fill: WHITE, line: INK, width: 1.4, opacity: 0.9,
 pub const GOAL: Look = Look { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true };
 /// Where it would end, but cannot.
 pub const UNREACHED: Look = Look { fill: WHITE, line: BARRED, width: 1.2, opacity: 0.6, joints: false };
+/// Where it is.
+pub const NOW: Look = Look { fill: WHITE, line: ACCENT, width: 2.0, opacity: 1.0, joints: true };
 /// On the way.
 pub const GHOST: Look =
     Look { fill: Rgb(0xf3, 0xf4, 0xf6), line: Rgb(0x8c, 0x94, 0x9d), width: 1.0, opacity: 0.65, joints: false };

@@ -25,8 +25,10 @@ fn surface(boxes: &Chain, frame: &Frame, style: Style) -> Item {
 
 /// Free and undecided boxes, as surfaces.
 #[must_use]
-pub fn surfaces(free: &Chain, mixed: &Chain, frame: &Frame) -> Vec<Item> {
-    [(free, FREE), (mixed, MIXED)].map(|(boxes, color)| surface(boxes, frame, Style::fill(color).faded(0.8))).into()
+pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
+    let [mixed, rest] = mixed;
+    let all = [(free, FREE), (mixed, MIXED), (rest, MIXED)];
+    all.map(|(boxes, color)| surface(boxes, frame, Style::fill(color).faded(0.8))).into()
 }
 
 /// The sides of boxes.

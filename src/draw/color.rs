@@ -41,6 +41,8 @@ pub const GREY: Rgb = Rgb(0x6b, 0x72, 0x7a);
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// What bars the way, and what is out of reach.
 pub const BARRED: Rgb = Rgb(0xc2, 0x2e, 0x2e);
+/// What moves.
+pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
 /// For lines of the grid behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
 

@@ -1,7 +1,7 @@
 //! A configuration space.
 
 use super::chart::{self, Chart};
-use super::color::{INK, Rgb, WHITE};
+use super::color::{ACCENT, INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::shapes::DASH;
 use super::view::{ContourView, PanelView, View, WorldView};
@@ -46,6 +46,11 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
         tags::add(&mut numbers, chart.place(q), number);
     }
     items.extend(start_marker(chart.place(panel.start.into())));
+    if let Some((q, world)) = view.still.now
+        && panel.worlds.contains(&world)
+    {
+        items.push(Item::Disc(chart.place(q.into()), 6.5, Style::line(WHITE, 2.0).filled(ACCENT)));
+    }
     if view.is_task() && numbers.len() > 1 {
         items.extend(tags::items(&numbers, frame.rect, &[], &[]));
     }

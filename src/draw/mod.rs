@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! Picture (one motion), TaskPicture -> View -> Figure -> SVG -> PNG
-//!                                          \-> JSON -> HTML
+//!                                     |    \-> one a moment -> GIF
+//!                                     \-> JSON -> HTML
 //! ```
 //!
 //! Two panels side by side: left the workspace in metres with the arm at the start, at the goal and on its way, and the
@@ -11,6 +12,8 @@
 //! What is drawn, from where and in which colour stands in the [`View`]; the figure is where that is on the page, and knows
 //! no file format. The same view is the same file, byte for byte.
 
+#[cfg(feature = "png")]
+mod animation;
 mod arm;
 mod axes;
 mod boxes;
@@ -21,6 +24,8 @@ mod cspace;
 mod exploration;
 mod figure;
 mod frames;
+#[cfg(feature = "png")]
+mod gif_writer;
 mod grid;
 mod legend;
 mod obstacles;
@@ -53,6 +58,9 @@ pub enum DrawError {
     /// The pixels could not be compressed.
     #[error("cannot write the picture as PNG: {0}")]
     Png(String),
+    /// The pictures could not be put together.
+    #[error("cannot write the picture as GIF: {0}")]
+    Gif(String),
 }
 
 /// The view as an SVG document, 1400 pixels wide; 720 high, but for tasks that need more.
@@ -68,4 +76,29 @@ pub fn svg(view: &View) -> String {
 #[cfg(feature = "png")]
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
     png_writer::write(svg, scale)
+}
+
+/// The view in motion, as an animated GIF of this width: how the planner came to its answer, where the view knows it, and what the arm
+/// does. `progress` hears how many of how many pictures are done.
+///
+/// # Errors
+/// [`DrawError::Scale`] if the width is none of a picture.
+#[cfg(feature = "png")]
+pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
+    let moments = animation::moments(view);
+    let figures = moments.iter().map(|&moment| (animation::figure(view, moment), moment.delay));
+    let mut done = 0;
+    gif_writer::write(figures, width, &mut || {
+        done += 1;
+        progress(done, moments.len());
+    })
+}
+
+/// An SVG document as a GIF of a single picture of this width.
+///
+/// # Errors
+/// As [`gif`].
+#[cfg(feature = "png")]
+pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
+    gif_writer::still(svg, width)
 }

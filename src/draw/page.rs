@@ -30,9 +30,15 @@ const MOST: usize = 24;
 /// The whole page of a view.
 #[must_use]
 pub fn compose(view: &View) -> Figure {
+    explained(view, legend::keys(view))
+}
+
+/// The same with another legend: that of all pictures that follow each other, so that nothing jumps.
+#[must_use]
+pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, &view.status, WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
-    let keys = legend::layout(legend::keys(view), WIDTH - 2.0 * MARGIN);
+    let keys = legend::layout(keys, WIDTH - 2.0 * MARGIN);
     let height = match &view.still.panels[..] {
         // The workspace takes the whole page.
         [] => {

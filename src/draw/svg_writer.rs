@@ -15,11 +15,20 @@ const FAR: f64 = 1e6;
 /// The figure as an SVG document. Deterministic to the byte; coordinates have two decimals.
 #[must_use]
 pub fn write(figure: &Figure) -> String {
+    let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
+    document(figure, Group::new().add(ground.set("fill", "#ffffff")))
+}
+
+/// The same without paper.
+#[cfg(feature = "png")]
+#[must_use]
+pub fn layer(figure: &Figure) -> String {
+    document(figure, Group::new())
+}
+
+fn document(figure: &Figure, ground: Group) -> String {
     let mut clips = Vec::new();
-    let mut page = Group::new().set("font-family", FONTS).set("stroke-linejoin", "round");
-    page = page.add(
-        Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height)).set("fill", "#ffffff"),
-    );
+    let mut page = ground.set("font-family", FONTS).set("stroke-linejoin", "round");
     for item in &figure.items {
         page = add(page, item, &mut clips);
     }

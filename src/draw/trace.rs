@@ -23,8 +23,10 @@ pub fn below(trace: &TraceView, chart: &Chart) -> Vec<Item> {
             let steps = channel.iter().filter_map(|&i| cells.get(i)).flat_map(|cell| chart.polygon(cell)).collect();
             vec![Item::Outline(steps, Style::fill(CHANNEL).faded(0.75))]
         }
-        TraceView::Boxes { free, mixed, .. } => boxes::surfaces(free, mixed, &chart.frame),
-        TraceView::Wavefront(waves) => vec![Item::Raster(shades(waves, &chart.frame.rect))],
+        TraceView::Boxes { free, mixed, rest, .. } => boxes::surfaces(free, [mixed, rest], &chart.frame),
+        TraceView::Wavefront(waves) | TraceView::Field { values: Some(waves), .. } => {
+            vec![Item::Raster(shades(waves, &chart.frame.rect))]
+        }
         _ => Vec::new(),
     }
 }
@@ -42,7 +44,9 @@ pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
             let sides = Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7));
             [sides].into_iter().chain(places(expanded, chart)).collect()
         }
-        TraceView::Boxes { free, stuck, mixed } => [free, stuck, mixed].map(|b| boxes::sides(b, &chart.frame)).into(),
+        TraceView::Boxes { free, stuck, mixed, .. } => {
+            [free, stuck, mixed].map(|b| boxes::sides(b, &chart.frame)).into()
+        }
         TraceView::Field { levels, .. } => {
             let line = |Chain(line): &Chain| chain(line.iter().map(|q| chart.frame.at(q[0], q[1])), false);
             let style = |part| Style::line(color::scale(part).mixed(PALE.darker(0.4), 0.15), 1.1);

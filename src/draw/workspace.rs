@@ -1,6 +1,6 @@
 //! The workspace, with the arm in it and all that takes place.
 
-use super::arm::{self, GHOST, GOAL, START, UNREACHED};
+use super::arm::{self, GHOST, GOAL, NOW, START, UNREACHED};
 use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
@@ -20,7 +20,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let lying = || first.obstacles.iter().chain(&still.placed).filter(|obstacle| obstacle.lies());
     let mut inside = ground(&frame, arm);
     inside.extend(still.reach.as_ref().map(|reach| reach::in_workspace(reach, &frame)));
-    inside.extend(first.obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
+    inside.extend(view.world_now().obstacles.iter().map(|obstacle| shapes::solid(&frame, obstacle)));
     inside.extend(still.placed.iter().map(|object| shapes::dashed(&frame, object)));
     inside.extend(preferences::in_workspace(&first.regions, &frame));
     let mut pose = |world: usize, q, look| {
@@ -39,6 +39,9 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     if view.is_task() {
         let boxes: Vec<Rect> = lying().map(|obstacle| on_page(&frame, obstacle)).collect();
         inside.extend(numbers(view, &frame, &boxes, &spots));
+    }
+    if let Some((q, world)) = still.now {
+        inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &NOW));
     }
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];

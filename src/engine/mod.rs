@@ -51,6 +51,7 @@ mod plan;
 mod planner_options;
 mod problem;
 mod reach;
+mod replay;
 mod result;
 mod rungs;
 mod settle;
@@ -73,6 +74,7 @@ pub use plan::{Plan, PlanError, Refutation, TaskPlan, plan, plan_with};
 pub use planner_options::{CELLS, Criterion, FIRST_CELLS, MOST_MARGIN, NEAREST, Planner, SAMPLES};
 pub use problem::{Problem, ProblemError};
 pub use reach::{Access, MOST_PLACES, Reach, Solution, reach};
+pub use replay::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 pub use result::{Choice, Report, TaskFigures};
 pub use settle::decide;
 

@@ -6,7 +6,7 @@ use super::options::Options;
 use super::problem::{Asked, Problem};
 use super::result::Report;
 use super::task::{FailedStep, MessageError, TaskAnswer, plan as plan_task};
-use super::{Answer, GridSpace, Kind, percent, solve};
+use super::{Answer, GridSpace, Kind, Replay, percent, solve};
 use crate::check::CheckedProof;
 use crate::model::{Arm, MotionProblem, Outcome, RobotJoints, Status, Task};
 use crate::motion::{SearchUsed, TimingError, Trajectory};
@@ -210,6 +210,12 @@ impl Plan {
     #[must_use]
     pub fn motion(&self) -> Option<&MotionPlan> {
         self.made.motion().map(Box::as_ref)
+    }
+
+    /// How the planner came to its answer; of single motions. Some of it is computed for this alone.
+    #[must_use]
+    pub fn replay(&self) -> Option<Replay> {
+        self.motion().map(|plan| Replay::new(&plan.problem, &self.options, &plan.answer))
     }
 
     /// Steps and their motions, of a task.

@@ -43,7 +43,7 @@ pub enum SaveError {
 }
 
 impl FileFormat {
-    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.html` or `.geojson`; but
+    /// The format that a file's extension stands for: `.json`, `.csv`, `.yaml`, `.mcap`, `.svg`, `.png`, `.gif`, `.html` or `.geojson`; but
     /// `cspace.json` and what ends in `.cspace.json` is the configuration space.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ impl FileFormat {
 
 impl Plan {
     /// The plan as a file of this format holds it; none if the format holds nothing but a trajectory and there is none. All but
-    /// MCAP and PNG are text in UTF-8.
+    /// MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
     /// A picture that cannot be made of pixels.
@@ -74,6 +74,7 @@ impl Plan {
             }
             FileFormat::Result(format) => Ok(self.report().bytes(format)),
             FileFormat::CSpace(format) => Ok(Some(format.text(&self.cspaces()).into_bytes())),
+            FileFormat::Picture(format) if format.plays() => format.bytes(&self.view_with_replay()).map(Some),
             FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
         }
     }

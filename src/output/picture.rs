@@ -16,6 +16,9 @@ pub enum PictureFormat {
     /// Pixels.
     #[cfg(feature = "png")]
     Png,
+    /// Pixels in motion.
+    #[cfg(feature = "png")]
+    Gif,
     /// A page with both spaces, in which the arm can be moved.
     Html,
 }
@@ -24,13 +27,13 @@ pub enum PictureFormat {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PictureFormatError {
     /// The extension is none of ours.
-    #[error("{file}: a picture's name must end in .svg, .png or .html")]
+    #[error("{file}: a picture's name must end in .svg, .png, .gif or .html")]
     Unknown {
         /// The name as given.
         file: String,
     },
     /// The format is one that this build of the program does not have.
-    #[error("{file}: this program was built without PNG; use .svg or .html")]
+    #[error("{file}: this program was built without pixels (feature png); use .svg or .html")]
     WithoutPng {
         /// The name as given.
         file: String,
@@ -41,6 +44,10 @@ pub enum PictureFormatError {
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
+/// Width of a GIF picture, pixels.
+#[cfg(feature = "png")]
+const GIF_WIDTH: f64 = 960.0;
+
 /// Share of the arm's reach by which contours of C-obstacles may deviate in pictures: less than a pixel.
 pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
@@ -48,7 +55,7 @@ impl PictureFormat {
     /// The format that a picture's extension stands for; upper and lower case are the same.
     ///
     /// # Errors
-    /// Any other extension than `.svg`, `.png` and `.html`, and `.png` without the feature `png`.
+    /// Any other extension than `.svg`, `.png`, `.gif` and `.html`, and `.png` and `.gif` without the feature `png`.
     pub fn from_path(path: &Path) -> Result<Self, PictureFormatError> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
         let file = || path.display().to_string();
@@ -56,10 +63,26 @@ impl PictureFormat {
             Some("svg") => Ok(Self::Svg),
             #[cfg(feature = "png")]
             Some("png") => Ok(Self::Png),
+            #[cfg(feature = "png")]
+            Some("gif") => Ok(Self::Gif),
             #[cfg(not(feature = "png"))]
-            Some("png") => Err(PictureFormatError::WithoutPng { file: file() }),
+            Some("png" | "gif") => Err(PictureFormatError::WithoutPng { file: file() }),
             Some("html") => Ok(Self::Html),
             _ => Err(PictureFormatError::Unknown { file: file() }),
+        }
+    }
+
+    /// Whether it has time, so that it can show how the planner came to its answer: then the view is better one with a replay
+    /// ([`Plan::view_with_replay`]).
+    #[must_use]
+    pub fn plays(self) -> bool {
+        match self {
+            Self::Svg => false,
+            #[cfg(feature = "png")]
+            Self::Png => false,
+            #[cfg(feature = "png")]
+            Self::Gif => true,
+            Self::Html => true,
         }
     }
 
@@ -68,10 +91,22 @@ impl PictureFormat {
     /// # Errors
     /// A picture that cannot be made of pixels.
     pub fn bytes(self, view: &View) -> Result<Vec<u8>, DrawError> {
-        self.bytes_of(|| draw::svg(view), || draw::page(view))
+        self.bytes_with(view, &mut |_, _| ())
     }
 
-    /// The same of anything that can be an SVG document and a page.
+    /// The same; `progress` hears how many of how many pictures of a picture in motion are done.
+    ///
+    /// # Errors
+    /// As [`PictureFormat::bytes`].
+    pub fn bytes_with(self, view: &View, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
+        match self {
+            #[cfg(feature = "png")]
+            Self::Gif => draw::gif(view, GIF_WIDTH, progress),
+            _ => self.bytes_of(|| draw::svg(view), || draw::page(view)),
+        }
+    }
+
+    /// The same of anything that can be an SVG document and a page; as a GIF it is a single picture.
     ///
     /// # Errors
     /// A picture that cannot be made of pixels.
@@ -80,6 +115,8 @@ impl PictureFormat {
             Self::Svg => svg().into_bytes(),
             #[cfg(feature = "png")]
             Self::Png => draw::png(&svg(), PNG_SCALE)?,
+            #[cfg(feature = "png")]
+            Self::Gif => draw::still_gif(&svg(), GIF_WIDTH)?,
             Self::Html => page().into_bytes(),
         })
     }
@@ -92,6 +129,15 @@ impl Plan {
         self.view_with(contours)
     }
 
+    /// The same with how the planner came to its answer, for pictures and pages that play.
+    #[must_use]
+    pub fn view_with_replay(&self) -> View {
+        match self.replay() {
+            Some(replay) => self.view().with_replay(&replay),
+            None => self.view(),
+        }
+    }
+
     /// Workspace and configuration space side by side, as an SVG document; of a task also its steps.
     #[must_use]
     pub fn svg(&self) -> String {
@@ -101,7 +147,7 @@ impl Plan {
     /// A page that stands by itself, in which the motion is played and the arm can be moved.
     #[must_use]
     pub fn html(&self) -> String {
-        draw::page(&self.view())
+        draw::page(&self.view_with_replay())
     }
 
     /// The same where somebody knows the contours of the C-obstacles of single motions.

@@ -204,6 +204,8 @@ pub enum Trace {
         cells: [usize; 2],
         /// One a cell.
         labels: Vec<u32>,
+        /// Cells in the order in which a search expanded them; none of the wave, which comes to all cells of a label at once.
+        expanded: Vec<u32>,
     },
     /// Natural logarithm of the potential for every cell (0 at the goal, the lower the farther), minus infinity where
     /// there is none.

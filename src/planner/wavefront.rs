@@ -115,38 +115,36 @@ impl Planner for Wavefront {
                 let labels = vec![UNREACHED; space.blocked.len()];
                 return Run {
                     outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Wavefront { cells: space.cells, labels },
+                    trace: Trace::Wavefront { cells: space.cells, labels, expanded: Vec::new() },
                     size: Size::Grid { cells: 0, sweeps: 0 },
                     note: None,
                 };
             }
         };
-        let (cells, labels, size) = self.cells(map, &joined);
+        let (cells, trace, size) = self.cells(map, &joined);
         let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
-        Run {
-            outcome: path.map_or(Proposal::NoPath, Proposal::Found),
-            trace: Trace::Wavefront { cells: space.cells, labels },
-            size,
-            note: None,
-        }
+        Run { outcome: path.map_or(Proposal::NoPath, Proposal::Found), trace, size, note: None }
     }
 }
 
 impl Wavefront {
-    /// The cells from the nearest of the start's that is connected with a goal, if one is; all labels; and how many
+    /// The cells from the nearest of the start's that is connected with a goal, if one is; what the search saw; and how many
     /// cells were looked at.
-    fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Vec<u32>, Size) {
+    fn cells(&self, map: &FreeCells, joined: &Joined) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
         let Some(order) = self.search.order() else {
             let wave = StepLabels::new(map, &sources, self.neighborhood);
             let cells = joined.start.cells.iter().find_map(|&cell| wave.descend(map, cell));
             let size = Size::Grid { cells: wave.reached(), sweeps: wave.levels() };
-            return (cells, wave.into_labels(), size);
+            let trace = Trace::Wavefront { cells: map.cells(), labels: wave.into_labels(), expanded: Vec::new() };
+            return (cells, trace, size);
         };
         // A search that does not meet its target has labelled all that is connected with a goal, other cells of
         // the start among them.
         let search = Search::new(map, self.neighborhood, order, &sources, joined.start.cells[0]);
         let cells = joined.start.cells.iter().find_map(|&cell| search.way_back(cell));
-        (cells, search.labels(), Size::Search { expanded: search.expanded, labelled: search.labelled })
+        let size = Size::Search { expanded: search.expanded.len(), labelled: search.labelled };
+        let trace = Trace::Wavefront { cells: map.cells(), labels: search.labels(), expanded: search.expanded };
+        (cells, trace, size)
     }
 }

@@ -43,4 +43,4 @@ mod tiles;
 pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use optimum::{Motions, Proposed, Refused, ShortMotion, claimed_length, least_length, short_motion};
-pub use slabs::slab_connectivity;
+pub use slabs::{slab_boxes, slab_connectivity};

@@ -10,7 +10,7 @@ mod proof;
 use super::bands::{Kind, bands};
 use super::chain::{Mosaic, Openness, all_of_fewest_mixed, ends, fewest_mixed};
 use super::channel::Channel;
-use super::connectivity::Connectivity;
+use super::connectivity::{Connectivity, Occupancy};
 use super::slab::{SecondLink, Verdicts};
 use crate::check::Cell;
 use crate::check::StuckBox;
@@ -83,28 +83,51 @@ pub fn slab_connectivity(
     max_slabs: usize,
     max_boxes: usize,
 ) -> Connectivity {
+    decide(&mut Slabs::new(scene, clearance), start, goals, max_slabs, max_boxes)
+}
+
+/// The boxes of configurations that [`slab_connectivity`] ends with: they lie side by side and cover the domain.
+#[must_use]
+pub fn slab_boxes(
+    scene: &Scene,
+    start: Configuration,
+    goals: &GoalSet,
+    clearance: f64,
+    max_slabs: usize,
+) -> Vec<(Cell, Occupancy)> {
     let mut slabs = Slabs::new(scene, clearance);
+    decide(&mut slabs, start, goals, max_slabs, 0);
+    slabs.boxes()
+}
+
+fn decide(
+    slabs: &mut Slabs,
+    start: Configuration,
+    goals: &GoalSet,
+    max_slabs: usize,
+    max_boxes: usize,
+) -> Connectivity {
     // A joint that cannot move leaves no area to cut.
     if slabs.topology.ranges.iter().any(|axis| axis.extent() <= 0.0) {
         return Connectivity::Undecided { boxes: 0, closed: false };
     }
     loop {
-        let ends = ends(&slabs, goals);
+        let ends = ends(slabs, goals);
         let count = slabs.slabs.len();
         let undecided = |closed: bool| Connectivity::Undecided { boxes: count, closed };
         let Some(from) = slabs.locate(start) else { return undecided(false) };
-        let connection = |finest| fewest_mixed(&slabs, from, &ends, finest);
+        let connection = |finest| fewest_mixed(slabs, from, &ends, finest);
         let Some(chain) = connection(false).or_else(|| connection(true)) else {
             let proof = slabs.disconnection(start, goals, max_boxes);
             return proof.map_or_else(|| undecided(true), Connectivity::Disconnected);
         };
         if chain.iter().all(|&i| slabs.spans[i as usize].openness == Openness::Free) {
-            return Connectivity::Connected(Channel::new(&slabs, &chain, start, &ends));
+            return Connectivity::Connected(Channel::new(slabs, &chain, start, &ends));
         }
         let chain = if slabs.slabs.len() < ONE_BY_ONE {
             chain
         } else {
-            let all = all_of_fewest_mixed(&slabs, from, &ends, false);
+            let all = all_of_fewest_mixed(slabs, from, &ends, false);
             if all.is_empty() { chain } else { all }
         };
         let mut mixed: Vec<u32> = chain
@@ -270,6 +293,28 @@ impl<'a> Slabs<'a> {
             }
         }
         self.number();
+    }
+
+    /// All spans, and the stuck stretches between them.
+    fn boxes(&self) -> Vec<(Cell, Occupancy)> {
+        let (bottom, top) = self.topology.ranges[1].domain();
+        let mut boxes = Vec::new();
+        for slab in &self.slabs {
+            let mut add = |lower: f64, upper: f64, occupancy| {
+                if lower < upper {
+                    boxes.push((Cell { lower: [slab.from, lower], upper: [slab.to, upper] }, occupancy));
+                }
+            };
+            let mut at = bottom;
+            for span in &self.spans[slab.spans[0] as usize..slab.spans[1] as usize] {
+                let is_free = span.openness == Openness::Free;
+                add(at, span.lower, Occupancy::Stuck);
+                add(span.lower, span.upper, if is_free { Occupancy::Free } else { Occupancy::Mixed });
+                at = span.upper;
+            }
+            add(at, top, Occupancy::Stuck);
+        }
+        boxes
     }
 
     /// The slabs beside a slab.

@@ -229,11 +229,11 @@ fn the_trace_and_size_are_those_of_the_representation() {
                     && !channel.is_empty()
                     && channel.iter().all(|&cell| cell < nodes)
             }
-            (Trace::Wavefront { cells, labels: drawn }, Size::Grid { cells: reached, .. }) => {
+            (Trace::Wavefront { cells, labels: drawn, .. }, Size::Grid { cells: reached, .. }) => {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == reached
             }
-            (Trace::Wavefront { cells, labels: drawn }, Size::Search { expanded, labelled }) => {
+            (Trace::Wavefront { cells, labels: drawn, .. }, Size::Search { expanded, labelled }) => {
                 drawn.len() == cells[0] * cells[1]
                     && drawn.iter().filter(|&&label| label != u32::MAX).count() == labelled
                     && expanded <= labelled

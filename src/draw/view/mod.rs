@@ -18,6 +18,7 @@ mod isolines;
 mod motion;
 mod numbers;
 mod picture;
+mod replay;
 mod slope;
 mod states;
 mod steps;
@@ -33,6 +34,7 @@ pub use task::TaskPicture;
 pub(super) use extent::around;
 pub(super) use motion::PathView;
 pub(super) use numbers::{Chain, Grain};
+pub(super) use replay::{PhaseView, ShowsView};
 pub(super) use states::ranges;
 pub(super) use steps::Row;
 pub(super) use trace::TraceView;
@@ -77,6 +79,9 @@ pub struct View {
     motions: Vec<MotionView>,
     clock: Option<Clock>,
     pub(super) frames: Vec<FrameView>,
+    /// How the planner came to its answer: phases, one after the other.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) replay: Vec<PhaseView>,
     #[serde(skip)]
     pub(super) still: Still,
 }
@@ -98,6 +103,8 @@ pub(super) struct Still {
     pub placed: Vec<ObstacleView>,
     /// Where the tip can get.
     pub reach: Option<Reach>,
+    /// Where the arm is now, and in which world, while it moves.
+    pub now: Option<([f64; 2], usize)>,
     /// Where the arm is in the end, and in which world.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below what the columns are called; none of single motions.
@@ -130,6 +137,25 @@ impl View {
     pub fn with_reach(mut self, reach: &Reach) -> Self {
         self.still.reach = Some(reach.clone());
         self
+    }
+
+    /// How long the motion takes, seconds; none where nothing moves.
+    pub(super) fn duration(&self) -> Option<f64> {
+        self.clock.as_ref().map(Clock::duration)
+    }
+
+    /// The same with the arm where it is at this time of the motion.
+    pub(super) fn moving(&self, time: f64) -> Self {
+        let mut view = self.clone();
+        let world =
+            self.motions.iter().take_while(|motion| motion.from <= time).last().map_or(0, |motion| motion.world);
+        view.still.now = self.clock.as_ref().map(|clock| (clock.at(time).into(), world));
+        view
+    }
+
+    /// The world that is there at first, or now.
+    pub(super) fn world_now(&self) -> &WorldView {
+        &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
     }
 
     /// The world that is there at first.

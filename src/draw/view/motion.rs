@@ -1,7 +1,7 @@
 //! Paths, and motions in time.
 
 use super::numbers::{Chain, Grain};
-use crate::draw::color::{self, INK, Rgb};
+use crate::draw::color::{self, GREY, INK, Rgb};
 use crate::draw::figure::Pen;
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Path};
@@ -56,6 +56,16 @@ impl PathView {
         let color = carried.map(|color| color.darker(0.25));
         let width = if carried.is_some() { WIDE } else { THIN };
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
+    }
+
+    /// The same line along other configurations, without poses between its ends.
+    pub fn along(&self, points: Chain) -> Self {
+        Self { points, ghosts: Chain::default(), ..self.clone() }
+    }
+
+    /// Another way than this path's, in grey beside it.
+    pub fn beside(&self, points: Chain) -> Self {
+        Self { name: "before it is pulled taut".to_owned(), color: Some(GREY), width: THIN, ..self.along(points) }
     }
 
     /// How it is drawn.
@@ -127,6 +137,20 @@ pub struct Clock {
 }
 
 impl Clock {
+    /// The end of the motion, seconds.
+    pub fn duration(&self) -> f64 {
+        self.time.last().copied().unwrap_or(0.0)
+    }
+
+    /// Where the arm is at a time: between two samples on the straight line, which no one can tell from the curve.
+    pub fn at(&self, time: f64) -> Configuration {
+        let positions = &self.position.0;
+        let next = self.time.partition_point(|&t| t <= time).clamp(1, positions.len() - 1);
+        let [from, to] = [self.time[next - 1], self.time[next]];
+        let part = ((time - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        positions[next - 1] + (positions[next] - positions[next - 1]) * part
+    }
+
     pub fn new(trajectory: &Trajectory, grain: Grain) -> Self {
         let chain = |values: &[[f64; 2]]| Chain(values.iter().map(|&q| grain.configuration(q.into()).into()).collect());
         Self {

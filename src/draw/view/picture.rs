@@ -115,6 +115,7 @@ impl View {
             motions: picture.trajectory.map(|t| MotionView::only(t.duration())).into_iter().collect(),
             clock: picture.trajectory.map(|trajectory| Clock::new(trajectory, grain)),
             frames: Vec::new(),
+            replay: Vec::new(),
             still: Still {
                 panels: vec![PanelView {
                     title: "Configuration space".to_owned(),

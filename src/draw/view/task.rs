@@ -76,6 +76,7 @@ impl View {
         let placed = placed.iter().map(|(object, o)| ObstacleView::new(o, task.obstacle_number(*object), grain));
         let last = legs.last().map(|leg| (leg, motions[legs.len() - 1].world));
         let still = Still {
+            now: None,
             reach: None,
             panels: panels(picture, &paths, world, grain),
             placed: placed.collect(),
@@ -101,6 +102,7 @@ impl View {
             motions,
             clock: Sequence::of(legs).map(|sequence| Clock::new(&sequence.trajectory, grain)),
             frames: Vec::new(),
+            replay: Vec::new(),
             still,
         }
     }

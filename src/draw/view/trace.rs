@@ -36,7 +36,14 @@ pub enum TraceView {
     /// A roadmap: both ends of each edge, and where the search came, in order.
     Roads { edges: Chain, expanded: Chain },
     /// Boxes of a subdivision: least and greatest values of each.
-    Boxes { free: Chain, stuck: Chain, mixed: Chain },
+    Boxes {
+        free: Chain,
+        stuck: Chain,
+        mixed: Chain,
+        /// Where nothing has been decided yet, while it is told how it was; without sides.
+        #[serde(skip)]
+        rest: Chain,
+    },
     /// Distances to the goal.
     Wavefront(Waves),
     /// A field: its equipotentials, and lines of steepest ascent.
@@ -47,6 +54,9 @@ pub enum TraceView {
         logarithmic: bool,
         /// At the far end, and at the goal.
         span: [f64; 2],
+        /// Values on the way there, while it is told how it was.
+        #[serde(skip)]
+        values: Option<Waves>,
     },
 }
 
@@ -68,9 +78,9 @@ impl TraceView {
                 Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }
             }
             Trace::Boxes { free, stuck, mixed } => {
-                Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed) }
+                Self::Boxes { free: pairs(free), stuck: pairs(stuck), mixed: pairs(mixed), rest: Chain::default() }
             }
-            Trace::Wavefront { cells, labels } => Self::Wavefront(Waves::new(*cells, labels)?),
+            Trace::Wavefront { cells, labels, expanded } => Self::Wavefront(Waves::new(*cells, labels, expanded)?),
             Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
                 let slope = Slope::new(trace, topology)?;
                 let chain =
@@ -85,6 +95,7 @@ impl TraceView {
                     flow: flow::lines(&slope.samples, topology).iter().map(chain).collect(),
                     logarithmic,
                     span: [slope.span.0, slope.span.1].map(|value| number(sign * value)),
+                    values: None,
                 }
             }
         })

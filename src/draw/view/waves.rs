@@ -20,43 +20,68 @@ pub struct Waves {
     pub extent: [f64; 2],
     /// Of each block its least label, as a part of the greatest of all; none where the wave did not come.
     levels: String,
+    /// Of each block the place of its first cell in the order of expansion, the same way; empty where there is no order.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    order: String,
     /// The greatest label.
     pub farthest: u32,
 }
 
 impl Waves {
-    /// The wavefront with these labels; none where there are no labels.
-    pub fn new(cells: [usize; 2], labels: &[u32]) -> Option<Self> {
+    /// The wavefront with these labels, and cells in the order in which they were expanded; none where there are no labels.
+    pub fn new(cells: [usize; 2], labels: &[u32], expanded: &[u32]) -> Option<Self> {
         if labels.is_empty() || labels.len() != cells[0] * cells[1] {
             return None;
         }
         let farthest = labels.iter().copied().filter(|&l| l != u32::MAX).max().unwrap_or(0);
         let block = cells.map(|n| n.div_ceil(CELLS).max(1));
         let blocks = [0, 1].map(|k| cells[k].div_ceil(block[k]));
-        let mut least = vec![u32::MAX; blocks[0] * blocks[1]];
-        for (index, &label) in labels.iter().enumerate() {
-            let at = index / cells[1] / block[0] * blocks[1] + index % cells[1] / block[1];
-            least[at] = least[at].min(label);
-        }
-        let letter = |label: u32| match label {
-            u32::MAX => NONE,
-            _ => {
-                let part = f64::from(label) / f64::from(farthest.max(1));
-                char::from(LETTERS[(part * (LEVELS - 1) as f64).round() as usize])
+        let block_of = |cell: usize| cell / cells[1] / block[0] * blocks[1] + cell % cells[1] / block[1];
+        let coarse = |values: &mut dyn Iterator<Item = (usize, u32)>, greatest: u32| -> String {
+            let mut least = vec![u32::MAX; blocks[0] * blocks[1]];
+            for (cell, value) in values {
+                let at = block_of(cell);
+                least[at] = least[at].min(value);
             }
+            least
+                .into_iter()
+                .map(|value| letter((value < u32::MAX).then(|| f64::from(value) / f64::from(greatest.max(1)))))
+                .collect()
         };
+        let places = expanded.iter().zip(0..).map(|(&cell, place)| (cell as usize, place));
         Some(Self {
             blocks,
             extent: [0, 1].map(|k| super::numbers::number((blocks[k] * block[k]) as f64 / cells[k] as f64)),
-            levels: least.into_iter().map(letter).collect(),
+            levels: coarse(&mut labels.iter().copied().enumerate(), farthest),
+            order: if expanded.is_empty() { String::new() } else { coarse(&mut { places }, expanded.len() as u32 - 1) },
             farthest,
         })
+    }
+
+    /// Blocks of these levels, written as letters, over the whole of both axes.
+    pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
+        Self { blocks, extent: [1.0; 2], levels, order: String::new(), farthest: 0 }
+    }
+
+    /// The same as far as this part of the levels, or of the order of expansion, goes.
+    pub fn up_to(&self, part: f64) -> Self {
+        let last = (part * LEVELS as f64).floor() as usize;
+        let order = if self.order.is_empty() { &self.levels } else { &self.order };
+        let there = |letter: u8| LETTERS.iter().position(|&l| l == letter).is_some_and(|level| level < last);
+        let levels =
+            self.levels.chars().zip(order.bytes()).map(|(level, place)| if there(place) { level } else { NONE });
+        Self { levels: levels.collect(), ..self.clone() }
     }
 
     /// The level of each block, below [`LEVELS`]; none where the wave did not come.
     pub fn levels(&self) -> impl Iterator<Item = Option<usize>> + '_ {
         self.levels.bytes().map(|letter| LETTERS.iter().position(|&l| l == letter))
     }
+}
+
+/// The letter of a part from 0 to 1.
+pub fn letter(part: Option<f64>) -> char {
+    part.map_or(NONE, |part| char::from(LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
 }
 
 #[cfg(test)]
@@ -70,7 +95,7 @@ mod tests {
         let labels: Vec<u32> = (0..cells[0] * cells[1])
             .map(|k| if k % cells[1] == 200 { (k / cells[1]) as u32 } else { u32::MAX })
             .collect();
-        let waves = Waves::new(cells, &labels).unwrap();
+        let waves = Waves::new(cells, &labels, &[]).unwrap();
         let levels: Vec<_> = waves.levels().collect();
         assert_eq!(waves.blocks, [134, 130]);
         assert_eq!(levels.iter().flatten().count(), 134);

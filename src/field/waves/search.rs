@@ -70,8 +70,8 @@ pub struct Search {
     costs: Vec<Cost>,
     /// The cell from which a cell was labelled, itself for sources; [`UNREACHED`] for cells without a label.
     parents: Vec<u32>,
-    /// Cells that were taken off the list.
-    pub expanded: usize,
+    /// Cells that were taken off the list, in that order.
+    pub expanded: Vec<u32>,
     /// Cells that were put on the list, sources included.
     pub labelled: usize,
 }
@@ -90,7 +90,7 @@ impl Search {
         let [rows, columns] = free.cells();
         let size = rows * columns;
         let costs = vec![Cost::default(); size];
-        let mut search = Self { costs, parents: vec![UNREACHED; size], expanded: 0, labelled: 0 };
+        let mut search = Self { costs, parents: vec![UNREACHED; size], expanded: Vec::new(), labelled: 0 };
         let mut open = Open::new(order);
         let estimate = |cell: usize| match order {
             Order::AStar(_) | Order::Greedy => straight_cost(free, neighborhood, cell, target),
@@ -108,8 +108,8 @@ impl Search {
             if cost != search.costs[cell] {
                 continue;
             }
-            search.expanded += 1;
-            if search.expanded.is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
+            search.expanded.push(cell as u32);
+            if search.expanded.len().is_multiple_of(CELLS_BETWEEN_CHECKPOINTS) {
                 checkpoint();
             }
             if cell == target {

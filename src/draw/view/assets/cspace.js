@@ -112,6 +112,7 @@ const CSpace = (() => {
     if (seen.kind === 'boxes' && view.shows('boxes')) {
       surfaces(context, panel, seen.free, theme.free);
       surfaces(context, panel, seen.mixed, theme.mixed);
+      if (seen.rest) surfaces(context, panel, seen.rest, theme.mixed);
     }
     if (seen.kind === 'channel' && view.shows('channel')) {
       context.beginPath();
@@ -135,6 +136,7 @@ const CSpace = (() => {
       }
       context.stroke();
     }
+    if (seen.nodes) dots(context, panel, view, seen.nodes);
     if (seen.kind === 'rows' && view.shows('rows')) {
       context.beginPath();
       for (let i = 0; i + 3 < seen.free.length; i += 4) {
@@ -154,8 +156,25 @@ const CSpace = (() => {
       context.stroke();
     }
     context.globalAlpha = 1;
+    if (seen.sweep !== undefined) {
+      context.lineWidth = 2;
+      context.strokeStyle = theme.accent;
+      const [x] = panel.at([seen.sweep, 0]);
+      line(context, [[x, panel.rect.y], [x, panel.rect.y + panel.rect.height]]);
+    }
     if (seen.expanded && view.shows('expanded')) expanded(context, panel, view, seen.expanded);
     if (seen.kind === 'field') field(context, panel, view, seen);
+  }
+
+  /** Samples: where edges begin. */
+  function dots(context, panel, view, flat) {
+    context.fillStyle = panel.theme.accent;
+    for (let i = 0; i + 3 < flat.length; i += 4) {
+      for (const by of shifts(panel, flat.slice(i, i + 2), circles(view))) {
+        const [x, y] = panel.at([flat[i] + by[0], flat[i + 1] + by[1]]);
+        context.fillRect(x - 1.5, y - 1.5, 3, 3);
+      }
+    }
   }
 
   /** Where a search came, the earlier the darker. */
@@ -258,16 +277,16 @@ const CSpace = (() => {
   /** What stays while the arm moves. */
   function still(context, panel, view) {
     const { world } = view;
-    const seen = world.trace;
+    const seen = Think.seen(view, world.trace);
     if (seen) below(context, panel, view, seen);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);
     if (view.shows('regions')) regions(context, panel, view, world);
-    if (view.shows('proof') && world.proof.length) proof(context, panel, world.proof);
+    if (view.shows('proof') && world.proof.length) proof(context, panel, Think.begun(world.proof, 4, Think.part(view, 'proof')));
     // Numbers of many would only flicker while something moves.
     if (view.shows('names') && view.shows('c-obstacles') && (view.named || !view.light)) names(context, panel, view, world);
     if (view.shows('path')) {
-      for (const path of view.pathsHere()) {
+      for (const path of Think.paths(view, view.pathsHere())) {
         pathLine(context, panel.theme, path, () => {
           context.beginPath();
           shifted(context, panel, path.points, circles(view), false);

@@ -47,6 +47,9 @@ class View {
     this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
     this.hidden = new Set();
     this.time = 0;
+    /** What is played: 'move', the motion, or 'think', how the planner came to it. The time of the other one is kept. */
+    this.mode = 'move';
+    this.otherTime = 0;
     this.speed = 1;
     this.probe = null;
     this.pinned = false;
@@ -85,24 +88,52 @@ class View {
     cspace.titles = joints.map((joint) => `${joint.name}${joint.unit === 'm' ? ' (m)' : ''}${joint.circle ? ', wraps around' : ''}`);
     cspace.scale = alike ? 'fit' : 'free';
     for (const panel of [workspace, cspace]) panel.layout();
-    const moves = Boolean(model.clock);
-    this.parts.transport.hidden = !moves;
-    this.parts.plots.hidden = !moves;
-    this.parts.scrubber.max = this.duration;
     for (const plot of this.plots) plot.fit();
-    this.time = Math.min(this.time, this.duration);
-    if (!moves) this.pause();
-    this.seek(this.time);
+    const [moves, thinks] = [Boolean(model.clock), Boolean(model.replay)];
+    this.parts.modes.hidden = !(moves && thinks);
+    this.parts.transport.hidden = !moves && !thinks;
+    if (!moves && !thinks) this.pause();
+    if (this.mode === 'think' ? !thinks : !moves && thinks) {
+      // All that was found is seen at first.
+      this.mode = moves || !thinks ? 'move' : 'think';
+      this.time = this.mode === 'think' ? this.duration : 0;
+    }
+    this.ready();
+  }
+
+  /** Plays the motion, or how the planner came to it. */
+  switchTo(mode) {
+    if (mode === this.mode || this.parts.modes.hidden) return;
+    this.pause();
+    this.mode = mode;
+    [this.time, this.otherTime] = [this.otherTime, this.time];
+    this.ready();
+  }
+
+  /** The controls of what is played. */
+  ready() {
+    const { parts } = this;
+    parts.plots.hidden = this.mode === 'think' || !this.model.clock;
+    for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
+    parts.scrubber.max = this.duration;
+    this.seek(Math.min(this.time, this.duration));
     this.refresh();
   }
 
   get duration() {
+    if (this.mode === 'think') return Think.duration(this.model.replay);
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
+  }
+
+  /** The phase of the replay, and how much of it has been shown; none while the motion is played. */
+  get moment() {
+    return this.mode === 'think' && this.model.replay ? Think.moment(this.model.replay, this.time) : null;
   }
 
   /** The motion that is under way. */
   get motion() {
     const { motions } = this.model;
+    if (this.mode === 'think') return motions[0];
     let found = 0;
     for (let i = 1; i < motions.length && motions[i].from <= this.time + 1e-9; i += 1) found = i;
     return motions[found];
@@ -114,6 +145,7 @@ class View {
 
   /** Where the arm is. */
   get q() {
+    if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
 
@@ -180,7 +212,9 @@ class View {
     const speed = element('select', { 'aria-label': 'speed', onchange: (event) => this.hasten(Number(event.target.value)) });
     for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
     parts.speed = speed;
-    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.play, parts.scrubber, parts.clock, speed);
+    const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
+    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'));
+    parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, parts.scrubber, parts.clock, speed);
     this.parts = parts;
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
@@ -311,10 +345,14 @@ class View {
     if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
     parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
-    const step = this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '';
+    const { moment } = this;
+    const told = moment && `${moment.index + 1} of ${this.model.replay.length}: ${moment.phase.caption}`;
+    const step = told ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
-    if (motion !== before) {
+    if (motion !== before || moment) {
       for (const panel of Object.values(this.panels)) panel.dirty = true;
+    }
+    if (motion !== before) {
       if (this.probe) this.examine(this.probe.q);
     }
     for (const panel of this.allPanels()) panel.draw();
@@ -326,7 +364,7 @@ class View {
   }
 
   play() {
-    if (!this.model.clock) return;
+    if (!this.duration) return;
     if (this.time >= this.duration) this.seek(0);
     this.playing = true;
     this.mark();
@@ -456,6 +494,7 @@ class View {
       ArrowLeft: () => !control && this.seek(this.time - step),
       Home: () => !control && this.seek(0),
       End: () => !control && this.seek(this.duration),
+      t: () => this.switchTo(this.mode === 'think' ? 'move' : 'think'),
       '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
       '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
       Escape: () => this.examine(null),
@@ -492,6 +531,7 @@ function help() {
     ['Space or k', 'play, pause'],
     ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
     ['Home, End', 'to the start, to the end'],
+    ['t', 'the motion, or how the planner came to it'],
     ['+, \u2212', 'faster, slower'],
     ['Escape', 'takes the tried arm away'],
   ];

@@ -150,6 +150,13 @@ const Workspace = (() => {
   }
 
   function traces(context, panel, view) {
+    if (view.moment) {
+      for (const path of Think.paths(view, view.pathsHere())) {
+        const there = tipTrace(view.model.arm, path.points).map((p) => panel.at(p));
+        pathLine(context, panel.theme, path, () => line(context, there));
+      }
+      return;
+    }
     const spots = view.traces ?? (view.traces = view.model.paths.map((path) => tipTrace(view.model.arm, path.points)));
     const draw = (i, path) => {
       const there = spots[i].map((p) => panel.at(p));
@@ -187,7 +194,7 @@ const Workspace = (() => {
     if (view.shows('regions')) regions(context, panel, world);
     if (view.shows('poses')) {
       const shown = view.pathsHere();
-      if (shown.length === 1 && !view.light) {
+      if (shown.length === 1 && !view.light && !view.moment) {
         for (const q of pointsOf(shown[0].ghosts)) {
           arm(context, panel, view, world, q, { fill: theme.faint, line: theme.pale, width: 0.8, alpha: 0.7 });
         }

@@ -1,0 +1,148 @@
+// How the planner came to its answer: what of it is there at a moment of the replay.
+'use strict';
+
+const Think = (() => {
+  /** So often a second the arm is put where the planner looks: more would flicker. */
+  const LOOKS = 5;
+
+  const duration = (replay) => (replay ?? []).reduce((sum, phase) => sum + phase.seconds, 0);
+
+  /** The phase at a time, its place, and how much of it has been shown, from 0 to 1. */
+  function moment(replay, time) {
+    let from = 0;
+    for (const [index, phase] of replay.entries()) {
+      if (time < from + phase.seconds || index === replay.length - 1) {
+        return { index, phase, part: Math.min(1, Math.max(0, (time - from) / phase.seconds)) };
+      }
+      from += phase.seconds;
+    }
+    return null;
+  }
+
+  /** How much is there of what phases of this kind show. */
+  function part(view, kind) {
+    const { moment: now } = view;
+    const at = now ? view.model.replay.findIndex((phase) => phase.kind === kind) : -1;
+    if (at < 0 || at < now.index) return 1;
+    return at > now.index ? 0 : now.part;
+  }
+
+  const count = (all, share) => Math.min(all, Math.round(all * share));
+
+  /** The first things of a list, each of so many numbers. */
+  const begun = (flat, each, share) => flat.slice(0, each * count(flat.length / each, share));
+
+  /** The beginning of a path, by its length. */
+  function gone(points, share) {
+    const at = (i) => [points[2 * i], points[2 * i + 1]];
+    const n = points.length / 2;
+    const length = (i) => Math.hypot(points[2 * i + 2] - points[2 * i], points[2 * i + 3] - points[2 * i + 1]);
+    let left = 0;
+    for (let i = 0; i + 1 < n; i += 1) left += share * length(i);
+    const there = at(0);
+    for (let i = 0; i + 1 < n; i += 1) {
+      const [a, b] = [at(i), at(i + 1)];
+      const along = length(i);
+      if (along > left) return [...there, ...a.map((x, k) => x + ((b[k] - x) * left) / along)];
+      left -= along;
+      there.push(...b);
+    }
+    return there;
+  }
+
+  /** Boxes that are there; all others lie where nothing is decided yet. */
+  function cut({ free, stuck, mixed }, order, share) {
+    const kinds = [free, stuck, mixed];
+    const found = { kind: 'boxes', free: [], stuck: [], mixed: [], rest: [] };
+    const names = ['free', 'stuck', 'mixed'];
+    const there = count(order.length, share);
+    order.forEach((place, k) => {
+      let [kind, at] = [0, 4 * place];
+      while (at >= kinds[kind].length) {
+        at -= kinds[kind].length;
+        kind += 1;
+      }
+      found[k < there ? names[kind] : 'rest'].push(...kinds[kind].slice(at, at + 4));
+    });
+    return found;
+  }
+
+  const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/';
+
+  /** Cells that a wave or a search has come to. */
+  function upTo(seen, share) {
+    const order = seen.order ?? seen.levels;
+    const there = new Set([...LETTERS.slice(0, Math.floor(share * LETTERS.length))]);
+    return { ...seen, levels: [...seen.levels].map((level, k) => (there.has(order[k]) ? level : '.')).join('') };
+  }
+
+  /** What is there of what the planner saw. */
+  function seen(view, trace) {
+    const { moment: now } = view;
+    if (!now || !trace) return trace;
+    const { phase } = now;
+    const of = (kind) => part(view, kind);
+    if (phase.kind === 'slabs') return cut(phase, phase.order, now.part);
+    if (phase.kind === 'boxes') return cut(trace, phase.order, now.part);
+    if (phase.kind === 'sweeps') {
+      const at = Math.min(phase.frames.length - 1, Math.floor(now.part * phase.frames.length));
+      return { kind: 'wavefront', ...phase.frames[at][1] };
+    }
+    const less = { ...trace };
+    if (trace.edges) less.edges = begun(trace.edges, 4, phase.kind === 'nodes' ? 0 : of('edges'));
+    if (phase.kind === 'nodes') less.nodes = begun(trace.edges, 4, now.part);
+    if (trace.expanded) less.expanded = begun(trace.expanded, 2, of('expanded'));
+    if (trace.kind === 'rows') less.free = begun(trace.free, 4, of('slices'));
+    if (trace.kind === 'channel') {
+      less.cells = trace.cells.slice(0, count(trace.cells.length, of('cells')));
+      less.channel = trace.channel.slice(0, count(trace.channel.length, of('channel')));
+      const last = less.cells[less.cells.length - 1];
+      if (phase.kind === 'cells' && phase.swept && last) less.sweep = Math.min(...last.filter((_, k) => k % 2 === 0));
+    }
+    if (trace.kind === 'wavefront') return upTo(trace, of('wave'));
+    if (trace.kind === 'field') {
+      less.levels = trace.levels.slice(0, count(trace.levels.length, of('levels')));
+      less.flow = of('levels') < 1 ? [] : trace.flow;
+    }
+    return less;
+  }
+
+  /** The paths that are there, and the one before it was pulled taut. */
+  function paths(view, all) {
+    const { moment: now } = view;
+    if (!now) return all;
+    const own = view.model.replay.find((phase) => phase.kind === 'own');
+    const begins = own ? part(view, 'own') : 0;
+    const before = begins > 0 ? [{ color: view.panels.cspace.theme.grey, width: 1.6, dash: [], points: gone(own.points, begins) }] : [];
+    const share = part(view, 'path');
+    return [...before, ...(share > 0 ? all.map((path) => ({ ...path, points: gone(path.points, share) })) : [])]
+      .map((path) => ({ ...path, ghosts: [] }));
+  }
+
+  /** Where the planner looks: the arm is put there. */
+  function focus(view) {
+    const { phase, part: share } = view.moment;
+    const looks = Math.max(1, Math.round(phase.seconds * LOOKS));
+    const now = { ...view.moment, part: Math.floor(share * looks) / looks };
+    const there = { model: view.model, panels: view.panels, moment: now };
+    if (phase.kind === 'path' || phase.kind === 'own') {
+      const all = paths({ ...there, moment: view.moment }, view.pathsHere());
+      return all.length ? all[all.length - 1].points.slice(-2) : null;
+    }
+    const trace = seen(there, view.world.trace);
+    const middle = (flat) => [0, 1].map((k) => flat.filter((_, i) => i % 2 === k).reduce((sum, x) => sum + x, 0) / (flat.length / 2));
+    const last = (flat, each) => (flat?.length ? middle(flat.slice(-each)) : null);
+    switch (phase.kind) {
+      case 'edges': return last(trace.edges, 2);
+      case 'nodes': return last(trace.nodes, 4);
+      case 'expanded': return last(trace.expanded, 2);
+      case 'slices': return last(trace.free, 4);
+      case 'cells': return trace.cells.length ? middle(trace.cells[trace.cells.length - 1]) : null;
+      case 'channel': return trace.channel.length ? middle(trace.cells[trace.channel[trace.channel.length - 1]]) : null;
+      case 'proof': return last(begun(view.world.proof, 4, now.part), 4);
+      default: return null;
+    }
+  }
+
+  return { duration, moment, part, begun, seen, paths, focus };
+})();
