@@ -1,7 +1,7 @@
 //! What the pictures of the documentation show. `tests/program/pictures.rs` draws them, too.
 
 use cplan::engine::Method;
-use cplan::{Options, Problem, plan};
+use cplan::{Options, Plan, Problem, plan};
 use std::error::Error;
 use std::path::Path;
 
@@ -28,9 +28,17 @@ pub const PICTURES: [(&str, Subject); 11] = [
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];
 
+/// The picture that moves, which is the README's first one: the name of its file, and the still picture of the same.
+pub const MOVING: (&str, &str) = ("thinking", "shortest");
+
 impl Subject {
     /// The picture, SVG: what the program draws.
     pub fn svg(&self) -> Result<String, Box<dyn Error>> {
+        Ok(self.plan()?.svg())
+    }
+
+    /// What the program says.
+    pub fn plan(&self) -> Result<Plan, Box<dyn Error>> {
         let (robot, world, options) = match *self {
             Subject::Answer(robot, world, method) => (robot, Path::new("").join(world), method.into()),
             Subject::Task(robot, world) => (robot, Path::new("tasks").join(world), Options::default()),
@@ -38,6 +46,6 @@ impl Subject {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
         let urdf = root.join("robots").join(robot).with_extension("urdf");
         let world = root.join("workspaces").join(world).with_extension("toml");
-        Ok(plan(&Problem::load(urdf, world)?, &options)?.svg())
+        Ok(plan(&Problem::load(urdf, world)?, &options)?)
     }
 }

@@ -1,5 +1,5 @@
 //! Redraws the pictures of the documentation: each planner on one workspace, one workspace without a path, the demo's cell,
-//! and two tasks.
+//! and two tasks; and the one that moves.
 //!
 //! ```text
 //! cargo run --release --example pictures
@@ -18,6 +18,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let file = docs.join(name).with_extension("svg");
         write_whole(&file, subject.svg()?.as_bytes())?;
         println!("{}", file.display());
+        if name == drawn::MOVING.1 {
+            let file = docs.join(drawn::MOVING.0).with_extension("gif");
+            subject.plan()?.save(&file)?;
+            println!("{}", file.display());
+        }
     }
     Ok(())
 }

@@ -228,7 +228,7 @@ impl Plan {
         py.import("cplan.cspace")?.call_method1("read", (spaces,))
     }
 
-    /// Writes the plan as the file's name says: .json, .csv, .yaml, .mcap, .svg, .png, .html; cspace.json and .geojson.
+    /// Writes the plan as the file's name says: .json, .csv, .yaml, .mcap, .svg, .png, .gif, .html; cspace.json and .geojson.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         py.detach(|| self.plan.save(path)).map_err(|error| pyo3::exceptions::PyOSError::new_err(error.to_string()))
     }

@@ -182,7 +182,8 @@ pub struct PlanArgs {
     pub per_step: bool,
     #[command(flatten)]
     pub message: MessageArgs,
-    /// Draw workspace and configuration space side by side: .svg, .png, or .html (a page in which the arm can be moved).
+    /// Draw workspace and configuration space side by side: .svg, .png, .gif (how the planner came to its answer, then the motion), or .html
+    /// (a page that plays the same, and in which the arm can be moved).
     /// Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,

@@ -61,7 +61,9 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     let tables =
         args.output.iter().map(|path| Ok((path.clone(), is_json(path)?))).collect::<Result<Vec<_>, Failure>>()?;
     let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
-        PictureFormat::Html => Err(Failure::Usage(format!("{}: a reach is drawn as .svg or .png", path.display()))),
+        format if format.plays() => {
+            Err(Failure::Usage(format!("{}: a reach is drawn as .svg or .png", path.display())))
+        }
         format => Ok((path.clone(), format)),
     });
     let pictures = pictures.collect::<Result<Vec<_>, Failure>>()?;

@@ -1,16 +1,15 @@
 //! A view in motion: first how the planner came to its answer, then what the arm does.
 
-use super::boxes;
 use super::figure::Figure;
-use super::legend::{self, Key};
+use super::legend;
 use super::page;
-use super::view::{ShowsView, View};
+use super::view::View;
 
 /// Time between two pictures, in hundredths of a second: nearly 17 a second.
 pub const DELAY: u16 = 6;
 
 /// Shortest and longest time in which the motion is shown, seconds: what is shorter is slowed down.
-const MOTION: [f64; 2] = [2.0, 4.0];
+const MOTION: [f64; 2] = [2.0, 3.5];
 
 /// How long the end of a phase, and of all, is to be seen, hundredths of a second.
 const REST: u16 = 36;
@@ -61,11 +60,5 @@ pub fn figure(view: &View, moment: Moment) -> Figure {
         What::Moving(time) => &view.moving(time),
         What::Still => view,
     };
-    page::explained(shown, keys(view))
-}
-
-/// The legend of all moments.
-fn keys(view: &View) -> Vec<Key> {
-    let has_slabs = view.replay.iter().any(|phase| matches!(phase.shows, ShowsView::Slabs { .. }));
-    legend::keys(view).into_iter().chain(has_slabs.then(boxes::keys).into_iter().flatten()).collect()
+    page::explained(shown, legend::keys(view))
 }

@@ -12,7 +12,6 @@
 //! What is drawn, from where and in which colour stands in the [`View`]; the figure is where that is on the page, and knows
 //! no file format. The same view is the same file, byte for byte.
 
-#[cfg(feature = "png")]
 mod animation;
 mod arm;
 mod axes;
@@ -67,6 +66,13 @@ pub enum DrawError {
 #[must_use]
 pub fn svg(view: &View) -> String {
     svg_writer::write(&page::compose(view))
+}
+
+/// The view in motion, as SVG documents and how long each is to be seen, in hundredths of a second: how the planner came to its answer,
+/// where the view knows it, then what the arm does. The last one is [`svg`].
+pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
+    let moments = animation::moments(view).into_iter();
+    moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
 }
 
 /// An SVG document as a PNG file, of its size times `scale`.

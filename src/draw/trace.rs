@@ -2,7 +2,7 @@
 
 use super::boxes;
 use super::chart::Chart;
-use super::color::{self, GREY, INK, PALE, Rgb};
+use super::color::{self, ACCENT, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Raster, Rect, Style, chain, label, upwards};
 use super::legend::{Key, Sign};
 use super::view::{Chain, LEVELS, TraceView, Waves};
@@ -39,10 +39,13 @@ pub fn above(trace: &TraceView, chart: &Chart) -> Vec<Item> {
         TraceView::Roads { edges: lines, expanded } => {
             [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
         }
-        TraceView::Channel { cells, expanded, .. } => {
+        TraceView::Channel { cells, expanded, sweep, .. } => {
             let steps = cells.iter().flat_map(|cell| chart.polygon(cell)).collect();
             let sides = Item::Outline(steps, Style::line(EDGE, 0.7).faded(0.7));
-            [sides].into_iter().chain(places(expanded, chart)).collect()
+            let [bottom, top] = [chart.frame.y.0, chart.frame.y.1];
+            let line = sweep.map(|x| chain([chart.frame.at(x, bottom), chart.frame.at(x, top)], false));
+            let line = line.map(|steps| Item::Outline(steps, Style::line(ACCENT, 2.0)));
+            [sides].into_iter().chain(line).chain(places(expanded, chart)).collect()
         }
         TraceView::Boxes { free, stuck, mixed, .. } => {
             [free, stuck, mixed].map(|b| boxes::sides(b, &chart.frame)).into()
@@ -148,7 +151,7 @@ mod tests {
     #[test]
     fn a_channel_is_explained_only_where_there_is_one() {
         let names = |channel: Vec<usize>| -> Vec<String> {
-            keys(&TraceView::Channel { cells: Vec::new(), channel, expanded: Chain(Vec::new()) })
+            keys(&TraceView::Channel { cells: Vec::new(), channel, expanded: Chain(Vec::new()), sweep: None })
                 .into_iter()
                 .map(|key| key.1)
                 .collect()

@@ -17,6 +17,10 @@
 //! at the end, [`crate::search`] looks for a proof that there is no path. Should it find a path instead, which the
 //! planner's space does not show, the answer stays unknown, and says so ([`Answer::witness`]).
 //!
+//! # Replays
+//!
+//! [`Replay`] tells a run again in phases, from its trace, and from what is found once more for it alone.
+//!
 //! # Planners without a space
 //!
 //! [`decide`], and the planner `first`, is that question by itself, within one budget (among thousands of pieces it is

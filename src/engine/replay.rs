@@ -163,7 +163,7 @@ impl Phases {
                 } else {
                     self.add(edges.len(), format!("The roadmap: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
-                self.add(expanded.len(), "The search, from dark to light as it comes along", Shows::Expanded);
+                self.add(expanded.len(), "The search: where it came, one after the other", Shows::Expanded);
             }
             Trace::Channel { cells, channel, expanded } => {
                 let caption = match options.planner {
@@ -186,7 +186,7 @@ impl Phases {
             }
             Trace::Boxes { free, stuck, mixed } => {
                 let count = free.len() + stuck.len() + mixed.len();
-                let caption = format!("{}, coarse to fine: free, stuck, or still undecided", boxes(count));
+                let caption = format!("{}, coarse to fine: free ones green, undecided ones yellow", boxes(count));
                 self.add(count, caption, Shows::Boxes);
             }
             Trace::Wavefront { labels, expanded, .. } => {
@@ -237,7 +237,7 @@ impl Phases {
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
-        let caption = "Slabs of joint 1, halved where it matters: free, stuck, or still undecided";
+        let caption = "Slabs of joint 1, halved where it matters: free green, undecided yellow";
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 

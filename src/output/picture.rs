@@ -98,6 +98,7 @@ impl PictureFormat {
     ///
     /// # Errors
     /// As [`PictureFormat::bytes`].
+    #[cfg_attr(not(feature = "png"), expect(unused_variables, reason = "nothing moves without pixels"))]
     pub fn bytes_with(self, view: &View, progress: &mut dyn FnMut(usize, usize)) -> Result<Vec<u8>, DrawError> {
         match self {
             #[cfg(feature = "png")]

@@ -15,6 +15,7 @@ mod optimum;
 mod published;
 mod random_tasks;
 mod random_worlds;
+mod replay;
 mod roadmap;
 mod search;
 mod shortest;

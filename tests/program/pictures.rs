@@ -18,3 +18,22 @@ fn pictures_are_up_to_date() {
     let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     assert_eq!(files.filter(|f| f.extension().is_some_and(|e| e == "svg")).count(), drawn::PICTURES.len());
 }
+
+/// The picture that moves ends with the still one. To draw it anew takes seconds, so its other pictures are not compared.
+#[cfg(feature = "png")]
+#[test]
+fn the_picture_that_moves_is_up_to_date() {
+    let (name, of) = drawn::MOVING;
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures").join(name).with_extension("gif");
+    let bytes = fs::read(file).unwrap();
+    let (count, kept) = crate::draw::moving::last_picture(&bytes, 960);
+    let (_, subject) = drawn::PICTURES.iter().find(|(name, _)| *name == of).unwrap();
+    let drawn = cplan::draw::png(&subject.svg().unwrap(), 960.0 / 1400.0).unwrap();
+    let drawn = resvg::tiny_skia::Pixmap::decode_png(&drawn).unwrap();
+    let near = |(a, b): (&resvg::tiny_skia::PremultipliedColorU8, &[u8; 3])| {
+        [(a.red(), b[0]), (a.green(), b[1]), (a.blue(), b[2])].iter().all(|(a, b)| a.abs_diff(*b) <= 24)
+    };
+    let same = drawn.pixels().iter().zip(&kept).filter(|&pair| near(pair)).count();
+    assert!(count > 80 && drawn.pixels().len() == kept.len());
+    assert!(same > kept.len() / 1000 * 995, "{name}.gif is out of date: cargo run --release --example pictures");
+}

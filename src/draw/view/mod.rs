@@ -34,7 +34,7 @@ pub use task::TaskPicture;
 pub(super) use extent::around;
 pub(super) use motion::PathView;
 pub(super) use numbers::{Chain, Grain};
-pub(super) use replay::{PhaseView, ShowsView};
+use replay::PhaseView;
 pub(super) use states::ranges;
 pub(super) use steps::Row;
 pub(super) use trace::TraceView;
@@ -171,10 +171,11 @@ impl View {
 
     /// Where motions end in a panel or were to, the number of the step, and whether one ends there (or none was found).
     pub(super) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
-        let goals = self.goals.iter().map(|&q| (q.into(), 0, panel.paths.is_empty()));
+        let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
+        let is_alone = paths.clone().next().is_none();
+        let goals = self.goals.iter().map(|&q| (q.into(), 0, is_alone));
         let unreached = &self.worlds[panel.worlds[0]].unreached;
         let unreached = unreached.iter().map(|&q| (q.into(), panel.fails.unwrap_or(0), false));
-        let paths = panel.paths.iter().map(|&index| &self.paths[index]);
         goals.chain(unreached).chain(paths.map(|path| (path.goal(), path.step, true))).collect()
     }
 

@@ -32,6 +32,9 @@ pub struct PathView {
     /// The number of the step that it is in a task.
     #[serde(skip)]
     pub step: usize,
+    /// Whether it is being drawn, and does not end where it does as yet.
+    #[serde(skip)]
+    pub grows: bool,
 }
 
 impl PathView {
@@ -48,6 +51,7 @@ impl PathView {
             points: grain.configurations(path.waypoints()),
             ghosts: grain.configurations(&between(path, GHOSTS)),
             step: 0,
+            grows: false,
         }
     }
 
@@ -58,9 +62,9 @@ impl PathView {
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
-    /// The same line along other configurations, without poses between its ends.
+    /// The same line along other configurations, without poses between its ends, while it is being drawn.
     pub fn along(&self, points: Chain) -> Self {
-        Self { points, ghosts: Chain::default(), ..self.clone() }
+        Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }
 
     /// Another way than this path's, in grey beside it.

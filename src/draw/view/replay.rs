@@ -9,8 +9,8 @@ use crate::space::{Configuration, Topology};
 use serde::Serialize;
 
 /// A phase takes this long at least and at most, and so long for the square root of its events; seconds.
-const SECONDS: [f64; 2] = [0.9, 2.4];
-const A_ROOT: f64 = 0.12;
+const SECONDS: [f64; 2] = [1.2, 2.2];
+const A_ROOT: f64 = 0.1;
 
 /// A phase of a run; without data of its own it shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -147,9 +147,9 @@ impl View {
             Some(at) if at > phase => 0.0,
             _ => 1.0,
         };
-        if let Some(line) = view.title.get_mut(1) {
-            line.clone_from(&now.caption);
-        }
+        // As many lines as there are when the motion begins, so that nothing jumps.
+        view.title.rotate_right(1);
+        view.title[0].clone_from(&now.caption);
         view.status.clear();
         let world = &mut view.worlds[0];
         world.proof = begun(&world.proof, 2, shown(|shows| *shows == ShowsView::Proof));
@@ -188,10 +188,14 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         }
         (_, TraceView::Roadmap { edges: all, .. }) => *all = begun(all, 2, edges()),
         (_, TraceView::Slices { free }) => *free = begun(free, 2, shown(|shows| *shows == ShowsView::Slices)),
-        (_, TraceView::Channel { cells, channel, expanded }) => {
+        (_, TraceView::Channel { cells, channel, expanded, sweep }) => {
             // Those that are not there yet keep their places.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
+            *sweep = match now.shows {
+                ShowsView::Cells { swept: true } => cells[..count].last().map(|cell| left(cell)),
+                _ => None,
+            };
             channel.truncate(self::count(channel.len(), shown(|shows| *shows == ShowsView::Channel)));
             *expanded = begun(expanded, 1, expanded_part());
         }
@@ -213,6 +217,11 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         }
         (_, TraceView::Wavefront(_) | TraceView::Boxes { .. }) => {}
     }
+}
+
+/// The least value of joint 1.
+fn left(cell: &Chain) -> f64 {
+    cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
 /// How many of so many are there.

@@ -32,6 +32,9 @@ pub enum TraceView {
         /// Where the search came, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
+        /// Where the line is that sweeps over the cells, while it is told how it was.
+        #[serde(skip)]
+        sweep: Option<f64>,
     },
     /// A roadmap: both ends of each edge, and where the search came, in order.
     Roads { edges: Chain, expanded: Chain },
@@ -73,6 +76,7 @@ impl TraceView {
                 cells: cells.iter().map(|cell| grain.configurations(cell)).collect(),
                 channel: channel.clone(),
                 expanded: grain.configurations(expanded),
+                sweep: None,
             },
             Trace::Roads { edges, expanded } => {
                 Self::Roads { edges: pairs(edges), expanded: grain.configurations(expanded) }

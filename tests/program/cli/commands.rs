@@ -35,7 +35,7 @@ fn wrong_command_lines_end_with_2() {
         ("--levels 0", "1..=12"),
         ("--output result.txt", ".json, .csv, .yaml"),
         ("--output .json", ".json, .csv, .yaml"),
-        ("--picture drawing.pdf", ".svg, .png or .html"),
+        ("--picture drawing.pdf", ".svg, .png, .gif or .html"),
         ("--gap 0", "more than 0"),
         ("--gap nan", "more than 0"),
         ("--gap 0.1 --planner wavefront", "needs --planner shortest or visibility"),

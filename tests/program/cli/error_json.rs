@@ -48,7 +48,7 @@ fn a_wrong_command_line_is_json_too() {
     assert!(json["cure"].as_str().unwrap().contains("--planner"), "{json}");
     place.run(&shelf(), "--json --planner best").error(2, "usage", &["invalid value 'best'"]);
     place.run::<&str>(&[], "--json").error(2, "usage", &["required"]);
-    place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png or .html"]);
+    place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png, .gif or .html"]);
     // Without the flag nothing is on stdout; help is no error.
     place.run(&shelf(), "--planner best").refused(2, &["invalid value"]);
     let help = place.run::<&str>(&[], "--json --help");

@@ -161,9 +161,25 @@ fn recordings_hold_every_sample_and_are_the_same_each_time() {
 #[test]
 fn a_program_without_png_says_so_before_any_work() {
     let place = Place::new();
-    let done = place.run(&shelf(), "--output a.json --picture a.png");
-    done.refused(1, &["a.png", "built without PNG", ".svg"]);
-    assert!(!place.path("a.json").exists());
+    for picture in ["a.png", "a.gif"] {
+        let done = place.run(&shelf(), &format!("--output a.json --picture {picture}"));
+        done.refused(1, &[picture, "built without pixels", ".svg"]);
+        assert!(!place.path("a.json").exists());
+    }
+}
+
+#[cfg(feature = "png")]
+#[test]
+fn a_picture_that_moves_is_written_beside_others() {
+    let place = Place::new();
+    let done = place.run(&shelf(), "--planner first --picture plan.gif --picture plan.svg --picture plan.html");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let bytes = std::fs::read(place.path("plan.gif")).unwrap();
+    let (count, pixels) = crate::draw::moving::last_picture(&bytes, 960);
+    assert!(count > 40 && pixels.len() == 960 * 494, "{count} pictures");
+    // What plays has the replay, what stands still is drawn without it.
+    let page = std::fs::read_to_string(place.path("plan.html")).unwrap();
+    assert!(page.contains("\"replay\":[{\"caption\":") && done.stdout.contains("plan.gif"));
 }
 
 #[cfg(not(feature = "mcap"))]

@@ -2,6 +2,7 @@
 //!
 //! Set `CPLAN_PICTURES` to a folder to have the pictures written there and look at them.
 
+pub mod moving;
 mod pages;
 mod scenes;
 mod tasks;

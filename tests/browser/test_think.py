@@ -1,0 +1,110 @@
+"""How the planner came to its answer, played on the page."""
+
+import pytest
+from test_page import pixels
+
+PLANNERS = ["shortest", "first", "visibility", "trapezoid", "triangles", "voronoi", "prm", "wavefront", "harmonic", "subdivision"]
+
+
+def think(seen):
+    seen.page.get_by_role("button", name="Think", exact=True).click()
+    assert seen.do("cplan.mode") == "think"
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_each_planner_tells_its_run_phase_by_phase(program, show_file, planner):
+    page, _ = program.plan("planar_2r", "workbench", "--planner", planner)
+    seen = show_file(page)
+    still = pixels(seen, "cspace")
+    think(seen)
+    phases = seen.do("cplan.model.replay")
+    assert seen.do("cplan.duration") == pytest.approx(sum(phase["seconds"] for phase in phases))
+    begin = 0
+    for number, phase in enumerate(phases, 1):
+        shown = set()
+        for part in (0.05, 0.4, 0.7, 0.99):
+            seen.do("(t) => cplan.seek(t)", begin + part * phase["seconds"])
+            assert seen.page.locator(".step").inner_text() == f"{number} of {len(phases)}: {phase['caption']}"
+            shown.add(pixels(seen, "cspace"))
+        assert len(shown) > 2, phase["caption"]
+        begin += phase["seconds"]
+    seen.shoot(f"think_{planner}")
+    # Back in the motion all is as it was.
+    seen.page.get_by_role("button", name="Move", exact=True).click()
+    assert pixels(seen, "cspace") == still
+
+
+def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    keyboard = seen.page.keyboard
+    keyboard.press("Shift+ArrowRight")
+    assert seen.do("cplan.time") == pytest.approx(0.5)
+    keyboard.press("t")
+    assert (seen.do("cplan.mode"), seen.do("cplan.time")) == ("think", 0)
+    assert seen.page.locator(".plots").is_hidden()
+    for _ in range(4):
+        keyboard.press("+")
+    keyboard.press(" ")
+    seen.until("cplan.time === cplan.duration && !cplan.playing")
+    assert "certified" in seen.page.locator(".step").inner_text()
+    keyboard.press("Home")
+    keyboard.press("ArrowRight")
+    assert seen.do("cplan.time") == pytest.approx(0.05)
+    keyboard.press("t")
+    assert (seen.do("cplan.mode"), seen.do("cplan.time")) == ("move", pytest.approx(0.5))
+    # Who does not see it is told of each phase, once.
+    assert seen.page.locator(".step").get_attribute("aria-live") == "polite"
+    pressed = seen.page.get_by_role("group", name="What is played").get_by_role("button", pressed=True)
+    assert pressed.all_inner_texts() == ["Move"]
+
+
+def test_the_arm_stands_where_the_planner_looks(program, show_file):
+    page, _ = program.plan("planar_2r", "workbench", "--planner", "voronoi")
+    seen = show_file(page)
+    think(seen)
+    edges = seen.do("cplan.world.trace.edges")
+    ends = [tuple(edges[k : k + 2]) for k in range(0, len(edges), 2)]
+    # A configuration of an edge's end, not the start.
+    seen.do("cplan.seek(0.6 * cplan.model.replay[0].seconds)")
+    at = seen.do("cplan.q")
+    middles = [((a[0] + b[0]) / 2, (a[1] + b[1]) / 2) for a, b in zip(ends[::2], ends[1::2])]
+    assert any(at == pytest.approx(q, abs=1e-9) for q in ends + middles)
+    assert at != seen.do("cplan.beginning()")
+
+
+def test_what_is_proven_impossible_is_told_at_once_and_ends_with_the_proof(program, show_file):
+    page, _ = program.plan("planar_2r_continuous", "no_path", code=2)
+    seen = show_file(page)
+    assert seen.do("cplan.mode") == "think" and seen.do("cplan.time") == seen.do("cplan.duration")
+    assert "there is no path" in seen.page.locator(".step").inner_text()
+    proven = pixels(seen, "cspace")
+    seen.page.keyboard.press("Home")
+    assert pixels(seen, "cspace") != proven
+    seen.shoot("think_proof")
+
+
+def test_a_task_has_a_motion_alone(program, show_file):
+    page, _ = program.plan("rrbot_vertical", "tasks/tower")
+    seen = show_file(page)
+    assert seen.page.get_by_role("button", name="Think", exact=True).is_hidden()
+    seen.page.keyboard.press("t")
+    assert seen.do("cplan.mode") == "move"
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_controls_fit_a_phone(program, show_file, scheme):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=360, height=740, color_scheme=scheme)
+    think(seen)
+    seen.do("cplan.seek(cplan.duration / 2)")
+    assert seen.do("document.documentElement.scrollWidth <= innerWidth")
+    assert seen.page.get_by_label("time", exact=True).bounding_box()["width"] > 250
+    seen.shoot(f"think_phone_{scheme}")
+
+
+def test_the_page_stays_small(program):
+    page, _ = program.plan("planar_2r", "shelf")
+    text = page.read_text()
+    replay = text[text.index('"replay":') : text.index("</script>", text.index('"replay":'))]
+    assert len(replay) < 60_000

@@ -1,0 +1,158 @@
+//! How planners came to their answers: what is told of it is what happened.
+
+use crate::common::shipped_feasible;
+use cplan::engine::{Method, Phase, Replay, Shows, SlabBoxes, Verdict};
+use cplan::planner::{GridSearch, PathKind, Trace};
+use cplan::space::Configuration;
+use cplan::{Options, Plan, Planner, Problem, plan};
+use std::path::Path;
+
+fn asked(robot: &str, world: &str, planner: impl Into<Options>) -> Plan {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = |folder: &str, name: &str, extension: &str| root.join(folder).join(name).with_extension(extension);
+    let problem = Problem::load(file("robots", robot, "urdf"), file("workspaces", world, "toml")).unwrap();
+    plan(&problem, &planner.into()).unwrap()
+}
+
+fn replayed(plan: &Plan) -> Vec<Phase> {
+    let Replay { phases } = plan.replay().unwrap();
+    assert_eq!(plan.replay().unwrap().phases, phases, "told twice it is the same");
+    for Phase { caption, events, .. } in &phases {
+        assert!(!caption.is_empty() && !caption.contains('\n') && caption.len() < 100, "{caption:?}");
+        assert!(*events > 0, "{caption}");
+    }
+    phases
+}
+
+/// How many things the trace has for a phase to show.
+fn there(shows: &Shows, trace: &Trace) -> Option<usize> {
+    Some(match (shows, trace) {
+        (Shows::Nodes | Shows::Edges, Trace::Roadmap { edges, .. } | Trace::Roads { edges, .. }) => edges.len(),
+        (Shows::Expanded, Trace::Roads { expanded, .. } | Trace::Channel { expanded, .. }) => expanded.len(),
+        (Shows::Cells { .. }, Trace::Channel { cells, .. }) => cells.len(),
+        (Shows::Channel, Trace::Channel { channel, .. }) => channel.len(),
+        (Shows::Slices, Trace::Slices { free }) => free.len(),
+        (Shows::Boxes, Trace::Boxes { free, stuck, mixed }) => free.len() + stuck.len() + mixed.len(),
+        (Shows::Wave, Trace::Wavefront { labels, .. }) => labels.iter().filter(|&&label| label != u32::MAX).count(),
+        (Shows::Levels, Trace::Field { .. } | Trace::Harmonic { .. }) => {
+            trace.logarithms()?.1.iter().filter(|ln| ln.is_finite()).count()
+        }
+        _ => return None,
+    })
+}
+
+#[test]
+fn every_planner_tells_how_it_came_to_its_path() {
+    for method in Method::ALL {
+        let plan = asked("planar_2r", "workbench", method);
+        let made = plan.motion().unwrap();
+        let (answer, phases) = (&made.answer, replayed(&plan));
+        let Verdict::Found(path) = &answer.verdict else { panic!("{method} finds it") };
+        assert_eq!(phases.last().unwrap().shows, Shows::Path, "{method}");
+        assert!(phases.len() > 1, "{method} saw something before");
+        for Phase { shows, events, caption } in &phases {
+            match shows {
+                Shows::Path => assert_eq!(*events, path.path().waypoints().len()),
+                Shows::Own(own) => {
+                    assert_eq!(answer.path, PathKind::Taut);
+                    assert!(own.length() >= path.path().length() - 1e-9, "{method} pulls its path taut");
+                }
+                Shows::Slabs(_) | Shows::Sweeps(_) => {}
+                _ => assert_eq!(there(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
+            }
+        }
+        let has_own = phases.iter().any(|phase| matches!(phase.shows, Shows::Own(_)));
+        assert_eq!(has_own, method.has_own_path() && method.path_kind() == PathKind::Taut, "{method}");
+    }
+}
+
+#[test]
+fn searches_are_told_in_the_order_in_which_they_went() {
+    for search in GridSearch::ALL {
+        let mut planner = Planner::named(Method::Wavefront);
+        let Planner::Wavefront { search: how, .. } = &mut planner else { panic!("a wavefront") };
+        *how = search;
+        let plan = asked("planar_2r", "shelf", planner);
+        let Trace::Wavefront { cells, labels, expanded } = &plan.motion().unwrap().answer.run.trace else {
+            panic!("a wavefront")
+        };
+        assert_eq!(expanded.is_empty(), search == GridSearch::Wave);
+        let [first, .., last] = &expanded[..] else { continue };
+        assert_eq!(labels[*first as usize], 0, "{search} begins at the goal");
+        // The start's cell, by the limits of the arm.
+        let arm = plan.problem().scene().arm();
+        let at = |k: usize| {
+            let (lower, upper) = arm.topology().ranges[k].domain();
+            ((plan.trajectory().unwrap().position[0][k] - lower) / (upper - lower) * cells[k] as f64) as usize
+        };
+        assert_eq!(*last as usize, at(0) * cells[1] + at(1), "{search} ends at the start");
+        let phase = &replayed(&plan)[0];
+        assert_eq!((&phase.shows, phase.events), (&Shows::Wave, expanded.len()), "{search}");
+        let by_distance = expanded.is_sorted_by_key(|&cell| labels[cell as usize]);
+        assert!(by_distance || !matches!(search, GridSearch::BreadthFirst | GridSearch::Dijkstra), "{search}");
+    }
+}
+
+#[test]
+fn boxes_of_slabs_are_what_they_are_said_to_be() {
+    let mut seen = 0;
+    for (name, problem) in shipped_feasible() {
+        let options = Options::from(Method::First);
+        let answer = cplan::engine::solve(&problem, &options, &mut |_| ());
+        let Replay { phases } = Replay::new(&problem, &options, &answer);
+        let Some(Phase { shows: Shows::Slabs(SlabBoxes { free, stuck, mixed }), events, .. }) = phases.first() else {
+            continue;
+        };
+        assert_eq!(free.len() + stuck.len() + mixed.len(), *events, "{name}");
+        let (scene, clearance) = (problem.scene(), problem.scene().workspace().clearance);
+        let places = |[lower, upper]: &[Configuration; 2]| {
+            let at = |a: f64, b: f64| {
+                Configuration::new(lower[0] + a * (upper[0] - lower[0]), lower[1] + b * (upper[1] - lower[1]))
+            };
+            [at(0.5, 0.5), at(0.1, 0.2), at(0.9, 0.7)]
+        };
+        for place in free.iter().flat_map(places) {
+            assert!(scene.clearance(place) >= clearance, "{name}: {place:?} is free");
+        }
+        for place in stuck.iter().flat_map(places) {
+            assert!(scene.clearance(place) <= clearance, "{name}: {place:?} is stuck");
+        }
+        seen += free.len() + stuck.len();
+    }
+    assert!(seen > 100, "{seen} boxes");
+}
+
+#[test]
+fn a_proof_is_told_box_by_box() {
+    let plan = asked("planar_2r_continuous", "no_path", Method::Shortest);
+    let proof = plan.motion().unwrap().answer.verdict.proof().unwrap().stuck().len();
+    let last = replayed(&plan).pop().unwrap();
+    assert_eq!((last.shows, last.events), (Shows::Proof, proof));
+}
+
+#[test]
+fn a_field_is_told_between_its_sweeps() {
+    let relaxed = cplan::planner::FieldPlanner {
+        field: cplan::planner::FieldChoice::Relaxed {
+            equation: cplan::planner::EquationChoice::Harmonic,
+            relaxation: cplan::field::Relaxation::JACOBI,
+            tolerance: 1e-3,
+            max_sweeps: 400,
+            on: cplan::field::Device::Cpu,
+        },
+        limits: cplan::field::Limits::High,
+        path: PathKind::Own,
+    };
+    let mut planner = Planner::named(Method::Harmonic).with_cells(32);
+    let Planner::Harmonic { field, .. } = &mut planner else { panic!("a field") };
+    *field = Some(relaxed);
+    let plan = asked("planar_2r", "shelf", planner);
+    let phases = replayed(&plan);
+    let Some(Phase { shows: Shows::Sweeps(sweeps), .. }) = phases.first() else { panic!("{phases:?}") };
+    let total = plan.motion().unwrap().answer.run.size.figures()[1].1;
+    assert!(sweeps.frames.is_sorted_by(|a, b| a.0 < b.0) && sweeps.frames.last().unwrap().0 == total);
+    let reached = |values: &[f64]| values.iter().filter(|value| value.is_finite()).count();
+    assert!(sweeps.frames.is_sorted_by_key(|(_, values)| reached(values)), "a sweep takes nothing back");
+    assert!(reached(&sweeps.frames[0].1) < reached(&sweeps.frames.last().unwrap().1));
+    assert!(sweeps.frames.iter().all(|(_, values)| values.len() == sweeps.cells[0] * sweeps.cells[1]));
+}
