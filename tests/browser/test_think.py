@@ -74,7 +74,7 @@ def test_the_arm_stands_where_the_planner_looks(program, show_file):
 
 
 def test_what_is_proven_impossible_is_told_at_once_and_ends_with_the_proof(program, show_file):
-    page, _ = program.plan("planar_2r_continuous", "no_path", code=2)
+    page, _ = program.plan("planar_2r_continuous", "no_path", code=3)
     seen = show_file(page)
     assert seen.do("cplan.mode") == "think" and seen.do("cplan.time") == seen.do("cplan.duration")
     assert "there is no path" in seen.page.locator(".step").inner_text()
