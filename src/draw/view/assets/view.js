@@ -203,7 +203,7 @@ class View {
         type: 'range', min: '0', max: '1', step: 'any', value: '0', 'aria-label': 'time',
         oninput: (event) => this.seek(Number(event.target.value)),
       }),
-      clock: element('output', { class: 'clock' }),
+      clock: element('span', { class: 'clock' }),
       step: element('p', { class: 'step', 'aria-live': 'polite' }),
       layers: element('div', { class: 'choices' }),
       obstacles: element('div', { class: 'choices' }),
