@@ -12,6 +12,9 @@ use serde::Serialize;
 const SECONDS: [f64; 2] = [1.2, 2.2];
 const A_ROOT: f64 = 0.1;
 
+/// All phases together take this long at most, seconds: what takes longer nobody watches.
+const MOST: f64 = 6.0;
+
 /// A phase of a run; without data of its own it shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
@@ -64,10 +67,14 @@ pub enum ShowsView {
 impl PhaseView {
     /// All phases of a replay.
     pub fn all(replay: &Replay, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Vec<Self> {
-        replay.phases.iter().map(|phase| Self::new(phase, topology, trace, grain)).collect()
+        let seconds = |phase: &Phase| (A_ROOT * (phase.events as f64).sqrt()).clamp(SECONDS[0], SECONDS[1]);
+        let hurry = (MOST / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
+        let rounded = |seconds: f64| (seconds * 100.0).round() / 100.0;
+        let told = |phase| Self::new(phase, rounded(hurry * seconds(phase)), topology, trace, grain);
+        replay.phases.iter().map(told).collect()
     }
 
-    fn new(phase: &Phase, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Self {
+    fn new(phase: &Phase, seconds: f64, topology: &Topology, trace: Option<&TraceView>, grain: Grain) -> Self {
         let corners = |boxes: &[[Configuration; 2]]| grain.configurations(boxes.iter().flatten());
         let shows = match &phase.shows {
             Shows::Nodes => ShowsView::Nodes,
@@ -98,8 +105,7 @@ impl PhaseView {
             Shows::Path => ShowsView::Path,
             Shows::Proof => ShowsView::Proof,
         };
-        let seconds = (A_ROOT * (phase.events as f64).sqrt()).clamp(SECONDS[0], SECONDS[1]);
-        Self { caption: phase.caption.clone(), events: phase.events, seconds: (seconds * 100.0).round() / 100.0, shows }
+        Self { caption: phase.caption.clone(), events: phase.events, seconds, shows }
     }
 }
 
