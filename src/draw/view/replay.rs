@@ -199,7 +199,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
             *sweep = match now.shows {
-                ShowsView::Cells { swept: true } => cells[..count].last().map(|cell| left(cell)),
+                ShowsView::Cells { swept: true } => cells[..count].last().map(left),
                 _ => None,
             };
             channel.truncate(self::count(channel.len(), shown(|shows| *shows == ShowsView::Channel)));
