@@ -62,8 +62,14 @@ pub mod report;
 pub mod output;
 #[cfg(feature = "study")]
 pub mod study;
-#[cfg(feature = "program")]
+#[cfg(any(feature = "program", feature = "live"))]
+#[cfg_attr(
+    not(feature = "program"),
+    expect(unused_imports, reason = "the live page has a part of the command line's grammar")
+)]
 mod grammar;
+#[cfg(feature = "live")]
+pub mod live;
 #[cfg(feature = "serve")]
 mod serve;
 #[cfg(feature = "program")]

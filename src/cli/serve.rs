@@ -4,7 +4,8 @@ use super::failure::Failure;
 use super::{DONE, demo, sinks};
 use crate::grammar::number_in;
 use crate::input::{Source, scene_from};
-use crate::serve::{self, Host, Options};
+use crate::live::{Host, Options};
+use crate::serve;
 use clap::Args;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
 use std::path::PathBuf;
@@ -70,7 +71,7 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     if !args.bind.is_loopback() {
         sinks::say("warning: other machines can open this page, and have this one plan for them: there is no password");
     }
-    let host = Host::new(address, urdf, world, scene, args.with.clone(), args.time_limit)
+    let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
         .ok_or_else(|| Failure::Option("the world is no TOML".into()))?;
     sinks::print(&format!("http://{address}/\n"))?;
     sinks::say("open it in a browser; Ctrl-C ends");

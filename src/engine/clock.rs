@@ -1,7 +1,8 @@
 //! Time per stage.
 
 use super::Stages;
-use std::time::{Duration, Instant};
+use crate::interrupt::Instant;
+use std::time::Duration;
 
 /// Stages in the order in which they end, each with the time since the one before.
 #[derive(Debug, Clone)]

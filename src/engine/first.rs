@@ -2,9 +2,9 @@
 
 use super::settle::decide;
 use super::{Answer, Method, Options, Space, Stages, Verdict};
+use crate::interrupt::Instant;
 use crate::model::MotionProblem;
 use crate::planner::{PathKind, Proposal, Run, Size, Trace};
-use std::time::Instant;
 
 /// Answers `problem` by [`decide`].
 pub(super) fn solve(problem: &MotionProblem, options: &Options) -> Answer {

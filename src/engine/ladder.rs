@@ -6,12 +6,12 @@ use super::rungs::{Described, cells, field_cells, polygons, zoned_cells};
 use super::settle::decide;
 use super::{Answer, Options, Planner, Space, Stages, Verdict, first, shortest, subdivision};
 use crate::check::{CertifiedPath, Rejection, certify};
+use crate::interrupt::Instant;
 use crate::model::{MotionProblem, Scene};
 use crate::planner::{
     FieldPlanner, Harmonic, Prm, Proposal, Query, Run, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use crate::space::{Metric, Path, Segment};
-use std::time::Instant;
 
 /// Boxes of the first look for a proof, after the first attempt has failed: enough where a proof is easy, and little
 /// beside a finer attempt where it is not.

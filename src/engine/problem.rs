@@ -2,11 +2,12 @@
 
 use super::Kind;
 use crate::input::{self, InputError, Loaded, LoadedScene, LoadedTask, Overrides, RobotReport};
+use crate::interrupt::Instant;
 use crate::model::{Arm, MotionProblem, MotionProblemError, RobotJoints, Scene, SceneError, Task, Workspace};
 use crate::space::{Configuration, GoalSet};
 use std::path::Path;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use thiserror::Error;
 
 /// A robot, its world, and what it is to do there: a motion from a start to a goal, or the steps of a task. Checked, and

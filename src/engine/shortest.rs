@@ -13,10 +13,11 @@ use super::ladder::{CLOSE, FIRST_BOXES, climb_polygons};
 use super::settle::decide;
 use super::{Answer, Method, Options, Stages, Verdict};
 use crate::check::{CertifiedPath, certify};
+use crate::interrupt::Instant;
 use crate::model::MotionProblem;
 use crate::planner::{Size, Trace};
 use crate::search::{Motions, Proposed, Refused, short_motion};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What paths keep from obstacles beyond the clearance, as shares of the arm's reach and of the gap, one after the other.
 const KEPT: [f64; 4] = [0.25, 0.06, 0.015, 0.004];

@@ -6,11 +6,11 @@ use super::{Answer, Method, Options, Space, Stages, Verdict};
 use crate::check::CertifiedPath;
 use crate::check::{Rejection, certify};
 use crate::geometry::Point;
+use crate::interrupt::Instant;
 use crate::model::MotionProblem;
 use crate::planner::{PathKind, Proposal, Run, Size, Trace};
 use crate::search::{Channel, Connectivity, Exploration, Occupancy, explore};
 use crate::space::{Configuration, Path, Portal, funnel_path, nearest_end};
-use std::time::Instant;
 
 /// Answers `problem` by [`explore`]: a path through free boxes, pulled taut unless their own is asked for; a proof; or neither within
 /// [`Options::boxes`]. There is nothing to refine and try again: the boxes are refined where it matters as it goes.

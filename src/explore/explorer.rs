@@ -9,12 +9,12 @@ use super::settings::{ExploreError, Settings, Strategy};
 use super::survey::Survey;
 use crate::check::{CertifiedPath, certify};
 use crate::engine::{Options, Verdict, solve};
+use crate::interrupt::Instant;
 use crate::interrupt::checkpoint;
 use crate::model::{MotionProblem, Scene, Sensor};
 use crate::motion::Trajectory;
 use crate::space::{Configuration, Draws, GoalSet, Path};
 use crate::text::counted;
-use std::time::Instant;
 
 /// The arm is at a goal if it is no farther from it than this: whole turns may have been added to it, and rounded.
 const AT_GOAL: f64 = 1e-9;

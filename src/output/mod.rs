@@ -18,10 +18,10 @@ pub use cspace::{
     Values, Way, cspace_schema,
 };
 pub use file::{FileFormat, SaveError};
-#[cfg(feature = "serve")]
+#[cfg(feature = "live")]
 pub(crate) use picture::status;
 pub use picture::{PictureFormat, PictureFormatError};
-#[cfg(feature = "program")]
+#[cfg(any(feature = "program", feature = "live"))]
 pub(crate) use picture::{contours, title_of};
 #[cfg(feature = "program")]
 pub(crate) use step_lines::{StepLine, step_lines};

@@ -1,8 +1,7 @@
 //! The server: one page, its parts, and its WebSocket; nothing else, and to nobody who was led here by another page.
 
-use super::Host;
-use super::socket;
-use crate::draw::{drawing, shell};
+use super::{Server, socket};
+use crate::live;
 use axum::Router;
 use axum::extract::{Request, State, WebSocketUpgrade};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header};
@@ -45,30 +44,14 @@ const HEADERS: [(HeaderName, &str); 6] = [
     (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
 ];
 
-/// What moves things in the page, in the order in which one part needs the other.
-const CODE: [&str; 7] = [
-    include_str!("assets/link.js"),
-    include_str!("assets/keep.js"),
-    include_str!("assets/notices.js"),
-    include_str!("assets/scene.js"),
-    include_str!("assets/edit.js"),
-    include_str!("assets/controls.js"),
-    include_str!("assets/live.js"),
-];
-
-/// The page with its scripts and styles in one document.
-fn page() -> String {
-    shell("cplan", "", include_str!("assets/live.css"), "", &(drawing() + &CODE.concat()))
-}
-
 /// Serves until the process ends.
-pub async fn serve(listener: TcpListener, host: Arc<Host>) {
-    let page = Arc::<str>::from(page());
+pub async fn serve(listener: TcpListener, server: Arc<Server>) {
+    let page = Arc::<str>::from(live::page());
     let router = Router::new()
         .route("/", get(async move || Html(page.to_string())))
         .route("/live", get(upgrade))
-        .layer(middleware::from_fn_with_state(Arc::clone(&host), guarded))
-        .with_state(host);
+        .layer(middleware::from_fn_with_state(Arc::clone(&server), guarded))
+        .with_state(server);
     let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
         // A permit is never refused: the semaphore is never closed.
@@ -96,8 +79,8 @@ pub async fn serve(listener: TcpListener, host: Arc<Host>) {
 }
 
 /// Refuses what no page of ours asks for, and puts [`HEADERS`] on everything.
-async fn guarded(State(host): State<Arc<Host>>, request: Request, next: Next) -> Response {
-    let mut response = match refusal(&host, request.headers()) {
+async fn guarded(State(server): State<Arc<Server>>, request: Request, next: Next) -> Response {
+    let mut response = match refusal(&server, request.headers()) {
         Some((status, why)) => (status, why).into_response(),
         None => next.run(request).await,
     };
@@ -108,9 +91,9 @@ async fn guarded(State(host): State<Arc<Host>>, request: Request, next: Next) ->
 }
 
 /// Why a request is refused, if it is.
-fn refusal(host: &Host, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
+fn refusal(server: &Server, headers: &HeaderMap) -> Option<(StatusCode, &'static str)> {
     let named = headers.get(header::HOST).and_then(|value| value.to_str().ok());
-    if !named.is_some_and(|named| is_ours(named, host.address)) {
+    if !named.is_some_and(|named| is_ours(named, server.address)) {
         return Some((StatusCode::MISDIRECTED_REQUEST, "this server goes by its address alone\n"));
     }
     // Only WebSockets and requests of other pages have one.
@@ -141,17 +124,17 @@ fn is_ours(named: &str, here: SocketAddr) -> bool {
 }
 
 /// The WebSocket. Browsers always say where they come from, so who does not is none of ours.
-async fn upgrade(State(host): State<Arc<Host>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
+async fn upgrade(State(server): State<Arc<Server>>, headers: HeaderMap, upgrade: WebSocketUpgrade) -> Response {
     if !headers.contains_key(header::ORIGIN) {
         return (StatusCode::FORBIDDEN, "this server answers its own page alone\n").into_response();
     }
-    let Ok(permit) = Arc::clone(&host.sessions).try_acquire_owned() else {
+    let Ok(permit) = Arc::clone(&server.sessions).try_acquire_owned() else {
         return (StatusCode::SERVICE_UNAVAILABLE, "too many pages are open\n").into_response();
     };
     upgrade
         .max_message_size(socket::LARGEST_MESSAGE)
         .max_frame_size(socket::LARGEST_MESSAGE)
-        .on_upgrade(move |socket| socket::session(socket, host, permit))
+        .on_upgrade(move |socket| socket::session(socket, Arc::clone(&server.host), permit))
 }
 
 #[cfg(test)]

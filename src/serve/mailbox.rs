@@ -1,7 +1,7 @@
 //! What a page has asked and its worker has not done yet: the latest counts.
 
-use super::protocol::Request;
 use crate::interrupt::Interrupt;
+use crate::live::Request;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -81,8 +81,8 @@ impl Mailbox {
 
 #[cfg(test)]
 mod tests {
-    use super::super::protocol::Ask;
     use super::*;
+    use crate::live::Ask;
 
     fn ask(id: u64) -> Ask {
         Ask { id, base: 1, is_final: false, state: None, options: "visibility".into() }

@@ -1,9 +1,7 @@
 //! One open page: its WebSocket, and the worker that plans for it.
 
-use super::Host;
-use super::desk::Desk;
 use super::mailbox::Mailbox;
-use super::protocol::{Reply, Request};
+use crate::live::{self, Desk, Host, Reply, Request, Spent};
 use axum::body::Bytes;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -36,9 +34,9 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
     let mailbox = Arc::new(Mailbox::default());
     let (send, mut replies) = mpsc::channel(WAITING);
     let worker = {
-        let (mailbox, host) = (Arc::clone(&mailbox), Arc::clone(&host));
+        let mailbox = Arc::clone(&mailbox);
         thread::Builder::new().name("planner".into()).stack_size(STACK).spawn(move || {
-            work(&mailbox, &host, &send);
+            work(&mailbox, host, &send);
             // The next page may come when the work is over, not when the connection is.
             drop(permit);
         })
@@ -58,11 +56,11 @@ pub async fn session(mut socket: WebSocket, host: Arc<Host>, permit: OwnedSemaph
                     Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
                     _ => break,
                 };
-                let failed = match request {
+                let wrong = match request {
                     Ok(request) => (!mailbox.post(request)).then(|| "too many requests wait".to_owned()),
                     Err(error) => Some(format!("no request: {error}")),
                 };
-                if let Some(error) = failed && !tell(&mut socket, text(&Reply::Failed { id: 0, error })).await {
+                if let Some(error) = wrong && !tell(&mut socket, failed(0, error)).await {
                     break;
                 }
             }
@@ -87,50 +85,37 @@ async fn tell(socket: &mut WebSocket, message: Message) -> bool {
     matches!(timeout(SEND_TIME, socket.send(message)).await, Ok(Ok(())))
 }
 
-/// A reply as a message.
-fn text(reply: &Reply) -> Message {
-    // Strings, numbers and lists of them: there is nothing that JSON cannot say.
-    Message::Text(Utf8Bytes::from(serde_json::to_string(reply).unwrap_or_default()))
+/// A message as the socket carries it.
+fn carried(message: live::Message) -> Message {
+    match message {
+        live::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),
+        live::Message::Binary(bytes) => Message::Binary(bytes.into()),
+    }
 }
 
-/// A file as a message: the length of its name, a byte; its name; its content.
-fn file(id: u64, name: &str, content: &[u8]) -> Message {
-    let head = format!("{{\"id\":{id},\"name\":{name:?}}}");
-    let length = u32::try_from(head.len()).unwrap_or_default().to_be_bytes();
-    Message::Binary([&length[..], head.as_bytes(), content].concat().into())
+fn failed(id: u64, error: String) -> Message {
+    carried(live::Message::from(&Reply::Failed { id, error }))
 }
 
 /// Does what the page asks, one thing after the other, until its mailbox is closed.
-fn work(mailbox: &Mailbox, host: &Host, send: &mpsc::Sender<Message>) {
-    let mut tell = |reply: Reply| {
-        // A page that is gone closes the mailbox, too.
-        let _ = send.blocking_send(text(&reply));
-    };
+fn work(mailbox: &Mailbox, host: Arc<Host>, send: &mpsc::Sender<Message>) {
+    // A page that is gone closes the mailbox, too.
+    let tell = |message: Message| drop(send.blocking_send(message));
     let mut desk = Desk::new(host);
-    tell(desk.world(None));
+    tell(carried(live::Message::from(&desk.world(None))));
     while let Some((request, interrupt)) = mailbox.take() {
-        let id = request.id();
-        let failed = guarded(id, || match request {
-            Request::Plan(ask) => desk.plan(&ask, &interrupt, &mut tell),
-            Request::Load { id, text, options } => desk.load(id, &text, options, &interrupt, &mut tell),
-            Request::Download { ask, format } => match desk.download(&ask, &format, &interrupt) {
-                Ok((name, content)) => {
-                    let _ = send.blocking_send(file(id, &name, &content));
-                }
-                Err(error) => tell(Reply::Failed { id, error }),
-            },
-        });
-        if let Some(failed) = failed {
-            tell(failed);
+        let work = || desk.take(&request, &interrupt, Spent::Nothing, &mut |message| tell(carried(message)));
+        if let Some(message) = guarded(request.id(), work) {
+            tell(message);
         }
     }
 }
 
 /// What to tell the page if the work panics. A desk changes nothing before all that can fail is done, so that it goes on
 /// with what it had.
-fn guarded(id: u64, work: impl FnOnce()) -> Option<Reply> {
+fn guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
     let error = || "the planner failed on this world: that is an error of cplan's, and the page goes on".to_owned();
-    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| Reply::Failed { id, error: error() })
+    catch_unwind(AssertUnwindSafe(work)).is_err().then(|| failed(id, error()))
 }
 
 #[cfg(test)]
@@ -140,7 +125,7 @@ mod tests {
     #[test]
     fn a_panic_is_told_and_ends_nothing() {
         let told = guarded(7, || std::panic::resume_unwind(Box::new("as a panic does")));
-        assert!(matches!(told, Some(Reply::Failed { id: 7, .. })));
+        assert!(matches!(told, Some(Message::Text(text)) if text.starts_with(r#"{"kind":"failed","id":7,"#)));
         assert!(guarded(8, || ()).is_none());
     }
 }

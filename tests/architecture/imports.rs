@@ -11,7 +11,7 @@ const EVERYWHERE: [&str; 3] = ["cplan_interrupt", "text", "parallel"];
 const CRATE: &str = "cplan_";
 
 /// Who may import whom, besides [`EVERYWHERE`].
-const MAY_IMPORT: [(&str, &[&str]); 26] = [
+const MAY_IMPORT: [(&str, &[&str]); 27] = [
     (EVERYWHERE[0], &[]),
     ("cplan_drawing", &[]),
     ("cplan_multigrid", &[]),
@@ -37,9 +37,10 @@ const MAY_IMPORT: [(&str, &[&str]); 26] = [
     ("study", &["geometry", "space", "model", "input", "engine", "report"]),
     ("grammar", &["model", "field", "planner", "motion", "engine"]),
     (
-        "serve",
+        "live",
         &["geometry", "space", "model", "input", "cspace", "field", "planner", "engine", "draw", "output", "grammar"],
     ),
+    ("serve", &["live"]),
     (
         "cli",
         &[
@@ -61,6 +62,7 @@ const MAY_IMPORT: [(&str, &[&str]); 26] = [
             "study",
             "output",
             "grammar",
+            "live",
             "serve",
         ],
     ),

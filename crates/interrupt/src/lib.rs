@@ -16,14 +16,26 @@
 //! A loop that may take more than some milliseconds needs a checkpoint. No signature says so: that is why stopping
 //! unwinds. A checkpoint costs some nanoseconds, and nothing happens at one outside of [`Interrupt::run`]: who does not want
 //! to stop a library that has checkpoints need not know of them.
+//!
+//! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding: there a `Host` gives the time, and ends
+//! the whole instance where work is stopped.
 #![forbid(unsafe_code)]
+
+#[cfg(any(all(target_family = "wasm", target_os = "unknown"), test))]
+mod clock;
+
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+pub use clock::{Host, Instant};
+/// A moment: that of the standard library, but for WebAssembly without a system, whose host gives the time.
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+pub use std::time::Instant;
 
 use std::cell::RefCell;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Why work was stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -119,8 +131,8 @@ impl Interrupt {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline).then_some(Interrupted::TimeUp)
     }
 
-    /// Does `work` on this thread until it is done or the interrupt is set. Runs may be nested: the outermost interrupt
-    /// that is set counts.
+    /// Does `work` on this thread until it is done or the interrupt is set; does not begin where it is set already. Runs may be
+    /// nested: the outermost interrupt that is set counts.
     ///
     /// How soon work stops is a matter of how often it comes by a [`checkpoint`]; work that never does is finished. Values
     /// that `work` owns are dropped; those it only borrows and changes are its caller's to mend.
@@ -131,6 +143,9 @@ impl Interrupt {
     /// # Panics
     /// As `work` does. Needs `panic = "unwind"`, which is Cargo's default.
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Result<T, Interrupted> {
+        if let Some(why) = self.why() {
+            return Err(why);
+        }
         let depth = ACTIVE.with_borrow_mut(|active| {
             active.push(self.clone());
             active.len()
@@ -155,8 +170,7 @@ pub fn checkpoint() {
         ((1..).zip(active).find_map(why), active.iter().find(is_due).cloned())
     });
     if let Some(unwinding) = set {
-        // Not a panic: no message, no hook.
-        resume_unwind(Box::new(unwinding));
+        unwind(unwinding);
     }
     if let Some(interrupt) =
         asked.filter(|interrupt| interrupt.question.as_ref().is_some_and(|question| (question.stops.0)()))
@@ -164,6 +178,14 @@ pub fn checkpoint() {
         interrupt.set();
         checkpoint();
     }
+}
+
+/// Back to the run whose interrupt is set.
+fn unwind(unwinding: Unwinding) -> ! {
+    #[cfg(all(target_family = "wasm", target_os = "unknown"))]
+    Host::end();
+    // Not a panic: no message, no hook.
+    resume_unwind(Box::new(unwinding))
 }
 
 #[cfg(test)]

@@ -7,16 +7,20 @@ use super::document::Document;
 use super::files;
 use super::menus;
 use super::options::Options;
-use super::protocol::{About, AnswerReply, Ask, Begin, JointReply, Pair, PieceReply, Reply, WorldReply};
+use super::protocol::{
+    About, AnswerReply, Ask, Begin, JointReply, Message, Pair, PieceReply, Reply, Request, WorldReply,
+};
 use super::result;
 use crate::engine::{Method, Problem};
 use crate::geometry::Point;
 use crate::input::{LoadedScene, Overrides};
-use crate::interrupt::{Interrupt, Interrupted};
+use crate::interrupt::{Instant, Interrupt, Interrupted};
 use crate::model::{Arm, Goal, Scene, inverse, within};
 use crate::space::{Configuration, JointRange, Measure, Metric, Segment};
+use serde::Deserialize;
 use std::cell::Cell;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Duration;
 
 /// Time for a plan while something is dragged. What is shown then, with or without a plan, takes a little longer: all in all
 /// a page is to follow ten times a second.
@@ -31,9 +35,45 @@ const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)
 /// Bisections towards a place that the tip does not reach.
 const BISECTIONS: usize = 24;
 
+/// What of the time for a request is gone already. Where work that takes too long can only be ended together with all that the
+/// program remembers, the rest of the request is done by the next one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Spent {
+    /// None of it.
+    #[default]
+    Nothing,
+    /// That for a plan: what there is to see is shown without.
+    Plan,
+    /// All of it.
+    All,
+}
+
+/// The time that is left, from now on.
+struct Left {
+    /// For a plan while something is dragged.
+    drag: Duration,
+    /// For a plan.
+    plan: Duration,
+    /// For a plan and what is shown in place of it.
+    show: Duration,
+}
+
+impl Spent {
+    /// What is left where a plan may take `time`.
+    fn left(self, time: Duration) -> Left {
+        let show = time.clamp(SHOW_TIME[0], SHOW_TIME[1]);
+        match self {
+            Self::Nothing => Left { drag: DRAG_TIME, plan: time, show: time + show },
+            Self::Plan => Left { drag: Duration::ZERO, plan: Duration::ZERO, show },
+            Self::All => Left { drag: Duration::ZERO, plan: Duration::ZERO, show: Duration::ZERO },
+        }
+    }
+}
+
 /// A page's text and what it says.
-pub struct Desk<'a> {
-    host: &'a Host,
+pub struct Desk {
+    host: Arc<Host>,
     /// Number of the text.
     base: u64,
     document: Document,
@@ -63,11 +103,35 @@ impl Pace {
     }
 }
 
-impl<'a> Desk<'a> {
-    /// A page that has just been opened: the program's own world.
-    pub fn new(host: &'a Host) -> Self {
+impl Desk {
+    /// A page that has just been opened: the host's own world.
+    #[must_use]
+    pub fn new(host: Arc<Host>) -> Self {
         let (document, scene) = (host.document.clone(), host.scene.clone());
         Self { host, base: 1, document, scene, contours: Contours::default(), pace: Pace::default() }
+    }
+
+    /// Goes on with the text that a page works on, which has this number.
+    ///
+    /// # Errors
+    /// In words, with the place.
+    pub fn hold(&mut self, base: u64, text: &str) -> Result<(), String> {
+        let (document, scene) = self.host.read(text)?;
+        (self.base, self.document, self.scene) = (base, document, scene);
+        Ok(())
+    }
+
+    /// Does what the page asks, and tells what comes of it.
+    pub fn take(&mut self, request: &Request, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Message)) {
+        let mut reply = |reply: Reply| tell(Message::from(&reply));
+        match request {
+            Request::Plan(ask) => self.plan(ask, interrupt, spent, &mut reply),
+            Request::Load { id, text, options } => self.load(*id, text, options, (interrupt, spent), &mut reply),
+            Request::Download { ask, format } => match self.download(ask, format, interrupt, spent) {
+                Ok((name, content)) => tell(Message::file(ask.id, &name, &content)),
+                Err(error) => reply(Reply::Failed { id: ask.id, error }),
+            },
+        }
     }
 
     /// The world, for the page to change.
@@ -103,24 +167,31 @@ impl<'a> Desk<'a> {
     }
 
     /// Takes another text, if it is a world, and plans in it.
-    pub fn load(&mut self, id: u64, text: &str, options: String, interrupt: &Interrupt, tell: &mut dyn FnMut(Reply)) {
+    fn load(
+        &mut self,
+        id: u64,
+        text: &str,
+        options: &str,
+        (interrupt, spent): (&Interrupt, Spent),
+        tell: &mut dyn FnMut(Reply),
+    ) {
         // Newer requests do not stop it: they may speak of what it loads.
-        let limited = Interrupt::new().by(Instant::now() + self.host.time);
+        let limited = Interrupt::new().by(Instant::now() + spent.left(self.host.time).plan);
         let read = limited.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
             Ok((document, scene)) => {
                 (self.document, self.scene) = (document, scene);
                 self.base += 1;
                 tell(self.world(Some(id)));
-                let ask = Ask { id, base: self.base, is_final: true, state: None, options };
-                self.plan(&ask, interrupt, tell);
+                let ask = Ask { id, base: self.base, is_final: true, state: None, options: options.to_owned() };
+                self.plan(&ask, interrupt, spent, tell);
             }
             Err(error) => tell(Reply::Failed { id, error }),
         }
     }
 
     /// Plans, and tells what came of it; nothing if it was stopped.
-    pub fn plan(&self, ask: &Ask, interrupt: &Interrupt, tell: &mut dyn FnMut(Reply)) {
+    fn plan(&self, ask: &Ask, interrupt: &Interrupt, spent: Spent, tell: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
         let mut tell = |mut answer: AnswerReply| {
@@ -128,7 +199,7 @@ impl<'a> Desk<'a> {
             answer.figures.milliseconds = begun.elapsed().as_secs_f64() * 1e3;
             tell(Reply::Answer(Box::new(answer)));
         };
-        if let Ok(answer) = self.answer(ask, interrupt, &mut tell) {
+        if let Ok(answer) = self.answer(ask, interrupt, spent, &mut tell) {
             tell(AnswerReply { done: true, ..answer });
         }
     }
@@ -138,9 +209,10 @@ impl<'a> Desk<'a> {
         &self,
         ask: &Ask,
         interrupt: &Interrupt,
+        spent: Spent,
         tell: &mut dyn FnMut(AnswerReply),
     ) -> Result<AnswerReply, Interrupted> {
-        let begun = Instant::now();
+        let (begun, left) = (Instant::now(), spent.left(self.host.time));
         let refused = |about: About, error: String| {
             Ok(AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() })
         };
@@ -153,11 +225,11 @@ impl<'a> Desk<'a> {
             Err(error) => return refused(About::World, error),
         };
         let source = self.host.world.with_text(text.as_str());
-        let limited = interrupt.clone().by(begun + self.host.time);
+        let limited = interrupt.clone().by(begun + left.plan);
         // What is shown in place of an answer must not take much longer than that did.
-        let showing = interrupt.clone().by(begun + self.host.time + self.host.time.clamp(SHOW_TIME[0], SHOW_TIME[1]));
+        let showing = interrupt.clone().by(begun + left.show);
         let late = || Ok(late(self.host.time));
-        let loaded = match limited.run(|| self.scene.edited(&self.host.urdf, source)) {
+        let loaded = match showing.run(|| self.scene.edited(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
             Ok(Err(error)) => return Ok(blocked::unread(&error)),
             Err(stopped) => return or_late(stopped, late),
@@ -206,7 +278,7 @@ impl<'a> Desk<'a> {
         };
         let (scene, ends) = (problem.scene(), (start, goals));
         if !ask.is_final {
-            let planning = interrupt.clone().by(begun + DRAG_TIME);
+            let planning = interrupt.clone().by(begun + left.drag);
             let plan = || result::quick(&problem, options, &self.contours);
             return match self.pace.tries(|| planning.run(plan)) {
                 Some(Ok(Ok(answer))) => Ok(places(answer)),
@@ -237,7 +309,13 @@ impl<'a> Desk<'a> {
     ///
     /// # Errors
     /// In words.
-    pub fn download(&self, ask: &Ask, format: &str, interrupt: &Interrupt) -> Result<(String, Vec<u8>), String> {
+    fn download(
+        &self,
+        ask: &Ask,
+        format: &str,
+        interrupt: &Interrupt,
+        spent: Spent,
+    ) -> Result<(String, Vec<u8>), String> {
         let text = self.text(ask)?;
         if format == "toml" {
             return Ok(("world.toml".into(), text.into_bytes()));
@@ -245,7 +323,7 @@ impl<'a> Desk<'a> {
         let options = Options::parse(&ask.options)?;
         let source = self.host.world.with_text(text.as_str());
         let loaded = self.scene.edited(&self.host.urdf, source).map_err(|error| error.to_string())?;
-        let limited = interrupt.clone().by(Instant::now() + self.host.time);
+        let limited = interrupt.clone().by(Instant::now() + spent.left(self.host.time).plan);
         match limited.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
             Err(Interrupted::Set) => Err("the file is not made: the page has changed since".into()),

@@ -1,4 +1,4 @@
-//! What page and server tell each other: JSON objects, one a message.
+//! What page and program tell each other: JSON objects, one a message.
 
 use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
@@ -145,7 +145,7 @@ pub enum End {
     Tip(Pair),
 }
 
-/// What the server tells.
+/// What the program tells.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Reply {
@@ -160,6 +160,31 @@ pub enum Reply {
         /// What went wrong, in words for the page.
         error: String,
     },
+}
+
+/// A message to the page.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Message {
+    /// A [`Reply`].
+    Text(String),
+    /// A file: the length of its head, four bytes; the head; the content.
+    Binary(Vec<u8>),
+}
+
+impl From<&Reply> for Message {
+    fn from(reply: &Reply) -> Self {
+        // Strings, numbers and lists of them: there is nothing that JSON cannot say.
+        Self::Text(serde_json::to_string(reply).unwrap_or_default())
+    }
+}
+
+impl Message {
+    /// The file that a request asked for.
+    pub fn file(id: u64, name: &str, content: &[u8]) -> Self {
+        let head = format!("{{\"id\":{id},\"name\":{name:?}}}");
+        let length = u32::try_from(head.len()).unwrap_or_default().to_be_bytes();
+        Self::Binary([&length[..], head.as_bytes(), content].concat())
+    }
 }
 
 /// A world as the page draws and edits it.
