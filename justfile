@@ -19,6 +19,11 @@ browser:
     cargo build --locked
     .ci/browser
 
+# The live page without a server, in target/page
+page:
+    cargo build --locked
+    .ci/page
+
 # The fuzz targets, built and run over their seeds, without the nightly toolchain
 fuzz:
     .ci/fuzz

@@ -4,11 +4,12 @@ use super::failure::Failure;
 use super::{DONE, demo, sinks};
 use crate::grammar::number_in;
 use crate::input::{Source, scene_from};
-use crate::live::{Host, Options};
+use crate::live::{Files, Host, Options, page_alone};
+use crate::motion::write_whole;
 use crate::serve;
-use clap::Args;
+use clap::{Args, ValueHint};
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Arguments of `serve`.
@@ -18,10 +19,12 @@ Examples:
   cplan serve
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml --with \"harmonic --cells 128\" --port 0
+  cplan serve robots/planar_2r.urdf workspaces/shelf.toml --export page.html --engine target/page/cplan.wasm.gz
 
-The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page.
+The address is printed on stdout; Ctrl-C ends it. Nothing is written to disk: save the world from the page. With --export nothing
+is served: the page is written, with the program within it, for any web host or none.
 
-Exit codes: 0 it was told to end, 1 bad input, or an address that is not to be had, 2 wrong command line.")]
+Exit codes: 0 it was told to end, or the page is written, 1 bad input, or an address that is not to be had, 2 wrong command line.")]
 pub struct ServeArgs {
     /// The arm; without files a built-in SCARA cell.
     #[arg(value_name = "URDF", requires = "world")]
@@ -41,6 +44,12 @@ pub struct ServeArgs {
     /// Time after which a plan is given up, seconds.
     #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = time_limit, allow_hyphen_values = true)]
     pub time_limit: Duration,
+    /// Write the page with the program within it, one file that needs no server, instead of serving it.
+    #[arg(long, value_name = "FILE", requires = "engine", conflicts_with_all = ["port", "bind"], value_hint = ValueHint::FilePath)]
+    pub export: Option<PathBuf>,
+    /// The program for such a page, WebAssembly packed by gzip, as `.ci/page` builds it.
+    #[arg(long, value_name = "FILE", requires = "export", value_hint = ValueHint::FilePath)]
+    pub engine: Option<PathBuf>,
 }
 
 fn time_limit(text: &str) -> Result<Duration, String> {
@@ -62,6 +71,10 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
         ),
     };
     let scene = scene_from(urdf.clone(), world.clone())?;
+    if let (Some(page), Some(engine)) = (&args.export, &args.engine) {
+        scene.robot.warnings.iter().for_each(|warning| sinks::say(&format!("warning: {warning}")));
+        return export(args, [urdf, world], page, engine);
+    }
     let wanted = SocketAddr::new(args.bind, args.port);
     let bound = TcpListener::bind(wanted).and_then(|listener| Ok((listener.local_addr()?, listener)));
     let (address, listener) = bound.map_err(|error| {
@@ -76,5 +89,24 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     sinks::print(&format!("http://{address}/\n"))?;
     sinks::say("open it in a browser; Ctrl-C ends");
     serve::run(listener, host).map_err(|error| Failure::Option(format!("cannot serve: {error}")))?;
+    Ok(DONE)
+}
+
+/// What a file packed by gzip begins with.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+/// Writes the page with the program within it.
+fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
+    let cure = "\n  cure: .ci/page of cplan's sources builds it";
+    let wrong = |what: String| Failure::Option(format!("{}: {what}{cure}", engine.display()));
+    let program = std::fs::read(engine).map_err(|error| wrong(format!("cannot be read: {error}")))?;
+    if !program.starts_with(&GZIP) {
+        return Err(wrong("is no program packed by gzip".into()));
+    }
+    let text = |source: &Source| source.text().to_owned();
+    let seconds = args.time_limit.as_secs_f64();
+    let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone(), seconds };
+    write_whole(page, page_alone(files, &program).as_bytes())?;
+    sinks::say(&format!("{} written", page.display()));
     Ok(DONE)
 }

@@ -30,6 +30,7 @@ mod contours;
 mod desk;
 mod document;
 mod files;
+mod gallery;
 mod menus;
 mod options;
 mod page;
@@ -38,8 +39,9 @@ mod result;
 
 pub use alone::Alone;
 pub use desk::{Desk, Spent};
+pub use gallery::Files;
 pub use options::Options;
-pub use page::page;
+pub use page::{page, page_alone};
 pub use protocol::{Ask, Message, Reply, Request};
 
 use crate::input::{LoadedScene, Source};

@@ -1,20 +1,48 @@
 //! The page.
 
+use super::gallery::{Files, Gallery};
 use crate::draw::{drawing, shell};
+use crate::text::base64;
 
 /// What moves things in the page, in the order in which one part needs the other.
-const CODE: [&str; 7] = [
+const CODE: [&str; 9] = [
+    include_str!("assets/alone.js"),
     include_str!("assets/link.js"),
     include_str!("assets/keep.js"),
     include_str!("assets/notices.js"),
     include_str!("assets/scene.js"),
+    include_str!("assets/gallery.js"),
     include_str!("assets/edit.js"),
     include_str!("assets/controls.js"),
     include_str!("assets/live.js"),
 ];
 
+/// What a page that has the program within it may: run that in a worker, and load nothing.
+const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
+                      img-src blob: data:; base-uri 'none'; form-action 'none'";
+
 /// The page with its scripts and styles in one document, for a browser that has been led to a server.
 #[must_use]
 pub fn page() -> String {
-    shell("cplan", "", include_str!("assets/live.css"), "", &(drawing() + &CODE.concat()))
+    live("", "")
+}
+
+/// The page with the program within it, WebAssembly packed by gzip: one file, which needs no server and loads nothing.
+#[must_use]
+pub fn page_alone(files: Files, program: &[u8]) -> String {
+    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
+    // Texts and numbers: there is nothing that JSON cannot say. Within a script only the less-than sign could end it.
+    let gallery = serde_json::to_string(&Gallery::new(files)).unwrap_or_default().replace('<', "\\u003c");
+    let within = [
+        ("gallery", "application/json", gallery.as_str()),
+        ("worker", "text/plain", include_str!("assets/worker.js")),
+        ("program", "text/plain", &base64(program)),
+    ];
+    let element =
+        |(id, kind, text): (&str, &str, &str)| format!("<script id=\"{id}\" type=\"{kind}\">{text}</script>\n");
+    live(&policy, &within.map(element).concat())
+}
+
+fn live(head: &str, before: &str) -> String {
+    shell("cplan", head, include_str!("assets/live.css"), before, &(drawing() + &CODE.concat()))
 }

@@ -1,10 +1,14 @@
 //! Text for people: what is shown of names, markup, numbers of things, two columns; and infinite numbers in data. Imports nothing, and all may import it.
 
+#[cfg(feature = "live")]
+mod base64;
 mod columns;
 mod markup;
 pub mod number;
 mod plain;
 
+#[cfg(feature = "live")]
+pub use base64::base64;
 pub use columns::Columns;
 pub use markup::markup;
 #[cfg(feature = "program")]

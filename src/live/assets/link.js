@@ -5,9 +5,14 @@
 const PAUSES = [250, 4000];
 
 class Link {
-  /** `hear` is called with each message, `file` with the head and content of each file, `state` when the line is up or down. */
-  constructor({ hear, file, state }) {
-    Object.assign(this, { hear, file, state });
+  /** The line to the server that the page came from. */
+  static server() {
+    return new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`);
+  }
+
+  /** `dial` makes a line; `hear` is called with each message, `file` with the head and content of each file, `state` when the line is up or down. */
+  constructor({ dial, hear, file, state }) {
+    Object.assign(this, { dial, hear, file, state });
     this.id = 0;
     /** The request whose answer is awaited: its number, what it is (plan, load, download), whether it is final, and what it is about. */
     this.awaited = null;
@@ -25,7 +30,7 @@ class Link {
 
   connect() {
     clearTimeout(this.later);
-    const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/live`);
+    const socket = this.dial();
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.pause = PAUSES[0];

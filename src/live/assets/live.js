@@ -22,7 +22,10 @@ class Live {
     this.notices = new Notices();
     /** For whoever watches the page from outside. */
     this.answered = { id: 0, verdict: null, certified: false, final: false, error: null };
+    /** None where there is a server. */
+    this.gallery = Gallery.of(this);
     this.link = new Link({
+      dial: () => this.gallery?.dial() ?? Link.server(),
       hear: (message, about) => this.hear(message, about),
       file: (head, content) => this.hand(head, content),
       state: (isUp) => this.lineIs(isUp),
@@ -55,7 +58,7 @@ class Live {
     this.figures = element('p', { class: 'figures' });
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
-    this.root.querySelector('header').after(this.controls.root, places.options);
+    this.root.querySelector('header').after(...(this.gallery ? [this.gallery.root] : []), this.controls.root, places.options);
     this.root.querySelector('.panels').after(this.figures, this.spoken, this.controls.files, places.files);
     this.root.querySelector('.help').before(this.controls.world);
     this.notices.over(this.view.panels.workspace);
@@ -128,7 +131,7 @@ class Live {
       this.words = record?.words ?? world.options;
       this.takeUp(world, record);
       if (record) this.remark('Your edits of last time are back.');
-      else if (hadAnother) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
+      else if (hadAnother && !this.gallery) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
     } else if (this.scene) {
       // What was edited while there was no line is sent now.
       this.continued = true;
@@ -151,6 +154,7 @@ class Live {
   /** Takes a world of the server's for the one that the page changes. */
   adopt(world, record) {
     this.world = world;
+    this.toml = world.toml;
     if (record && this.continued && this.scene) {
       this.scene.world = world;
       this.continued = false;
@@ -242,7 +246,10 @@ class Live {
     const { id, verdict, certified, error } = message;
     this.answered = { id, verdict, certified, final: message.final, error, figures: message.figures };
     this.shown = { edition, final: message.final, error: error && Live.trouble(message), ...Live.ending(message) };
-    if (message.toml) this.controls?.type(message.toml);
+    if (message.toml) {
+      this.toml = message.toml;
+      this.controls?.type(message.toml);
+    }
     this.troubled(message.about === 'options' ? 'options' : 'picture', error);
     this.sum(message);
   }
@@ -359,6 +366,7 @@ class Live {
   mark() {
     if (!this.view) return;
     clearTimeout(this.late);
+    this.gallery?.say();
     this.view.say(...this.badge);
     const { classList } = this.root;
     const { isCurrent } = this;

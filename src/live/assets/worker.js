@@ -1,0 +1,82 @@
+// The worker in which the page's own program runs: orders in, messages out. What takes too long ends the instance, and another one
+// goes on where it was.
+'use strict';
+
+/** What is thrown where work is to stop. */
+const STOPPED = Symbol('stopped');
+const FAULT = 'the planner failed on this world: that is an error of cplan\u2019s, and the page goes on';
+
+/** The module, the order that opens the world, the instance, and what the last panic said. */
+const program = { module: null, open: null, exports: null, panic: null };
+
+function begin() {
+  const read = (at, bytes) => new Uint8Array(program.exports.memory.buffer, at >>> 0, bytes >>> 0);
+  const text = (at, bytes) => new TextDecoder().decode(read(at, bytes));
+  const page = {
+    elapsed: () => performance.now(),
+    stop() {
+      throw STOPPED;
+    },
+    tell: (at, bytes, isText) => (isText ? tell(text(at, bytes)) : self.postMessage({ data: read(at, bytes).slice().buffer })),
+    panicked: (at, bytes) => {
+      program.panic = text(at, bytes);
+    },
+  };
+  program.exports = new WebAssembly.Instance(program.module, { page }).exports;
+  order(program.open);
+}
+
+/** A message to the page. Of a world the text is kept: another instance goes on with it. */
+function tell(data) {
+  if (data.startsWith('{"kind":"world"')) {
+    const { base, toml, id } = JSON.parse(data);
+    const held = { base, text: toml };
+    program.open = { ...program.open, held };
+    program.told = id;
+    self.postMessage({ data, held });
+  } else self.postMessage({ data });
+}
+
+function order(what) {
+  const bytes = new TextEncoder().encode(JSON.stringify(what));
+  const at = program.exports.room(bytes.length) >>> 0;
+  new Uint8Array(program.exports.memory.buffer, at, bytes.length).set(bytes);
+  program.exports.take();
+}
+
+/** Does what the page asks: as a whole, or what is left of it once the time for one part and another is up. */
+function take(request) {
+  let asked = request;
+  for (const spent of ['nothing', 'plan', 'all']) {
+    try {
+      program.told = null;
+      if (!program.exports) begin();
+      order({ do: 'take', request: asked, spent: asked === request && request.do === 'load' && spent !== 'nothing' ? 'all' : spent });
+      return;
+    } catch (error) {
+      program.exports = null;
+      if (error !== STOPPED) {
+        console.warn(program.panic ?? error);
+        tell(JSON.stringify({ kind: 'failed', id: request.id ?? request.ask.id, error: FAULT }));
+        return;
+      }
+    }
+    // The text is taken: what is left is its plan.
+    if (request.do === 'load' && program.told === request.id) {
+      asked = { do: 'plan', id: request.id, base: program.open.held.base, final: true, state: null, options: request.options };
+    }
+  }
+}
+
+self.onmessage = ({ data: { module, open, request } }) => {
+  if (module) {
+    [program.module, program.open] = [module, open];
+    try {
+      begin();
+    } catch (error) {
+      program.exports = null;
+      console.warn(program.panic ?? error);
+    }
+  } else take(request);
+  self.postMessage({ isFree: true });
+};

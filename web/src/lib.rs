@@ -1,0 +1,71 @@
+//! cplan in a browser: what answers the live page where there is no server, as WebAssembly.
+//!
+//! ```text
+//! page -> worker: room(bytes), UTF-8 into the memory, take() -> live::Alone -> tell(at, bytes, is_text) -> worker -> page
+//! ```
+//!
+//! Orders and replies are the live page's JSON; the other side is `worker.js` of `src/live/assets`. Work that takes too long ends
+//! the instance (`stop` throws), and the worker begins another. Built for `wasm32-unknown-unknown` alone, by `.ci/page`; for all
+//! else this crate is empty.
+#![cfg(all(target_family = "wasm", target_os = "unknown"))]
+
+use cplan::interrupt::Host;
+use cplan::live::{Alone, Message};
+use std::cell::RefCell;
+use std::panic;
+use std::time::Duration;
+
+/// What the worker does for the program. Numbers and places in the memory go over, nothing else; to call it is safe, since it only
+/// reads the memory, and before it returns.
+#[link(wasm_import_module = "page")]
+unsafe extern "C" {
+    /// Milliseconds since some moment.
+    safe fn elapsed() -> f64;
+    /// Throws, through all that runs.
+    safe fn stop() -> !;
+    /// Takes a message to the page: text or a file.
+    safe fn tell(at: *const u8, bytes: usize, is_text: bool);
+    /// Takes what a panic says.
+    safe fn panicked(at: *const u8, bytes: usize);
+}
+
+thread_local! {
+    static ALONE: RefCell<Option<Alone>> = const { RefCell::new(None) };
+    /// The order that the worker writes.
+    static ORDER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Where an order of so many bytes is to be written.
+// The name is used once: there is no other library in the instance.
+#[unsafe(no_mangle)]
+pub extern "C" fn room(bytes: usize) -> *mut u8 {
+    ORDER.with_borrow_mut(|order| {
+        *order = vec![0; bytes];
+        order.as_mut_ptr()
+    })
+}
+
+/// Does what the order says.
+// As above.
+#[unsafe(no_mangle)]
+pub extern "C" fn take() {
+    let order = String::from_utf8_lossy(&ORDER.take()).into_owned();
+    ALONE.with_borrow_mut(|alone| alone.get_or_insert_with(begun).take(&order, &mut send));
+}
+
+/// A program whose time and end the worker gives.
+fn begun() -> Alone {
+    Host { elapsed: || Duration::from_secs_f64(elapsed() / 1e3), stop: || stop() }.serve();
+    panic::set_hook(Box::new(|panic| {
+        let text = panic.to_string();
+        panicked(text.as_ptr(), text.len());
+    }));
+    Alone::default()
+}
+
+fn send(message: Message) {
+    match message {
+        Message::Text(text) => tell(text.as_ptr(), text.len(), true),
+        Message::Binary(bytes) => tell(bytes.as_ptr(), bytes.len(), false),
+    }
+}
