@@ -3,6 +3,7 @@
 import functools
 import http.server
 import itertools
+import json
 import os
 import re
 import threading
@@ -164,7 +165,7 @@ TALK = """async (requests) => {
   socket.binaryType = 'arraybuffer';
   const messages = [];
   let heard = () => {};
-  socket.onmessage = ({ data }) => { messages.push(typeof data === 'string' ? data : Array.from(new Uint8Array(data)).join()); heard(); };
+  socket.onmessage = ({ data }) => { messages.push(typeof data === 'string' ? data : new TextDecoder().decode(data)); heard(); };
   await new Promise((open) => { socket.onopen = open; });
   const isOver = (text) => text[0] !== '{' || /^.{0,80}"done":true|^{"kind":"failed"/.test(text);
   const wait = async (until) => { while (!until()) await new Promise((next) => { heard = next; }); };
@@ -182,10 +183,20 @@ TALK = """async (requests) => {
 }"""
 
 
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+
+
 def told(seen, requests):
-    """All messages in order, without the times that answers took."""
+    """All messages in order, without times, what is drawn, and the planner's own counts."""
     world, answers = seen.do(TALK, requests)
-    return [re.sub(r'"milliseconds":[\d.e-]+', '"milliseconds":0', message) for message in [world, *itertools.chain(*answers)]]
+    for message in [world, *itertools.chain(*answers)]:
+        if message.startswith("{"):
+            message = json.loads(message)
+            for key in ("milliseconds", "size"):
+                message.get("figures", {}).pop(key, None)
+            message["view"] = bool(message.pop("view", None))
+            message = json.dumps(message)
+        yield message
 
 
 @pytest.mark.parametrize("robot, world", [("planar_2r", "shelf"), ("planar_2r_continuous", "no_path"), ("scara", "scara_cell"), ("planar_2r_continuous", "torus_open"), ("rail_arm", "slot_closed")])
@@ -198,10 +209,14 @@ def test_both_engines_give_the_same_answers(serve, alone, robot, world):
         requests.append({"do": "plan", **ask})
     requests.append({"do": "load", "id": 100, "text": text.replace('name = "', 'name = "again '), "options": "shortest"})
     requests.append({"do": "load", "id": 101, "text": "obstacle = 3", "options": "shortest"})
-    for i, format_ in enumerate(["toml", "csv", "svg", "html"], 102):
+    for i, format_ in enumerate(["toml", "csv"], 102):
         ask = {"id": i, "base": 2, "final": True, "state": None, "options": "shortest"}
         requests.append({"do": "download", "ask": ask, "format": format_})
     here, there = serve(*files, "--time-limit", "600"), alone()
     there.do("(files) => Object.assign(cplan.gallery.files, files)", {"urdf": files[0].read_text(), "world": text, "seconds": 600})
     for ours, theirs in zip(told(there, requests), told(here, requests), strict=True):
-        assert ours == theirs
+        theirs = theirs.replace(str(files[1]), "world.toml")
+        # Each platform's sines and cosines are its own, to the last digit.
+        assert NUMBER.split(ours) == NUMBER.split(theirs)
+        numbers = ([float(number) for number in NUMBER.findall(text)] for text in (ours, theirs))
+        assert all(a == pytest.approx(b, rel=1e-9, abs=1e-9) for a, b in zip(*numbers))
