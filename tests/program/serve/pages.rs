@@ -115,6 +115,12 @@ fn wrong_command_lines_are_said_so() {
     assert!(code == 2 && error.contains("WORLD"), "{error}");
     let (code, error) = run(&[&shipped("robots/planar_2r.urdf"), "missing.toml"]);
     assert!(code == 1 && error.contains("missing.toml: cannot be read"), "{error}");
+    let (code, error) = run(&["--export", "page.html"]);
+    assert!(code == 2 && error.contains("--engine"), "{error}");
+    let (code, error) = run(&["--export", "page.html", "--engine", "missing.wasm.gz"]);
+    assert!(code == 1 && error.contains("missing.wasm.gz: cannot be read") && error.contains(".ci/page"), "{error}");
+    let (code, error) = run(&["--export", "page.html", "--engine", &shipped("robots/scara.urdf")]);
+    assert!(code == 1 && error.contains("is no program packed by gzip"), "{error}");
     let taken = Server::start(&[]);
     let (code, error) = run(&["--port", &taken.address.port().to_string()]);
     assert!(code == 1 && error.contains("cannot listen") && error.contains("--port 0"), "{error}");
