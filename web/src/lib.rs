@@ -15,8 +15,8 @@ use std::cell::RefCell;
 use std::panic;
 use std::time::Duration;
 
-/// What the worker does for the program. Numbers and places in the memory go over, nothing else; to call it is safe, since it only
-/// reads the memory, and before it returns.
+// What the worker does for the program. Numbers and places in the memory go over, nothing else; to call it is safe, since it only
+// reads the memory, and before it returns.
 #[link(wasm_import_module = "page")]
 unsafe extern "C" {
     /// Milliseconds since some moment.
