@@ -5,6 +5,7 @@ use super::compare::CompareArgs;
 use super::completions::CompletionsArgs;
 use super::converge::ConvergeArgs;
 use super::demo::DemoArgs;
+use super::explain::ExplainArgs;
 use super::explore::ExploreArgs;
 use super::import::ImportArgs;
 use super::init::InitArgs;
@@ -43,6 +44,7 @@ Examples:
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml
   cplan study workspaces/studies/base.toml --output base.csv --output base.html
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 10deg,45deg
+  cplan explain robots/planar_2r.urdf workspaces/no_path.toml
   cplan inspect robots/scara.urdf workspaces/scara_cell.toml --picture scara.svg
   cplan robots/planar_2r.urdf workspaces/singular_closed.toml --output proof.json
   cplan recheck robots/planar_2r.urdf workspaces/singular_closed.toml --proof proof.json
@@ -88,6 +90,8 @@ pub enum Command {
     Batch(BatchArgs),
     /// Tell how relaxations of the harmonic planner's fields converge: errors and sweeps, by relaxation, order, factor and drift.
     Converge(ConvergeArgs),
+    /// Tell why there is no motion and what opens a way, or what shapes the one that there is.
+    Explain(ExplainArgs),
     /// Plan in a world that is only seen bit by bit: what the sensor has not seen is solid.
     Explore(ExploreArgs),
     /// Tell why a configuration is (not) free: limits, penetrations, crossing sides.

@@ -10,6 +10,7 @@ mod converge;
 mod ctrl_c;
 mod demo;
 mod error_json;
+mod explain;
 mod explore;
 mod failure;
 mod fresh;
@@ -83,6 +84,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         (Some(Command::Batch(args)), _) => batch::run(args),
         (Some(Command::Check(args)), _) => check::run(args),
         (Some(Command::Converge(args)), _) => converge::run(args),
+        (Some(Command::Explain(args)), _) => explain::run(args),
         (Some(Command::Explore(args)), _) => explore::run(args),
         (Some(Command::Import(args)), _) => import::run(args),
         (Some(Command::Inspect(args)), _) => inspect::run(args),

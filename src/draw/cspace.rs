@@ -5,7 +5,7 @@ use super::color::{ACCENT, INK, Rgb, WHITE};
 use super::figure::{Item, Pen, Rect, Spot, Step, Style};
 use super::shapes::DASH;
 use super::view::{ContourView, PanelView, View, WorldView};
-use super::{boxes, page, preferences, reach, tags, trace};
+use super::{boxes, page, preferences, reach, stuck, tags, trace};
 
 /// The pen for goals along a segment.
 const GOALS: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
@@ -51,6 +51,7 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     {
         items.push(Item::Disc(chart.place(q.into()), 6.5, Style::line(WHITE, 2.0).filled(ACCENT)));
     }
+    items.extend(view.still.stuck.iter().flat_map(|stuck| stuck::in_cspace(stuck, chart)));
     if view.is_task() && numbers.len() > 1 {
         items.extend(tags::items(&numbers, frame.rect, &[], &[]));
     }

@@ -3,7 +3,7 @@
 use super::color::{BARRED, GREY, INK, PALE, Rgb};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::view::{ObstacleView, PathView, View};
-use super::{boxes, cspace, preferences, reach, shapes, trace};
+use super::{boxes, cspace, preferences, reach, shapes, stuck, trace};
 
 /// Height of a row, pixels.
 pub const ROW: f64 = 21.0;
@@ -52,6 +52,7 @@ pub fn keys(view: &View) -> Vec<Key> {
     keys.extend(view.worlds.iter().any(|world| !world.proof.0.is_empty()).then(boxes::proof_key));
     keys.extend(preferences::keys(&world.regions));
     keys.extend(view.still.reach.as_ref().map_or_else(Vec::new, reach::keys));
+    keys.extend(view.still.stuck.as_ref().map_or_else(Vec::new, stuck::keys));
     keys.push((Sign::Line(Pen { color: PALE, width: 1.0, dash: &[2.0, 4.0] }), "reach".to_owned()));
     keys.extend(obstacles(world.obstacles.iter().filter(|obstacle| obstacle.lies())));
     keys.extend(world.payload.iter().map(|held| (Sign::Swatch(held.color), format!("{}, carried", held.object))));

@@ -35,6 +35,7 @@ mod preferences;
 mod reach;
 mod shapes;
 mod steps;
+mod stuck;
 mod svg_writer;
 mod tags;
 mod trace;
@@ -43,6 +44,7 @@ mod workspace;
 
 pub use exploration::exploration_page;
 pub use obstacles::{extent, obstacles, still_page};
+pub use stuck::Stuck;
 pub use view::{AxesFrame, Picture, TaskPicture, View, drawing, page, shell};
 
 /// Why there is no picture.

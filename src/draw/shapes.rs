@@ -24,6 +24,12 @@ pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
     item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 
+/// The outline of an obstacle, drawn with this pen.
+#[must_use]
+pub fn marked(frame: &Frame, obstacle: &ObstacleView, pen: Style) -> Item {
+    item(frame, obstacle, pen, pen)
+}
+
 fn item(frame: &Frame, obstacle: &ObstacleView, surface: Style, wall: Style) -> Item {
     match &obstacle.outline {
         Shape::Polygon(points) => Item::Outline(chain(points.iter().map(|p| frame.at(p.x, p.y)), true), surface),

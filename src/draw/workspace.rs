@@ -5,7 +5,7 @@ use super::axes::{Frame, Unit};
 use super::color::{BARRED, GREY, INK, PALE, WHITE};
 use super::figure::{Anchor, Item, Rect, Spot, Step, Style, chain, label};
 use super::view::{ObstacleView, PathView, View, around};
-use super::{frames, page, preferences, reach, shapes, tags};
+use super::{frames, page, preferences, reach, shapes, stuck, tags};
 use crate::geometry::{Convex, cross};
 use crate::model::{Arm, JointType, Plane};
 use crate::space::Configuration;
@@ -43,6 +43,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     if let Some((q, world)) = still.now {
         inside.extend(arm::items(&frame, arm, view.worlds[world].payload.as_ref(), q.into(), &NOW));
     }
+    inside.extend(still.stuck.iter().flat_map(|stuck| stuck::in_workspace(stuck, view, &frame)));
     inside.extend(hidden_note(&frame, lying()));
     let mut items = vec![Item::Clip(frame.rect, inside)];
     items.extend(frame.border([Unit::Meters; 2], titles(&arm.plane), [false; 2]));

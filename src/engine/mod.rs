@@ -41,6 +41,7 @@ mod bound;
 mod cell_counts;
 mod clock;
 mod corners;
+pub mod explain;
 mod field_problem;
 mod field_report;
 pub mod findings;

@@ -37,6 +37,7 @@ mod preference;
 mod preference_map;
 mod problem;
 mod quantity;
+mod query;
 mod requirement;
 mod schema;
 mod sensor;
@@ -65,6 +66,7 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
+pub use query::Query;
 #[cfg(feature = "study")]
 pub(crate) use quantity::Quantity;
 pub use schema::world_schema;

@@ -54,7 +54,7 @@ impl LoadedScene {
         Ok(Loaded { problem: MotionProblem::trusted(loaded.scene, start, goals), robot: loaded.robot, notes })
     }
 
-    fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
+    pub(super) fn goal(&self, overrides: &Overrides) -> Result<(Goal, Place<'_>), InputError> {
         match (&overrides.goal, &overrides.goal_tip) {
             (Some(_), Some(_)) => {
                 let diagnostic = Diagnostic::new("--goal and --goal-tip", "both give a goal");

@@ -4,6 +4,8 @@
 //! `summary` for a terminal; `cspaces` has the configuration space as data.
 
 mod cspace;
+#[cfg(feature = "program")]
+pub(crate) mod explained;
 mod file;
 mod motion_summary;
 mod picture;

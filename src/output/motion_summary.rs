@@ -2,6 +2,7 @@
 
 use super::summary::{Line, Told, configuration, field, non_empty, segment};
 use crate::check::CertifiedCurve;
+use crate::engine::explain::{Question, blocking_set};
 use crate::engine::{Bound, MotionPlan, Plan, Verdict, percent};
 use crate::model::Scene;
 use crate::space::Metric;
@@ -53,6 +54,16 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
         lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     }
     lines
+}
+
+/// Boxes that are looked at for each decision on what is in the way.
+const BOXES: usize = 5_000;
+
+/// What is in the way, if there is no motion: some milliseconds. `cplan explain` has more to say.
+pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
+    let proof = plan.answer.verdict.proof()?;
+    let set = blocking_set(&Question::from(&plan.problem), Some(proof.clone()), BOXES);
+    Some(("blocked by", set.describe(plan.problem.scene())))
 }
 
 /// What the motion keeps, and where it comes nearest.

@@ -49,6 +49,7 @@ impl Plan {
         let mut lines = arm_lines(self.arm());
         lines.extend(notes.map(|note| ("", note.clone())));
         lines.extend(asked.into_iter().chain(found));
+        lines.extend(self.made().motion().and_then(|plan| motion_summary::blocked_by(plan)));
         lines.extend(files.iter().map(|file| ("file", file.clone())));
         let stages = self.timings().iter().chain(after);
         let stages: Vec<String> =

@@ -7,6 +7,7 @@ mod checked_bounds;
 mod common;
 mod contract;
 mod decide;
+mod explaining;
 mod free_orders;
 mod goal_seams;
 mod goal_sets;

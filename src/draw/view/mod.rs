@@ -41,6 +41,7 @@ pub(super) use trace::TraceView;
 pub(super) use waves::{LEVELS, Waves};
 pub(super) use world::{ContourView, ObstacleView, PayloadView, RegionView, WorldView};
 
+use super::stuck::Stuck;
 use crate::engine::Reach;
 use crate::model::{Arm, Status};
 use crate::space::Configuration;
@@ -105,6 +106,8 @@ pub(super) struct Still {
     pub reach: Option<Reach>,
     /// Where the arm is now, and in which world, while it moves.
     pub now: Option<([f64; 2], usize)>,
+    /// What is in the way.
+    pub stuck: Option<Stuck>,
     /// Where the arm is in the end, and in which world.
     pub end: Option<([f64; 2], usize)>,
     /// The steps of a task, below what the columns are called; none of single motions.
@@ -156,6 +159,13 @@ impl View {
     /// The world that is there at first, or now.
     pub(super) fn world_now(&self) -> &WorldView {
         &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
+    }
+
+    /// The same with what is in the way of a motion, and where it gets stuck.
+    #[must_use]
+    pub fn with_stuck(mut self, stuck: Stuck) -> Self {
+        self.still.stuck = Some(stuck);
+        self
     }
 
     /// The world that is there at first.

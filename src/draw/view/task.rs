@@ -78,6 +78,7 @@ impl View {
         let still = Still {
             now: None,
             reach: None,
+            stuck: None,
             panels: panels(picture, &paths, world, grain),
             placed: placed.collect(),
             // What was let go of at the end lies there.

@@ -8,6 +8,7 @@ mod converge;
 mod cspace;
 mod diagnostics;
 mod error_json;
+mod explain;
 mod explore;
 mod fields;
 mod first;

@@ -1,0 +1,97 @@
+//! `cplan explain`: why there is no motion, and what opens a way; of one that there is, what shapes it.
+
+use super::args::{Files, QueryArgs};
+use super::failure::Failure;
+use super::print_args::PrintArgs;
+use super::sinks::{self, Sink};
+use super::{DONE, INFEASIBLE, UNKNOWN};
+use crate::engine::explain::{Question, explain};
+use crate::engine::task::Impossible;
+use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
+use crate::input;
+use crate::model::Status;
+use crate::output::explained;
+use crate::space::{GoalSet, Segment};
+use clap::{Args, ValueHint};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Arguments of `explain`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Where there is no motion it names what is in the way: obstacles, limits of joints, the clearance. All of them together leave no way, proven;
+without any one of them there is one, certified. Of each the smallest change that opens a way is told between a path and a proof. A start or goal
+that is not free, which the main job refuses, is explained in the same words; of a world with steps the motion of the step that fails. Where there is a motion, it tells what makes it longer.
+
+Examples:
+  cplan explain robots/planar_2r.urdf workspaces/no_path.toml
+  cplan explain robots/planar_2r.urdf workspaces/slot_closed.toml --picture why.svg
+  cplan explain robots/planar_2r.urdf workspaces/shelf.toml --json
+  cplan explain robots/planar_2r.urdf workspaces/shelf.toml --goal-tip 5,0
+
+Exit codes: 0 there is a motion, 1 bad input or I/O, 2 wrong command line, 3 proven that there is none, 4 unknown.")]
+pub struct ExplainArgs {
+    #[command(flatten)]
+    pub files: Files,
+    #[command(flatten)]
+    pub query: QueryArgs,
+    /// Draw workspace and configuration space, with what is in the way and where the motion gets stuck: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub picture: Vec<PathBuf>,
+    #[command(flatten)]
+    pub print: PrintArgs,
+}
+
+/// Explains.
+///
+/// # Errors
+/// Bad input and I/O. That there is no motion is no error: saying why is the job.
+pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
+    let sinks = sinks::sinks(&[], &args.picture)?;
+    let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
+    sinks::spare_inputs(sinks.iter().map(Sink::path))?;
+    loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
+    let overrides = args.query.overrides();
+    let (question, notes) = if loaded.has_steps() {
+        let problem = Problem::of_scene(loaded, &overrides)?;
+        let plan = plan(&problem, &Options::default())?;
+        let Some((question, note)) = failed_step(&plan) else {
+            let done = "all steps can be done: there is nothing to explain\n";
+            args.print.tell(|| sinks::pretty(&json!({ "status": plan.status() })), || done.into())?;
+            return Ok(exit_code(plan.status()));
+        };
+        (question, vec![note])
+    } else {
+        let query = loaded.query(&overrides)?;
+        (Question::new(query.scene, query.start, query.goal), query.notes)
+    };
+    let explanation = explain(&question, &Options::default());
+    if !sinks.is_empty() {
+        let view = explained::view(&explanation);
+        for sink in &sinks {
+            if let Sink::Picture(format, path) = sink {
+                sinks::save_picture(*format, path, &view)?;
+            }
+        }
+    }
+    args.print.tell(|| sinks::pretty(&explanation.to_json()), || explained::summary(&explanation, &notes))?;
+    Ok(exit_code(explanation.status()))
+}
+
+/// The motion of the step that fails, among objects as they lie then and with what is carried; and which step it is.
+fn failed_step(plan: &Plan) -> Option<(Question, String)> {
+    let TaskPlan { task, answer } = plan.task()?;
+    let Impossible { step, scene, from, ik_solutions, .. } = answer.impossible()?;
+    let goals: GoalSet = ik_solutions.iter().map(|unreached| Segment::point(unreached.ik_solution)).collect();
+    let what = step.action.describe(&task.objects);
+    let note = format!("this is the motion of step {}, which fails: {what} ({})", step.number, step.place);
+    Some((Question::new((**scene).clone(), *from, goals), note))
+}
+
+fn exit_code(status: Status) -> u8 {
+    match status {
+        Status::Found => DONE,
+        Status::Infeasible => INFEASIBLE,
+        Status::Unknown => UNKNOWN,
+    }
+}

@@ -1,0 +1,84 @@
+//! Where a motion gets stuck: the narrowest place of the way that opens when everything gives way by the same.
+
+use super::change::{fineness, middle, shrunk};
+use super::question::Question;
+use super::threshold::{Threshold, threshold};
+use crate::geometry::{Convex, Point, separation};
+use crate::model::{Contact, Obstruction};
+use crate::space::Configuration;
+
+/// The place where a way is narrowest that opens first when clearance, and then all obstacles at once, shrink.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bottleneck {
+    /// By how much they give way, metres: first less clearance, then smaller obstacles.
+    pub by: Threshold,
+    /// Where the way that opens comes nearest to what is left of them.
+    pub at: Configuration,
+    /// The same place in the plane, where the arm is deepest in what it hits there.
+    pub point: Point,
+    /// What the arm would hit there: of each link and obstacle the worst pair.
+    pub hits: Vec<Obstruction>,
+}
+
+impl Bottleneck {
+    /// By how much the place is too narrow, metres: what the arm lacks on all sides there, clearance included.
+    #[must_use]
+    pub fn lacking(&self, clearance: f64) -> f64 {
+        let of = |hit: &Obstruction| clearance - hit.contact.separation.distance;
+        let mut worst: Vec<(usize, f64)> = Vec::new();
+        for hit in &self.hits {
+            let obstacle = hit.contact.pair.obstacle;
+            match worst.iter_mut().find(|(known, _)| *known == obstacle) {
+                Some((_, lack)) => *lack = lack.max(of(hit)),
+                None => worst.push((obstacle, of(hit))),
+            }
+        }
+        worst.iter().map(|(_, lack)| lack).sum()
+    }
+}
+
+/// Where a question is stuck to which the answer is that there is no motion; none if it is not the obstacles that it is stuck at.
+#[must_use]
+pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
+    let workspace = question.scene().workspace();
+    let clearance = workspace.clearance;
+    let extents = workspace.obstacles.iter().filter_map(middle).map(|(_, extent)| extent);
+    let most = clearance + extents.fold(0.0, f64::max);
+    if most == 0.0 {
+        return None;
+    }
+    let by = threshold(0.0, most, fineness(question), |by| giving_way(question, by).answer(boxes))?;
+    let at = by.path.nearest().map_or(question.start(), |nearest| nearest.at);
+    let hits = question.scene().obstructions(at);
+    let depth = |hit: &&Obstruction| hit.contact.separation.distance;
+    let deepest = hits.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)));
+    let point = match deepest.map(|hit| hit.contact).or_else(|| by.path.nearest().map(|nearest| nearest.contact)) {
+        Some(contact) => place(question, at, contact),
+        None => question.scene().arm().tip_at(at),
+    };
+    Some(Bottleneck { by, at, point, hits })
+}
+
+/// The same with so much less of everything that is to be kept off.
+fn giving_way(question: &Question, by: f64) -> Question {
+    question.rebuilt(|_, workspace| {
+        let beyond = by - workspace.clearance;
+        workspace.clearance = (workspace.clearance - by).max(0.0);
+        if beyond > 0.0 {
+            for obstacle in &mut workspace.obstacles {
+                obstacle.pieces = shrunk(obstacle, beyond);
+            }
+        }
+    })
+}
+
+/// The corner of either shape that is deepest in the other one.
+fn place(question: &Question, at: Configuration, Contact { pair, .. }: Contact) -> Point {
+    let scene = question.scene();
+    let (part, piece) = (scene.part(pair).at(&scene.arm().pose(pair.link, at)), scene.piece(pair));
+    let deep = |shape: &Convex, corner: &Point| separation(shape, &Convex::point(*corner)).distance;
+    let of_part = part.core().iter().map(|corner| (deep(piece, corner), *corner));
+    let of_piece = piece.core().iter().map(|corner| (deep(&part, corner), *corner));
+    let deepest = of_part.chain(of_piece).min_by(|a, b| a.0.total_cmp(&b.0));
+    deepest.map_or(scene.arm().tip_at(at), |(_, corner)| corner)
+}

@@ -1,0 +1,41 @@
+//! Why there is no motion, and what opens a way; and of a motion that there is, what shapes it.
+//!
+//! ```
+//! use cplan::engine::explain::{Question, explain};
+//! use cplan::model::{Arm, Joint, Obstacle, Outcome, Scene, Workspace};
+//! use cplan::space::{Configuration, GoalSet};
+//! use cplan::{Options, Status};
+//!
+//! // Neither way round: one is closed by a post, the other by the limits of joint 1. The post far away does no harm.
+//! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];
+//! let mut arm = Arm::rr([1.0, 0.8], 0.06)?;
+//! arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);
+//! let scene = Scene::new(arm, Workspace::new(posts))?;
+//! let goals = GoalSet::from(Configuration::new(1.0, 0.0));
+//! let explanation = explain(&Question::new(scene, Configuration::new(-1.0, 0.0), goals), &Options::default());
+//!
+//! let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{:?}", explanation.status()) };
+//! assert_eq!(closed.blocking(explanation.question.scene()), ["near"]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod blockers;
+mod bottleneck;
+mod change;
+mod element;
+mod ends;
+mod explanation;
+mod json;
+mod question;
+mod shaping;
+mod threshold;
+
+pub use blockers::{Blocker, BlockingSet, blocking_set, blocking_sets};
+pub use bottleneck::{Bottleneck, bottleneck};
+pub use change::{Among, Change, Cure, changes};
+pub use element::{Element, Side};
+pub use ends::{BlockedEnd, End, OutOfReach, blocked_ends};
+pub use explanation::{Closed, Explanation, Shaped, explain};
+pub use question::{Decision, Question, Target};
+pub use shaping::{Saving, savings};
+pub use threshold::Threshold;

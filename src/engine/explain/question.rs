@@ -1,0 +1,184 @@
+//! What is asked, also where start or goal is not free, and the same with less in the way.
+
+use super::element::{Element, Side, widened};
+use crate::check::{CertifiedPath, CheckedProof};
+use crate::engine::{Verdict, decide};
+use crate::geometry::{Convex, Point};
+use crate::model::{Arm, Goal, MotionProblem, Scene, Workspace, inverse};
+use crate::space::{Configuration, GoalSet, Segment};
+use std::f64::consts::TAU;
+
+/// What is to be reached.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Target {
+    /// Any of these configurations.
+    Goals(GoalSet),
+    /// Any configuration that puts the tip here: with less in the way these may be more.
+    Tip(Point),
+}
+
+impl From<Goal> for Target {
+    fn from(goal: Goal) -> Self {
+        match goal {
+            Goal::Joints(q) => Self::Goals(q.into()),
+            Goal::Tip(tip) => Self::Tip(tip),
+        }
+    }
+}
+
+/// A motion that is asked for. Unlike those of a [`MotionProblem`] its start and goals may be blocked, outside the limits, or out of reach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    scene: Scene,
+    start: Configuration,
+    target: Target,
+}
+
+/// What is decided of a question.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Decision {
+    /// A certified path.
+    Open(Box<CertifiedPath>),
+    /// There is none: proven by boxes, or start or goals are not free themselves.
+    Closed(Option<CheckedProof>),
+    /// Neither is known.
+    Unknown(String),
+}
+
+impl From<&MotionProblem> for Question {
+    fn from(problem: &MotionProblem) -> Self {
+        let target = Target::Goals(problem.goals().clone());
+        Self { scene: problem.scene().clone(), start: problem.start(), target }
+    }
+}
+
+impl From<GoalSet> for Target {
+    fn from(goals: GoalSet) -> Self {
+        Self::Goals(goals)
+    }
+}
+
+impl Question {
+    /// A motion from a start to a target. Neither needs to be free.
+    #[must_use]
+    pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
+        Self { scene, start, target: target.into() }
+    }
+
+    /// Arm and obstacles.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Where the arm begins.
+    #[must_use]
+    pub fn start(&self) -> Configuration {
+        self.start
+    }
+
+    /// What is to be reached.
+    #[must_use]
+    pub fn target(&self) -> &Target {
+        &self.target
+    }
+
+    /// Whether a configuration is within the limits and free.
+    #[must_use]
+    pub fn is_free(&self, q: Configuration) -> bool {
+        self.scene.arm().topology().contains(q) && self.scene.obstructions(q).is_empty()
+    }
+
+    /// All configurations of the target within the limits, free or not.
+    #[must_use]
+    pub fn ends(&self) -> Vec<Segment> {
+        let topology = self.scene.arm().topology();
+        match &self.target {
+            Target::Goals(goals) => {
+                let within = |piece: &&Segment| piece.ends().into_iter().all(|q| topology.contains(q));
+                goals.pieces().iter().filter(within).copied().collect()
+            }
+            Target::Tip(tip) => inverse(self.scene.arm(), *tip, self.start).solutions(self.scene.arm()),
+        }
+    }
+
+    /// Those that are not known to be blocked.
+    #[must_use]
+    pub fn goals(&self) -> GoalSet {
+        let open = |piece: &Segment| match piece.is_point() {
+            true => self.scene.obstructions(piece.ends()[0]).is_empty(),
+            false => self.scene.blocked_along(piece).is_none(),
+        };
+        self.ends().into_iter().filter(open).collect()
+    }
+
+    /// The problem, if start and some goal are free.
+    #[must_use]
+    pub fn problem(&self) -> Option<MotionProblem> {
+        let goals = self.goals();
+        (self.is_free(self.start) && !goals.is_empty())
+            .then(|| MotionProblem::trusted(self.scene.clone(), self.start, goals))
+    }
+
+    /// By slabs and boxes, of these no more than so many.
+    #[must_use]
+    pub fn answer(&self, boxes: usize) -> Decision {
+        match self.problem().map(|problem| decide(&problem, boxes)) {
+            None => Decision::Closed(None),
+            Some(Verdict::Found(path)) => Decision::Open(Box::new(path)),
+            Some(Verdict::Infeasible(proof)) => Decision::Closed(Some(proof)),
+            Some(Verdict::Unknown(reason)) => Decision::Unknown(reason),
+        }
+    }
+
+    /// The same without some of what is in the way: no such obstacles; joints that turn a whole turn farther, joints that slide beyond all
+    /// obstacles; any clearance above 0. All else keeps its number, so that a proof which names nothing of it holds in both.
+    #[must_use]
+    pub fn without(&self, elements: &[Element]) -> Self {
+        let farthest = farthest(&self.scene);
+        self.rebuilt(|arm, workspace| {
+            for element in elements {
+                match *element {
+                    Element::Obstacle { number } => workspace.obstacles[number].pieces.clear(),
+                    Element::Limit { joint, side } => {
+                        let joint = &mut arm.joints[joint];
+                        let by = if joint.joint_type.is_revolute() { TAU } else { farthest };
+                        joint.range = widened(joint.range, side, by);
+                    }
+                    Element::Clearance => workspace.clearance = 0.0,
+                }
+            }
+        })
+    }
+
+    /// The same with other pieces for an obstacle.
+    pub(super) fn with_pieces(&self, number: usize, pieces: Vec<Convex>) -> Self {
+        self.rebuilt(|_, workspace| workspace.obstacles[number].pieces = pieces)
+    }
+
+    /// The same with a joint that moves farther.
+    pub(super) fn with_wider(&self, joint: usize, side: Side, by: f64) -> Self {
+        self.rebuilt(|arm, _| arm.joints[joint].range = widened(arm.joints[joint].range, side, by))
+    }
+
+    /// The same with another distance to keep.
+    pub(super) fn with_clearance(&self, clearance: f64) -> Self {
+        self.rebuilt(|_, workspace| workspace.clearance = clearance)
+    }
+
+    pub(super) fn rebuilt(&self, edit: impl FnOnce(&mut Arm, &mut Workspace)) -> Self {
+        let (payload, contacts) = (self.scene.payload().cloned(), self.scene.allowed_contacts().to_vec());
+        let (mut arm, mut workspace) = self.scene.clone().into_parts();
+        edit(&mut arm, &mut workspace);
+        let scene = Scene::handling_trusted(arm, workspace, payload, &contacts);
+        Self { scene, start: self.start, target: self.target.clone() }
+    }
+}
+
+/// How far a joint slides that has left all obstacles behind, wherever it begins.
+pub(super) fn farthest(scene: &Scene) -> f64 {
+    let base = scene.arm().base;
+    let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);
+    let across = pieces.map(|piece| piece.reach_from(base)).fold(0.0, f64::max);
+    2.0 * (across + scene.arm().reach())
+}

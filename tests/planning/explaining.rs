@@ -1,0 +1,234 @@
+//! Why there is no motion: sets of blockers, held to planning in worlds that the test itself makes of them; changes, held to closed forms
+//! and to a flood fill.
+//!
+//! `CPLAN_WORLDS` says how many random worlds without a motion of each kind of arm are looked at; the long run prints times:
+//!
+//! ```sh
+//! CPLAN_WORLDS=250 cargo test --profile quick --test planning explaining -- --nocapture
+//! ```
+
+use crate::common::random::seeds;
+use crate::random_worlds::world::{KINDS, world};
+use cplan::engine::explain::{BlockingSet, Cure, Element, Question, Side, blocking_set, explain};
+use cplan::engine::{Verdict, decide};
+use cplan::geometry::Vector;
+use cplan::model::{
+    Arm, Heights, Joint, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
+};
+use cplan::space::{Configuration, JointRange};
+use cplan::{Options, Status, engine};
+use std::f64::consts::TAU;
+use std::time::{Duration, Instant};
+
+/// Boxes for decisions.
+const BOXES: usize = 20_000;
+
+/// Farther than any slide of the random worlds needs to go.
+const FAR: f64 = 20.0;
+
+/// The problem with nothing but some of what is in the way, made from scratch.
+fn among(problem: &MotionProblem, there: &[Element]) -> MotionProblem {
+    let (mut arm, mut workspace) = problem.scene().clone().into_parts();
+    let mut number = 0;
+    workspace.obstacles.retain(|_| {
+        number += 1;
+        there.contains(&Element::Obstacle { number: number - 1 })
+    });
+    if !there.contains(&Element::Clearance) {
+        workspace.clearance = 0.0;
+    }
+    for (k, joint) in arm.joints.iter_mut().enumerate() {
+        let far = if joint.joint_type.is_revolute() { TAU } else { FAR };
+        if let JointRange::Interval { lower, upper } = &mut joint.range {
+            if !there.contains(&Element::Limit { joint: k, side: Side::Lower }) {
+                *lower -= far;
+            }
+            if !there.contains(&Element::Limit { joint: k, side: Side::Upper }) {
+                *upper += far;
+            }
+        }
+    }
+    let scene = Scene::new(arm, workspace).expect("less of what is valid");
+    MotionProblem::new(scene, problem.start(), problem.goals().clone()).expect("ends stay free")
+}
+
+/// What is wrong with a set.
+fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
+    let mut faults = Vec::new();
+    let elements = set.elements();
+    if decide(&among(problem, &elements), Options::default().boxes).status() != Status::Infeasible {
+        faults.push(format!("{elements:?} leave a way"));
+    }
+    for element in &elements {
+        let others: Vec<Element> = elements.iter().filter(|other| *other != element).copied().collect();
+        let known = set.without(*element);
+        let truth = engine::solve(&among(problem, &others), &Options::default(), &mut |_| ()).verdict.status();
+        if truth != Status::Found && (known == Status::Found || truth == Status::Infeasible) {
+            faults.push(format!("{element:?} is not needed of {elements:?}: {truth}"));
+        }
+    }
+    faults
+}
+
+#[test]
+fn blocking_sets_are_irreducible() {
+    let wanted = std::env::var("CPLAN_WORLDS").ok().and_then(|n| n.parse::<usize>().ok()).unwrap_or(6);
+    let (mut times, mut sizes, mut wrong) = (Vec::<Duration>::new(), Vec::new(), Vec::new());
+    let mut unknown = 0;
+    for kind in KINDS {
+        let mut seen = 0;
+        for seed in seeds(1).start.. {
+            let Some(problem) = world(kind, seed) else { continue };
+            let Verdict::Infeasible(proof) = decide(&problem, BOXES) else { continue };
+            let clock = Instant::now();
+            let set = blocking_set(&Question::from(&problem), Some(proof), BOXES);
+            times.push(clock.elapsed());
+            sizes.push(set.blockers.len());
+            unknown += usize::from(!set.is_irreducible());
+            wrong.extend(faults(&problem, &set).into_iter().map(|fault| format!("{kind} {seed}: {fault}")));
+            seen += 1;
+            if seen == wanted {
+                break;
+            }
+        }
+    }
+    times.sort();
+    sizes.sort_unstable();
+    let count = times.len();
+    println!(
+        "{count} worlds: median {:.2?}, 95 % {:.2?}, longest {:.2?}; blockers: median {}, most {}; {unknown} not shown irreducible",
+        times[count / 2],
+        times[count * 95 / 100],
+        times[count - 1],
+        sizes[count / 2],
+        sizes[count - 1]
+    );
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(unknown * 20 <= count, "{unknown} of {count} are not shown to be irreducible");
+}
+
+/// Half the side of the block that the gantry carries.
+const HALF: f64 = 0.1;
+
+/// A square block that slides within 1 m of the origin along x and y, from the left to the right.
+fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> Question {
+    let slide = |name, direction| Joint::sliding(name, direction, -1.0, 1.0);
+    let square = cplan::geometry::Convex::new(
+        [[-HALF, -HALF], [HALF, -HALF], [HALF, HALF], [-HALF, HALF]].map(cplan::Point::from).to_vec(),
+        0.0,
+    )
+    .expect("a square");
+    let part = Part { shape: square, heights: Heights::ALL, body: "block".into() };
+    let link = |name: &str, parts| Link { name: name.into(), parts, source: OutlineSource::Collision };
+    let arm = Arm::new(
+        [slide("x", Vector::x()), slide("y", Vector::y())],
+        [link("rail", Vec::new()), link("block", vec![part])],
+        [0.0, 0.0],
+    );
+    let workspace = Workspace { clearance, ..Workspace::new(obstacles) };
+    let scene = Scene::new(arm, workspace).expect("a scene");
+    let goal = cplan::space::GoalSet::from(Configuration::new(0.8, 0.0));
+    Question::new(scene, Configuration::new(-0.8, 0.0), goal)
+}
+
+fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {
+    Obstacle::polygon(name, [[-0.05, lower], [0.05, lower], [0.05, upper], [-0.05, upper]]).expect("a rectangle")
+}
+
+/// A wall with a gap that is `gap` wide; beyond its ends the slides do not go.
+fn wall(gap: f64) -> Vec<Obstacle> {
+    vec![bar("above", gap / 2.0, 3.0), bar("below", -3.0, -gap / 2.0)]
+}
+
+/// The closed forms of a gap that is too narrow by 0.03 m: one half is moved or made smaller by so much, both by half of it.
+#[test]
+fn a_gap_is_too_narrow_by_what_it_lacks() {
+    let lacking = 0.03;
+    let explanation = explain(&gantry(wall(2.0 * HALF - lacking), 0.0), &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    assert_eq!(closed.blocking(explanation.question.scene()), ["above", "below"]);
+    assert_eq!(closed.sets.len(), 1);
+    for change in &closed.changes {
+        assert!(change.by.closed <= lacking && lacking < change.by.opens, "{change:?}");
+        assert!(change.by.opens - change.by.closed <= 1e-3, "{change:?}");
+        if let Cure::Moved { direction: [x, y] } = change.cure {
+            let outwards = if change.element == (Element::Obstacle { number: 0 }) { 1.0 } else { -1.0 };
+            assert!(x.abs() < 1e-9 && (y - outwards).abs() < 1e-9, "{change:?}");
+        }
+    }
+    assert_eq!(closed.changes.len(), 4, "{:?}", closed.changes);
+    let stuck = closed.bottleneck.as_ref().expect("a narrow place");
+    assert!(stuck.by.closed <= lacking / 2.0 && lacking / 2.0 < stuck.by.opens, "{stuck:?}");
+    assert!((stuck.lacking(0.0) - lacking).abs() < 1e-9, "{stuck:?}");
+    assert!(stuck.at[1].abs() < lacking && stuck.at[0].abs() < HALF + 0.06, "{stuck:?}");
+}
+
+/// Of a gap that is wide enough but for the clearance of 0.05 m on either side.
+#[test]
+fn clearance_is_lowered_to_half_of_what_a_gap_leaves() {
+    let explanation = explain(&gantry(wall(2.0 * HALF + 0.06), 0.05), &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    let set = &closed.sets[0];
+    assert!(set.elements().contains(&Element::Clearance), "{:?}", set.elements());
+    let lowered = closed.changes.iter().find(|change| change.cure == Cure::Lowered).expect("the clearance opens a way");
+    assert!(lowered.by.closed <= 0.02 && 0.02 <= lowered.by.opens, "{lowered:?}");
+    assert!(lowered.by.opens - lowered.by.closed <= 1e-3, "{lowered:?}");
+}
+
+/// A wall that leaves room at its upper end alone, where the slide stops short of it by a hundredth.
+#[test]
+fn a_limit_is_widened_by_what_it_lacks() {
+    let end = 1.0 - HALF + 0.01;
+    let explanation = explain(&gantry(vec![bar("wall", -3.0, end)], 0.0), &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    let upper = Element::Limit { joint: 1, side: Side::Upper };
+    assert_eq!(closed.sets[0].elements(), [upper, Element::Obstacle { number: 0 }]);
+    let widened = closed.changes.iter().find(|change| change.element == upper).expect("a change");
+    assert!(widened.by.closed <= 0.01 && 0.01 < widened.by.opens && widened.by.opens < 0.0111, "{widened:?}");
+}
+
+/// Two walls, each of which is enough: no single change opens a way through both, and both are told.
+#[test]
+fn walls_behind_one_another_are_sets_of_their_own() {
+    let behind = |obstacle: Obstacle, name: &str| {
+        let cplan::model::Shape::Polygon(corners) = &obstacle.shape else { panic!("a bar") };
+        Obstacle::polygon(name, corners.iter().map(|p| [p.x + 0.4, p.y])).expect("a rectangle")
+    };
+    let walls = vec![bar("first", -3.0, 3.0), behind(bar("second", -3.0, 3.0), "second")];
+    let explanation = explain(&gantry(walls, 0.0), &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    assert_eq!(closed.sets.len(), 2);
+    let all: Vec<Element> = closed.sets.iter().flat_map(BlockingSet::elements).collect();
+    for number in [0, 1] {
+        assert!(all.contains(&Element::Obstacle { number }), "{all:?}");
+    }
+}
+
+/// A start in an obstacle is explained by it alone.
+#[test]
+fn a_blocked_start_is_opened_by_what_it_hits() {
+    let block = Obstacle::polygon("block", [[-0.75, -0.3], [-0.6, -0.3], [-0.6, 0.3], [-0.75, 0.3]]).expect("a block");
+    let explanation = explain(&gantry(vec![bar("post", 0.5, 0.6), block], 0.0), &Options::default());
+    let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    assert_eq!(closed.blocking(explanation.question.scene()), ["block"]);
+    // The block's left side is at -0.75, the arm's right one at -0.7: what lacks is 0.05.
+    for change in &closed.changes {
+        assert!(change.by.closed <= 0.05 && 0.05 < change.by.opens && change.by.opens < 0.0511, "{change:?}");
+    }
+    assert_eq!(closed.changes.len(), 2);
+}
+
+/// One bar in the way: without it the path is straight.
+#[test]
+fn what_shapes_the_shortest_path_is_told_with_what_it_costs() {
+    let (across, corner) = (0.15, [0.15_f64, 0.3]);
+    let bars = vec![bar("high", 0.8, 0.9), bar("middle", -3.0, corner[1] - HALF)];
+    let explanation = explain(&gantry(bars, 0.0), &Options::default());
+    let Outcome::Found(shaped) = &explanation.outcome else { panic!("{}", explanation.status()) };
+    let around = 2.0 * ((0.8_f64 - across).hypot(corner[1]) + across);
+    let [saving] = &shaped.savings[..] else { panic!("{:?}", shaped.savings) };
+    assert_eq!(saving.element, Element::Obstacle { number: 1 });
+    let truth = around - 1.6;
+    assert!(saving.at_least <= truth && truth <= saving.at_most, "{saving:?} {truth}");
+    assert!(saving.at_most - saving.at_least < 1e-2 * truth, "{saving:?}");
+}
