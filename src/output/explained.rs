@@ -202,7 +202,7 @@ fn stuck(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let at = configuration(scene.arm(), bottleneck.at);
     let point = bottleneck.point;
     let between: Vec<String> = bottleneck.hits.iter().map(|hit| scene.describe(hit.contact.pair)).collect();
-    let between = if between.is_empty() { "nothing".into() } else { between.join("; ") };
+    let between = between.join("; ");
     let by = &bottleneck.by;
     format!(
         "at {at}, near ({:.4}, {:.4}) m: too narrow by {lacking:.4} m ({between}); a way opens when everything gives way by {:.4} m, not yet by \

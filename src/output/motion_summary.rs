@@ -59,9 +59,15 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
 /// Boxes that are looked at for each decision on what is in the way.
 const BOXES: usize = 5_000;
 
+/// Among more pairs of shapes the decisions may take seconds.
+const FEW_PAIRS: usize = 1000;
+
 /// What is in the way, if there is no motion: some milliseconds. `cplan explain` has more to say.
 pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
     let proof = plan.answer.verdict.proof()?;
+    if plan.problem.scene().pairs().len() > FEW_PAIRS {
+        return Some(("blocked by", "`cplan explain` tells".into()));
+    }
     let set = blocking_set(&Question::from(&plan.problem), Some(proof.clone()), BOXES);
     Some(("blocked by", set.describe(plan.problem.scene())))
 }

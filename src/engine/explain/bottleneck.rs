@@ -20,43 +20,64 @@ pub struct Bottleneck {
     pub hits: Vec<Obstruction>,
 }
 
+/// How finely it is told by how much they give way, as a share of that.
+const FINE_SHARE: f64 = 1e-2;
+
+/// Places along the way at which it is asked how narrow it is.
+const LOOKS: usize = 1024;
+
 impl Bottleneck {
     /// By how much the place is too narrow, metres: what the arm lacks on all sides there, clearance included.
     #[must_use]
     pub fn lacking(&self, clearance: f64) -> f64 {
-        let of = |hit: &Obstruction| clearance - hit.contact.separation.distance;
-        let mut worst: Vec<(usize, f64)> = Vec::new();
-        for hit in &self.hits {
-            let obstacle = hit.contact.pair.obstacle;
-            match worst.iter_mut().find(|(known, _)| *known == obstacle) {
-                Some((_, lack)) => *lack = lack.max(of(hit)),
-                None => worst.push((obstacle, of(hit))),
-            }
-        }
-        worst.iter().map(|(_, lack)| lack).sum()
+        lacking(&self.hits, clearance)
     }
+}
+
+/// Of each obstacle that is hit the most that is lacking, all together.
+fn lacking(hits: &[Obstruction], clearance: f64) -> f64 {
+    let mut worst: Vec<(usize, f64)> = Vec::new();
+    for hit in hits {
+        let (obstacle, lack) = (hit.contact.pair.obstacle, clearance - hit.contact.separation.distance);
+        match worst.iter_mut().find(|(known, _)| *known == obstacle) {
+            Some((_, most)) => *most = most.max(lack),
+            None => worst.push((obstacle, lack)),
+        }
+    }
+    worst.iter().map(|(_, lack)| lack).sum()
 }
 
 /// Where a question is stuck to which the answer is that there is no motion; none if it is not the obstacles that it is stuck at.
 #[must_use]
 pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
-    let workspace = question.scene().workspace();
-    let clearance = workspace.clearance;
-    let extents = workspace.obstacles.iter().filter_map(middle).map(|(_, extent)| extent);
+    let scene = question.scene();
+    let clearance = scene.workspace().clearance;
+    let extents = scene.workspace().obstacles.iter().filter_map(middle).map(|(_, extent)| extent);
     let most = clearance + extents.fold(0.0, f64::max);
     if most == 0.0 {
         return None;
     }
-    let by = threshold(0.0, most, fineness(question), |by| giving_way(question, by).answer(boxes))?;
-    let at = by.path.nearest().map_or(question.start(), |nearest| nearest.at);
-    let hits = question.scene().obstructions(at);
+    let ask = |by: f64| giving_way(question, by).answer(boxes);
+    let coarse = threshold(0.0, most, fineness(question), ask)?;
+    let finer = threshold(coarse.closed, coarse.opens, FINE_SHARE * coarse.opens, ask);
+    let by = finer.unwrap_or(coarse);
+    let (at, hits) = narrowest(question, &by)?;
     let depth = |hit: &&Obstruction| hit.contact.separation.distance;
-    let deepest = hits.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)));
-    let point = match deepest.map(|hit| hit.contact).or_else(|| by.path.nearest().map(|nearest| nearest.contact)) {
-        Some(contact) => place(question, at, contact),
-        None => question.scene().arm().tip_at(at),
-    };
+    let deepest = hits.iter().min_by(|a, b| depth(a).total_cmp(&depth(b)))?.contact;
+    let point = place(question, at, deepest);
     Some(Bottleneck { by, at, point, hits })
+}
+
+/// Where on the way that opens the arm lacks most in the true scene, and what it hits there.
+fn narrowest(question: &Question, by: &Threshold) -> Option<(Configuration, Vec<Obstruction>)> {
+    let (scene, path) = (question.scene(), by.path.path());
+    let clearance = scene.workspace().clearance;
+    let looks = (LOOKS / path.waypoints().len().max(1)).max(1);
+    let shares = (0..=looks).map(|k| k as f64 / looks as f64);
+    let along = path.segments().flat_map(|(from, to)| shares.clone().map(move |share| from + (to - from) * share));
+    let looked = along.chain([path.start()]).chain(by.path.nearest().map(|nearest| nearest.at));
+    let hits = looked.map(|q| (q, scene.obstructions(q))).filter(|(_, hits)| !hits.is_empty());
+    hits.max_by(|a, b| lacking(&a.1, clearance).total_cmp(&lacking(&b.1, clearance)))
 }
 
 /// The same with so much less of everything that is to be kept off.

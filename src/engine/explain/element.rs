@@ -23,7 +23,7 @@ pub enum Element {
         /// Into the workspace's obstacles.
         number: usize,
     },
-    /// One end of a joint's range.
+    /// One end of a joint's range. Without it joint values stay what they are: a goal a whole turn off is another one.
     Limit {
         /// 0 or 1.
         joint: usize,

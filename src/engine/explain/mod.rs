@@ -6,7 +6,7 @@
 //! use cplan::space::{Configuration, GoalSet};
 //! use cplan::{Options, Status};
 //!
-//! // Neither way round: one is closed by a post, the other by the limits of joint 1. The post far away does no harm.
+//! // A post in the way of the first link, and one far away that does no harm.
 //! let posts = [Obstacle::circle("far", [5.0, 0.0], 0.1)?, Obstacle::circle("near", [0.4, 0.0], 0.1)?];
 //! let mut arm = Arm::rr([1.0, 0.8], 0.06)?;
 //! arm.joints[0] = Joint::turning("shoulder", -2.0, 2.0);
