@@ -72,7 +72,7 @@ fn faults(problem: &MotionProblem, set: &BlockingSet) -> Vec<String> {
 
 #[test]
 fn blocking_sets_are_irreducible() {
-    let wanted = std::env::var("CPLAN_WORLDS").ok().and_then(|n| n.parse::<usize>().ok()).unwrap_or(6);
+    let wanted = std::env::var("CPLAN_WORLDS").ok().and_then(|n| n.parse::<usize>().ok()).unwrap_or(3);
     let (mut times, mut sizes, mut wrong) = (Vec::<Duration>::new(), Vec::new(), Vec::new());
     let mut unknown = 0;
     for kind in KINDS {
