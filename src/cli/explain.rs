@@ -25,7 +25,7 @@ that is not free, which the main job refuses, is explained in the same words; of
 
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
-  cplan explain robots/planar_2r.urdf workspaces/slot_closed.toml --picture why.svg
+  cplan explain robots/planar_2r.urdf workspaces/limits_closed.toml --picture why.svg
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --json
   cplan explain robots/planar_2r.urdf workspaces/shelf.toml --goal-tip 5,0
 

@@ -23,6 +23,9 @@ pub struct Bottleneck {
 /// How finely it is told by how much they give way, as a share of that.
 const FINE_SHARE: f64 = 1e-2;
 
+/// The same, as a share of how finely changes are told: nearer to the threshold decisions take long.
+const FINEST: f64 = 1.0 / 16.0;
+
 /// Places along the way at which it is asked how narrow it is.
 const LOOKS: usize = 1024;
 
@@ -58,8 +61,9 @@ pub fn bottleneck(question: &Question, boxes: usize) -> Option<Bottleneck> {
         return None;
     }
     let ask = |by: f64| giving_way(question, by).answer(boxes);
-    let coarse = threshold(0.0, most, fineness(question), ask)?;
-    let finer = threshold(coarse.closed, coarse.opens, FINE_SHARE * coarse.opens, ask);
+    let fine = fineness(question);
+    let coarse = threshold(0.0, most, fine, ask)?;
+    let finer = threshold(coarse.closed, coarse.opens, (FINE_SHARE * coarse.opens).max(FINEST * fine), ask);
     let by = finer.unwrap_or(coarse);
     let (at, hits) = narrowest(question, &by)?;
     let depth = |hit: &&Obstruction| hit.contact.separation.distance;
