@@ -66,9 +66,9 @@ pub use inspection::{
 pub use line_map::{Chain, LineMap};
 pub use occupancy::{MOST_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};
 pub use preference_map::{PreferenceMap, PreferenceRectangle};
-pub use query::Query;
 #[cfg(feature = "study")]
 pub(crate) use quantity::Quantity;
+pub use query::Query;
 pub use schema::world_schema;
 #[cfg(feature = "study")]
 pub(crate) use schema::{AngleOrLength, toml_schema};
