@@ -38,7 +38,7 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 /// Answers `problem` by [`slab_connectivity`], and where slabs do not tell by [`connectivity`], with at most so many `boxes`
 /// (and no more slabs): a path, pulled taut in the channel of free boxes, or a proof. Both have passed a check that shares no
 /// code with the search. Where slabs show that there is no path, but state it in no small number of boxes, up to 100 000 are
-/// looked at even if `boxes` is less.
+/// looked at even if `boxes` is less, unless it is less than 4000.
 ///
 /// The path is some path, seldom the shortest: the first channel that is found is good enough. Slabs answer most questions in
 /// a small part of the time; boxes know about shapes without thickness, too, and need fewer for some proofs. Among thousands of
@@ -49,12 +49,13 @@ const LOOKS: [usize; 2] = [4_000_000, 40_000_000];
 pub fn decide(problem: &MotionProblem, boxes: usize) -> Verdict {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {
-        let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller: BOXES_FOR_SMALLER.max(boxes) };
+        let for_smaller = (boxes >= AT_FIRST[1]).then_some(BOXES_FOR_SMALLER.max(boxes));
+        let limits = Limits { slabs: SLABS.min(boxes), boxes, for_smaller };
         return asked(problem, problem, &|pair| pair, limits);
     }
     let limited = |asked: &MotionProblem| {
         let [slabs, boxes] = LOOKS.map(|looks| boxes.min(SLABS).min(looks / pairs(asked).max(1)));
-        Limits { slabs, boxes, for_smaller: BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1)) }
+        Limits { slabs, boxes, for_smaller: Some(BOXES_FOR_SMALLER.min(LOOKS[1] / pairs(asked).max(1))) }
     };
     for lattice in LATTICES {
         let thinned = Thinned::new(problem, lattice * problem.scene().arm().reach());
@@ -71,8 +72,8 @@ pub fn decide(problem: &MotionProblem, boxes: usize) -> Verdict {
 struct Limits {
     slabs: usize,
     boxes: usize,
-    /// Boxes, where slabs show that there is no path, but with a large proof.
-    for_smaller: usize,
+    /// Boxes, where slabs show that there is no path, but with a large proof; none if whoever asks cannot wait for that.
+    for_smaller: Option<usize>,
 }
 
 /// What slabs and boxes say of `some`, which is `problem` or some of it; `in_truth` names its pairs in `problem`.
@@ -81,13 +82,14 @@ fn asked(problem: &MotionProblem, some: &MotionProblem, in_truth: &dyn Fn(Pair) 
     let clearance = scene.workspace().clearance;
     let by_boxes = |boxes: usize| judged(problem, in_truth, connectivity(scene, start, goals, clearance, boxes));
     let by_slabs = |slabs: usize, most: usize| slab_connectivity(scene, start, goals, clearance, slabs, most);
-    let either = |slabs: usize, boxes: usize| match by_slabs(slabs, LARGE_PROOF) {
+    let proof = if limits.for_smaller.is_some() { LARGE_PROOF } else { LARGE_PROOF.min(4 * limits.boxes) };
+    let either = |slabs: usize, boxes: usize| match (by_slabs(slabs, proof), limits.for_smaller) {
         // There is none, but slabs take no end of boxes to state it.
-        Connectivity::Undecided { closed: true, .. } => match by_boxes(limits.for_smaller) {
+        (Connectivity::Undecided { closed: true, .. }, Some(for_smaller)) => match by_boxes(for_smaller) {
             Verdict::Unknown(_) => judged(problem, in_truth, by_slabs(slabs, LARGEST_PROOF)),
             known => known,
         },
-        answer => match judged(problem, in_truth, answer) {
+        (answer, _) => match judged(problem, in_truth, answer) {
             Verdict::Unknown(_) => by_boxes(boxes),
             known => known,
         },

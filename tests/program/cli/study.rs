@@ -2,6 +2,7 @@
 
 use super::{Done, FREE, Place, shelf, shipped};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
@@ -179,7 +180,11 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     assert_eq!(done.code, 0, "{}", done.stderr);
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     let rows = rows(&place.read("t.csv"));
-    assert_eq!(rows.len(), 76);
+    // Layouts that the search comes to again are not planned again: of its 60 there are as many as differ.
+    assert!(rows.len() > 66 && rows.len() <= 76, "{}", rows.len());
+    let places: BTreeSet<[String; 2]> =
+        rows.iter().map(|row| ["x", "y"].map(|name| field(row, name).to_owned())).collect();
+    assert_eq!(places.len(), rows.len());
     let fits = |row: &&Vec<(String, String)>| field(row, "fits") == "true";
     let least = |rows: &[Vec<(String, String)>]| {
         let lengths = rows.iter().filter(fits).map(|row| field(row, "length").parse::<f64>().unwrap());

@@ -48,7 +48,7 @@ fn a_bad_text_is_explained_and_the_last_good_one_stays() {
         ("nam = \"x\"", &["unknown key", "^^^"]),
         ("[[obstacle]]\npolygon = [[0, 0], [1, 1], [1, 0], [0, 1]]\n", &["line 2", "not a simple polygon"]),
         ("[[obstacle]]\ncircle = { center = [0, 0], radius = -1 }\n", &["radius must be positive"]),
-        ("[map]\nfile = \"store_room.map\"\n", &["\"store_room.map\"", "start the server with this world"]),
+        ("[map]\nfile = \"store_room.map\"\n", &["\"store_room.map\"", "cplan serve with this world"]),
         ("[[obstacle]]\nimage = \"../workspaces/den.yaml\"\n", &["den.yaml"]),
         ("obstacle = [{ image = \"den.yaml\" }]\n", &["den.yaml"]),
     ] {
