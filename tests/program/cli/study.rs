@@ -198,7 +198,7 @@ fn the_search_finds_better_layouts_and_says_what_it_tried() {
     let tried = &summary["search"];
     let counted: u64 =
         ["found", "infeasible", "unknown", "refused"].iter().map(|name| tried[name].as_u64().unwrap()).sum();
-    assert_eq!(counted, 60);
+    assert_eq!(counted as usize, rows.len() - 16);
     // The best layout's files plan as its row says, by the command that they name, and the summary, too.
     let command = place.read("best.toml").lines().nth(1).unwrap().strip_prefix("# cplan ").unwrap().to_owned();
     assert_eq!(command, "best.urdf best.toml --clearance=0.003");
