@@ -17,6 +17,7 @@ fn pictures_are_up_to_date() {
     }
     let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     assert_eq!(files.filter(|f| f.extension().is_some_and(|e| e == "svg")).count(), drawn::PICTURES.len());
+    assert!(drawn::PICTURES.iter().any(|(name, _)| *name == drawn::MOVING.1), "what moves has a still picture");
 }
 
 /// The picture that moves ends with the still one. To draw it anew takes seconds, so its other pictures are not compared.
