@@ -71,7 +71,7 @@ pub fn svg(view: &View) -> String {
 }
 
 /// The view in motion, as SVG documents and how long each is to be seen, in hundredths of a second: how the planner came to its answer,
-/// where the view knows it, then what the arm does. The last one is [`svg`].
+/// where the view knows it, then what the arm does. The last one is [`svg()`].
 pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     let moments = animation::moments(view).into_iter();
     moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
@@ -105,7 +105,7 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
 /// An SVG document as a GIF of a single picture of this width.
 ///
 /// # Errors
-/// As [`gif`].
+/// As [`gif()`].
 #[cfg(feature = "png")]
 pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
     gif_writer::still(svg, width)
