@@ -79,10 +79,12 @@ const Think = (() => {
   /** What is there of what the planner saw. */
   function seen(view, trace) {
     const { moment: now } = view;
-    if (!now || !trace) return trace;
+    if (!now) return trace;
     const { phase } = now;
-    const of = (kind) => part(view, kind);
+    // Some planners leave nothing but their slabs.
     if (phase.kind === 'slabs') return cut(phase, phase.order, now.part);
+    if (!trace) return trace;
+    const of = (kind) => part(view, kind);
     if (phase.kind === 'boxes') return cut(trace, phase.order, now.part);
     if (phase.kind === 'sweeps') {
       const at = Math.min(phase.frames.length - 1, Math.floor(now.part * phase.frames.length));
