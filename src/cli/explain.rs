@@ -21,7 +21,8 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Where there is no motion it names what is in the way: obstacles, limits of joints, the clearance. All of them together leave no way, proven;
 without any one of them there is one, certified. Of each the smallest change that opens a way is told between a path and a proof. A start or goal
-that is not free, which the main job refuses, is explained in the same words; of a world with steps the motion of the step that fails. Where there is a motion, it tells what makes it longer.
+that is not free, which the main job refuses, is explained in the same words; of a world with steps the motion of the step that fails.
+Where there is a motion, it tells what makes it longer.
 
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
@@ -56,6 +57,11 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
         let problem = Problem::of_scene(loaded, &overrides)?;
         let plan = plan(&problem, &Options::default())?;
         let Some((question, note)) = failed_step(&plan) else {
+            for sink in &sinks {
+                if let Sink::Picture(format, path) = sink {
+                    sinks::save_picture(*format, path, &plan.view())?;
+                }
+            }
             let done = "all steps can be done: there is nothing to explain\n";
             args.print.tell(|| sinks::pretty(&json!({ "status": plan.status() })), || done.into())?;
             return Ok(exit_code(plan.status()));

@@ -71,6 +71,7 @@ fn verdict(explanation: &Explanation) -> String {
         },
         Outcome::Infeasible(closed) => match closed.sets.first().filter(|set| !set.blockers.is_empty()) {
             Some(set) => format!("there is no motion: proven; blocked by {}", set.describe(scene)),
+            None if closed.out_of_reach.is_some() => "there is no motion: the goal is out of reach".into(),
             None => "there is no motion, and nothing that could be left out opens a way".into(),
         },
     }
@@ -137,7 +138,10 @@ fn infeasible(scene: &Scene, closed: &Closed) -> Vec<Line> {
             lines.push(("", format!("  without {what} {known} {others}")));
         }
     }
-    lines.extend(closed.changes.iter().map(|change| ("opens", opens(scene, change))));
+    for set in &closed.sets {
+        let changes = set.blockers.iter().flat_map(|blocker| &blocker.changes);
+        lines.extend(changes.map(|change| ("opens", opens(scene, set, change))));
+    }
     lines.extend(closed.bottleneck.iter().map(|bottleneck| ("stuck", stuck(scene, bottleneck))));
     lines
 }
@@ -166,7 +170,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at } = out;
     format!(
-        "within the limits the tip misses ({}, {}) m by {:.4} m: the nearest place is ({:.4}, {:.4}) m, at {}",
+        "within the limits the tip misses ({:.4}, {:.4}) m by {:.4} m: the nearest place is ({:.4}, {:.4}) m, at {}",
         tip.x,
         tip.y,
         (tip - nearest).norm(),
@@ -177,7 +181,7 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
 }
 
 /// A change in words.
-fn opens(scene: &Scene, change: &Change) -> String {
+fn opens(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     let Change { element, cure, among, by } = change;
     let (what, unit) = (element.describe(scene), element.unit(scene.arm()));
     let how = match cure {
@@ -187,7 +191,10 @@ fn opens(scene: &Scene, change: &Change) -> String {
         Cure::Widened => format!("{what} wider by"),
         Cure::Lowered => format!("{what} lowered by"),
     };
-    let nothing_else = if *among == Among::Set { ", with nothing else in the way" } else { "" };
+    let others: Vec<String> =
+        set.elements().iter().filter(|other| *other != element).map(|other| other.describe(scene)).collect();
+    let others = if others.is_empty() { "nothing else".into() } else { format!("{} alone", others.join(", ")) };
+    let nothing_else = if *among == Among::Set { format!(", with {others} in the way") } else { String::new() };
     let digits = if unit == "m" && by.opens < 0.01 { 6 } else { 4 };
     let (open, shut) = (by.opens, by.closed);
     format!(

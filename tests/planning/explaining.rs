@@ -148,7 +148,7 @@ fn a_gap_is_too_narrow_by_what_it_lacks() {
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     assert_eq!(closed.blocking(explanation.question.scene()), ["above", "below"]);
     assert_eq!(closed.sets.len(), 1);
-    let of_obstacles = || closed.changes.iter().filter(|change| change.element.obstacle().is_some());
+    let of_obstacles = || closed.changes().filter(|change| change.element.obstacle().is_some());
     for change in of_obstacles() {
         assert!(change.by.closed <= lacking && lacking < change.by.opens, "{change:?}");
         assert!(change.by.opens - change.by.closed <= 1e-3, "{change:?}");
@@ -157,7 +157,7 @@ fn a_gap_is_too_narrow_by_what_it_lacks() {
             assert!(x.abs() < 1e-9 && (y - outwards).abs() < 1e-9, "{change:?}");
         }
     }
-    assert_eq!(of_obstacles().count(), 4, "{:?}", closed.changes);
+    assert_eq!(of_obstacles().count(), 4, "{:?}", closed.sets);
     let stuck = closed.bottleneck.as_ref().expect("a narrow place");
     assert!(stuck.by.closed <= lacking / 2.0 && lacking / 2.0 < stuck.by.opens, "{stuck:?}");
     assert!((stuck.lacking(0.0) - lacking).abs() < 1e-9, "{stuck:?}");
@@ -171,7 +171,7 @@ fn clearance_is_lowered_to_half_of_what_a_gap_leaves() {
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     let set = &closed.sets[0];
     assert!(set.elements().contains(&Element::Clearance), "{:?}", set.elements());
-    let lowered = closed.changes.iter().find(|change| change.cure == Cure::Lowered).expect("the clearance opens a way");
+    let lowered = closed.changes().find(|change| change.cure == Cure::Lowered).expect("the clearance opens a way");
     assert!(lowered.by.closed <= 0.02 && 0.02 <= lowered.by.opens, "{lowered:?}");
     assert!(lowered.by.opens - lowered.by.closed <= 1e-3, "{lowered:?}");
 }
@@ -184,7 +184,7 @@ fn a_limit_is_widened_by_what_it_lacks() {
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     let [lower, upper] = [Side::Lower, Side::Upper].map(|side| Element::Limit { joint: 1, side });
     assert_eq!(closed.sets[0].elements(), [lower, upper, Element::Obstacle { number: 0 }]);
-    let widened = closed.changes.iter().find(|change| change.element == upper).expect("a change");
+    let widened = closed.changes().find(|change| change.element == upper).expect("a change");
     assert!(widened.by.closed <= 0.01 && 0.01 < widened.by.opens && widened.by.opens < 0.0111, "{widened:?}");
 }
 
@@ -213,10 +213,10 @@ fn a_blocked_start_is_opened_by_what_it_hits() {
     let Outcome::Infeasible(closed) = &explanation.outcome else { panic!("{}", explanation.status()) };
     assert_eq!(closed.blocking(explanation.question.scene()), ["block"]);
     // The block's left side is at -0.75, the arm's right one at -0.7: what lacks is 0.05.
-    for change in &closed.changes {
+    for change in closed.changes() {
         assert!(change.by.closed <= 0.05 && 0.05 < change.by.opens && change.by.opens < 0.0511, "{change:?}");
     }
-    assert_eq!(closed.changes.len(), 2);
+    assert_eq!(closed.changes().count(), 2);
 }
 
 /// One bar in the way: without it the path is straight.

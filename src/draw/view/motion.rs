@@ -149,6 +149,9 @@ impl Clock {
     /// Where the arm is at a time: between two samples on the straight line, which no one can tell from the curve.
     pub fn at(&self, time: f64) -> Configuration {
         let positions = &self.position.0;
+        if let [only] = positions[..] {
+            return only;
+        }
         let next = self.time.partition_point(|&t| t <= time).clamp(1, positions.len() - 1);
         let [from, to] = [self.time[next - 1], self.time[next]];
         let part = ((time - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);

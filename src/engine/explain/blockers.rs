@@ -1,5 +1,6 @@
 //! Irreducible sets of what is in the way.
 
+use super::change::Change;
 use super::element::Element;
 use super::question::{Decision, Question};
 use crate::check::{CertifiedPath, CheckedProof, Disconnection, StuckBox};
@@ -16,6 +17,8 @@ pub struct Blocker {
     pub element: Element,
     /// A certified motion among the others of the set; none if it is not known whether there is one.
     pub without: Option<CertifiedPath>,
+    /// The smallest changes of it that open a way, once they are asked for.
+    pub changes: Vec<Change>,
 }
 
 /// With all of these, and nothing else in the world, there is no motion; without any one of them there is, or it is not known.
@@ -85,7 +88,7 @@ pub fn blocking_set(question: &Question, proof: Option<CheckedProof>, boxes: usi
         if filter.set.contains(&element)
             && let Err(without) = filter.try_without(&[element])
         {
-            kept.push(Blocker { element, without });
+            kept.push(Blocker { element, without, changes: Vec::new() });
         }
     }
     // What was not decided among many may be among few.

@@ -82,7 +82,7 @@ pub fn changes(question: &Question, element: Element, among: Among, boxes: usize
         }
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
-            let (most, fine) = if turns { (TAU, FINE) } else { (farthest(scene), fine) };
+            let (most, fine) = (question.beyond(joint), if turns { FINE } else { fine });
             let ask = |by: f64| question.with_wider(joint, side, by).answer(boxes);
             threshold(0.0, most, fine, ask).map(|by| made(Cure::Widened, by)).into_iter().collect()
         }
@@ -111,6 +111,10 @@ fn shrinking(
     let (_, most) = middle(obstacle)?;
     let ask = |by: f64| question.with_pieces(number, shrunk(obstacle, by)).answer(boxes);
     let by = threshold(0.0, most, fine.min(FINE_SHARE * most), ask)?;
+    if by.opens >= most {
+        // Nothing is left of it: that the way is open without it is known.
+        return None;
+    }
     let cure = if is_eroded(obstacle) { Cure::Eroded } else { Cure::Scaled { to: 1.0 - by.opens / most } };
     Some((cure, by))
 }

@@ -42,8 +42,6 @@ pub struct Closed {
     pub out_of_reach: Option<OutOfReach>,
     /// What is in the way: each set is enough, and they have no obstacle in common.
     pub sets: Vec<BlockingSet>,
-    /// The smallest changes of single blockers.
-    pub changes: Vec<Change>,
     /// Where the motion gets stuck.
     pub bottleneck: Option<Bottleneck>,
 }
@@ -75,22 +73,29 @@ pub fn explain(question: &Question, options: &Options) -> Explanation {
     Explanation { question: question.clone(), outcome }
 }
 
+impl Closed {
+    /// The smallest changes of single blockers, set by set.
+    pub fn changes(&self) -> impl Iterator<Item = &Change> {
+        self.sets.iter().flat_map(|set| &set.blockers).flat_map(|blocker| &blocker.changes)
+    }
+}
+
 /// Why there is none.
 fn closed(question: &Question, proof: Option<CheckedProof>) -> Closed {
-    let sets = blocking_sets(question, proof.clone(), BOXES);
-    let mut found = Vec::new();
+    let mut sets = blocking_sets(question, proof.clone(), BOXES);
     let all = super::Element::all(question.scene());
-    for set in &sets {
+    for set in &mut sets {
         let elements = set.elements();
         let others: Vec<_> = all.iter().filter(|element| !elements.contains(element)).copied().collect();
-        for element in elements {
+        for blocker in &mut set.blockers {
+            let element = blocker.element;
             let opens = matches!(question.without(&[element]).answer(BOXES), Decision::Open(_));
-            found.extend(match opens {
+            blocker.changes = match opens {
                 true => changes(question, element, Among::World, BOXES),
                 false => changes(&question.without(&others), element, Among::Set, BOXES),
-            });
+            };
         }
     }
     let (ends, out_of_reach) = blocked_ends(question);
-    Closed { proof, ends, out_of_reach, sets, changes: found, bottleneck: bottleneck(question, BOXES) }
+    Closed { proof, ends, out_of_reach, sets, bottleneck: bottleneck(question, BOXES) }
 }

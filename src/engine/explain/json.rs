@@ -77,21 +77,18 @@ fn of_found(scene: &Scene, Shaped { answer, savings }: &Shaped) -> Value {
 }
 
 fn of_closed(scene: &Scene, closed: &Closed) -> Value {
-    let Closed { sets, changes, bottleneck, ends, out_of_reach, .. } = closed;
-    let changes_of = |element: Element| -> Value {
-        let of = changes.iter().filter(|change| change.element == element);
-        of.map(|Change { cure, among, by, .. }| {
-            let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
-            if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
-                object.extend(cure);
-            }
-            object
-        })
-        .collect()
+    let Closed { sets, bottleneck, ends, out_of_reach, .. } = closed;
+    let change = |Change { cure, among, by, .. }: &Change| {
+        let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
+        if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
+            object.extend(cure);
+        }
+        object
     };
-    let blocker = |Blocker { element, without }: &Blocker| {
+    let blocker = |Blocker { element, without, changes }: &Blocker| {
         let without = if without.is_some() { "found" } else { "unknown" };
-        with(of_element(scene, *element), json!({ "without": without, "changes": changes_of(*element) }))
+        let changes: Vec<Value> = changes.iter().map(change).collect();
+        with(of_element(scene, *element), json!({ "without": without, "changes": changes }))
     };
     let sets: Vec<Value> = sets
         .iter()

@@ -32,6 +32,8 @@ pub struct Question {
     scene: Scene,
     start: Configuration,
     target: Target,
+    /// How far the joints go beyond a limit that is left out: the same however much else is left out.
+    beyond: [f64; 2],
 }
 
 /// What is decided of a question.
@@ -48,7 +50,7 @@ pub enum Decision {
 impl From<&MotionProblem> for Question {
     fn from(problem: &MotionProblem) -> Self {
         let target = Target::Goals(problem.goals().clone());
-        Self { scene: problem.scene().clone(), start: problem.start(), target }
+        Self::new(problem.scene().clone(), problem.start(), target)
     }
 }
 
@@ -62,7 +64,9 @@ impl Question {
     /// A motion from a start to a target. Neither needs to be free.
     #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
-        Self { scene, start, target: target.into() }
+        let target = target.into();
+        let beyond = beyond(&scene, start, &target);
+        Self { scene, start, target, beyond }
     }
 
     /// Arm and obstacles.
@@ -131,19 +135,22 @@ impl Question {
         }
     }
 
-    /// The same without some of what is in the way: no such obstacles; joints that turn a whole turn farther, joints that slide beyond all
-    /// obstacles; any clearance above 0. All else keeps its number, so that a proof which names nothing of it holds in both.
+    /// How far a joint goes beyond a limit that is left out, radians or metres: a whole turn, or past all that there is, and in any case as far as
+    /// start and goals ask for.
+    #[must_use]
+    pub fn beyond(&self, joint: usize) -> f64 {
+        self.beyond[joint]
+    }
+
+    /// The same without some of what is in the way: no such obstacles; no such limits of joints (see [`Question::beyond`]); any clearance above 0. All else keeps its number, so that a proof which names nothing of it holds in both.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
-        let farthest = farthest(&self.scene);
         self.rebuilt(|arm, workspace| {
             for element in elements {
                 match *element {
                     Element::Obstacle { number } => workspace.obstacles[number].pieces.clear(),
                     Element::Limit { joint, side } => {
-                        let joint = &mut arm.joints[joint];
-                        let by = if joint.joint_type.is_revolute() { TAU } else { farthest };
-                        joint.range = widened(joint.range, side, by);
+                        arm.joints[joint].range = widened(arm.joints[joint].range, side, self.beyond[joint]);
                     }
                     Element::Clearance => workspace.clearance = 0.0,
                 }
@@ -171,8 +178,26 @@ impl Question {
         let (mut arm, mut workspace) = self.scene.clone().into_parts();
         edit(&mut arm, &mut workspace);
         let scene = Scene::handling_trusted(arm, workspace, payload, &contacts);
-        Self { scene, start: self.start, target: self.target.clone() }
+        Self { scene, target: self.target.clone(), ..*self }
     }
+}
+
+/// How far the joints go beyond limits that are left out.
+fn beyond(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
+    let arm = scene.arm();
+    let (asked, tip) = match target {
+        Target::Goals(goals) => (goals.pieces().iter().flat_map(Segment::ends).chain([start]).collect(), arm.base),
+        Target::Tip(tip) => (vec![start], *tip),
+    };
+    [0, 1].map(|k| {
+        let (joint, values) = (&arm.joints[k], asked.iter().map(|q| q[k]));
+        let (lower, upper) = joint.range.domain();
+        let outside = values.map(|value| (lower - value).max(value - upper)).fold(0.0, f64::max);
+        match joint.joint_type.is_revolute() {
+            true => TAU * (1.0 + (outside / TAU).ceil()),
+            false => farthest(scene) + 2.0 * (tip - arm.base).norm() + outside,
+        }
+    })
 }
 
 /// How far a joint slides that has left all obstacles behind, wherever it begins.

@@ -15,14 +15,17 @@ pub struct Threshold {
     pub closed: f64,
 }
 
-/// The threshold between `closed`, where there is no path, and `most`, to `tolerance`; none if there is none known with the most of it, either.
-/// Doubles the change, then halves what is left: `O(log n)` questions.
+/// The threshold between `closed` and `most`, to `tolerance`; none if it is not proven that there is no path with so little, or none is known with the most
+/// of it, either. Doubles the change, then halves what is left: `O(log n)` questions.
 pub(super) fn threshold(
     closed: f64,
     most: f64,
     tolerance: f64,
     mut ask: impl FnMut(f64) -> Decision,
 ) -> Option<Threshold> {
+    if !matches!(ask(closed), Decision::Closed(_)) {
+        return None;
+    }
     let mut known = Known { closed, below: closed, open: None };
     let mut step = tolerance;
     loop {

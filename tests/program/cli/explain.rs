@@ -84,3 +84,37 @@ fn bad_input_is_refused() {
     assert_eq!(explain(&place, "planar_2r", "shelf", "--start=a,b").code, 2);
     assert_eq!(explain(&place, "planar_2r", "shelf", "--picture why.txt").code, 2);
 }
+
+/// The slide of a polar arm ends long before its goal: without that limit there is a way, and as far as the program says the joint has to go.
+#[test]
+fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
+    let place = Place::new();
+    let polar = shipped("robots/polar.urdf");
+    place.write("far.toml", "[start]\njoints = [0.1, 0.2]\n[goal]\ntip = [3, 0]\n");
+    let done = place.run(&["explain", &polar, "far.toml"], "--json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let result = json(&done);
+    let blockers = result["sets"][0]["blockers"].as_array().expect("a list");
+    let limit = blockers.iter().find(|blocker| blocker["joint"] == "ram_slide" && blocker["side"] == "upper");
+    let change = &limit.unwrap_or_else(|| panic!("{result}"))["changes"][0];
+    let place_of = |upper: f64| {
+        let limits = format!("[robot.limits]\nram_slide = [0, {upper}]\n");
+        place.write("wider.toml", format!("[start]\njoints = [0.1, 0.2]\n[goal]\ntip = [3, 0]\n{limits}"));
+        place.run(&[&polar, "wider.toml"], "--quiet").code
+    };
+    let upper = place.run(&["inspect", &polar], "--json");
+    let upper = json(&upper);
+    let slide = upper["joints"].as_array().expect("a list").iter().find(|joint| joint["name"] == "ram_slide");
+    let upper = slide.expect("the slide")["limits"]["range"][1].as_f64().expect("a limit");
+    assert_eq!(place_of(upper + change["opens"].as_f64().expect("a number") + 1e-9), 0, "{change}");
+    assert_ne!(place_of(upper + change["closed"].as_f64().expect("a number")), 0, "{change}");
+}
+
+/// A task that can be done is drawn as it is done.
+#[test]
+fn of_a_task_that_can_be_done_there_is_a_picture() {
+    let place = Place::new();
+    let done = explain(&place, "planar_2r", "tasks/elbow_choice", "--picture done.svg");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    assert!(place.read("done.svg").contains("<svg"));
+}

@@ -180,6 +180,10 @@ fn a_picture_that_moves_is_written_beside_others() {
     // What plays has the replay, what stands still is drawn without it.
     let page = std::fs::read_to_string(place.path("plan.html")).unwrap();
     assert!(page.contains("\"replay\":[{\"caption\":") && done.stdout.contains("plan.gif"));
+    // From a start that is the goal nothing moves.
+    let still = place.run(&shelf(), "--goal=-0.9,0.4 --picture still.gif");
+    assert_eq!(still.code, 0, "{}", still.stderr);
+    assert!(place.path("still.gif").exists());
 }
 
 #[cfg(not(feature = "mcap"))]
