@@ -48,14 +48,12 @@ pub fn in_order<T: Send, E>(
             });
         }
         drop(sender);
+        let _over = Over(&turns);
         let (mut early, mut due) = (BTreeMap::new(), 0);
         for (i, result) in results {
             early.insert(i, result);
             while let Some(result) = early.remove(&due) {
-                if let Err(refused) = each(result) {
-                    turns.end();
-                    return Err(refused);
-                }
+                each(result)?;
                 due += 1;
                 turns.reach(due);
             }
@@ -90,6 +88,15 @@ impl Turns {
     fn end(&self) {
         self.state().1 = true;
         self.moved.notify_all();
+    }
+}
+
+/// However results stop being taken, by a refusal or a panic too, nobody waits for a turn any more.
+struct Over<'a>(&'a Turns);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.end();
     }
 }
 
@@ -154,6 +161,14 @@ mod tests {
             assert_ne!(i, 10, "this one fails");
         };
         let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |()| Ok::<_, ()>(()))));
+        assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
+    }
+
+    #[test]
+    fn a_panic_of_who_takes_results_ends_the_work() {
+        let begun = AtomicUsize::new(0);
+        let work = |_| begun.fetch_add(1, Ordering::SeqCst);
+        let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })));
         assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
     }
 }
