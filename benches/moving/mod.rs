@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "pages and tables see more of a match")]
 mod play;
 
-use cplan::field::{Boundary, Difference, Factor, MovingField, Order, Relaxation, Scan, Solver};
+use cplan::field::{Boundary, Difference, Factor, Moment, MovingField, Order, Relaxation, Scan, Solver};
 use criterion::{Criterion, Throughput};
 use play::{CELLS, Match, walls};
 
@@ -17,13 +17,18 @@ pub fn moving(c: &mut Criterion) {
     let sor = |factor: f64| Solver::Relaxation(Relaxation::sor(Factor::Given(factor), Order::Lines(Scan::ROWS)));
     let mut group = c.benchmark_group("moving");
     group.throughput(Throughput::Elements(FRAMES)).sample_size(10);
-    for (field, k) in [("own", 2), ("shared", 3)] {
+    for (field, k) in [("harmonic", 2), ("own", 2), ("shared", 3)] {
+        let moment = |moments: &[Moment]| match field {
+            "harmonic" => Moment { robots: Vec::new(), ..moments[k].clone() },
+            _ => moments[k].clone(),
+        };
+        let moments: Vec<Moment> = frames.iter().map(|frame| moment(&frame.moments)).collect();
         for (name, solver) in [("Gauss-Seidel", sor(1.0)), ("SOR 1.7", sor(1.7)), ("multigrid", Solver::Multigrid)] {
             group.bench_function(format!("{field}, {name}"), |b| {
                 b.iter(|| {
                     let mut field = first.clone();
-                    for frame in &frames {
-                        field.next(&frame.moments[k], &solver, 1e-6, 2000).expect("a field");
+                    for moment in &moments {
+                        field.next(moment, &solver, 1e-6, 2000).expect("a field");
                     }
                     field
                 });

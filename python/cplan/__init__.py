@@ -32,6 +32,7 @@ from cplan._cplan import (
     polygon_test,
     slices,
 )
+from cplan.explaining import Explanation, explain
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
 from cplan.planning import plan
 from cplan.studies import Results, Study
@@ -41,6 +42,7 @@ __all__ = [
     "Check",
     "Comparison",
     "Comparisons",
+    "Explanation",
     "Found",
     "Infeasible",
     "InputError",
@@ -57,6 +59,7 @@ __all__ = [
     "__version__",
     "check",
     "compare",
+    "explain",
     "minkowski_difference",
     "penetration_depth",
     "plan",

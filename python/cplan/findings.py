@@ -337,7 +337,7 @@ class Comparisons(_Compared):
 _Made = TypeVar("_Made")
 
 
-def _made(kind: type[_Made], data: Any, **given: str) -> _Made:
+def _made(kind: type[_Made], data: Any, **given: Any) -> _Made:
     """An object of what JSON has; what it leaves out is empty or None."""
     types = get_type_hints(kind)
     # A trailing underscore is of names that Python keeps for itself.

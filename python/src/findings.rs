@@ -1,11 +1,11 @@
-//! What others chose, judged: configurations and motions; and planners side by side. As the program's JSON, which
+//! What others chose, judged: configurations and motions; what is in the way of a motion; and planners side by side. As the program's JSON, which
 //! `cplan/findings.py` makes objects of.
 
 use crate::error::{raised, refused};
 use crate::geometry::array;
 use crate::problem::{Arm, Options, World};
 use crate::signals::interruptible;
-use cplan::cli::{Failure, compare_in};
+use cplan::cli::{Explained, Failure, compare_in};
 use cplan::cspace::Slice;
 use cplan::engine::findings;
 use cplan::input::{InputError, JointValues, Overrides, Source, load_recording, read_recording};
@@ -91,13 +91,52 @@ pub fn verify(
 #[pyfunction]
 pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> PyResult<[String; 4]> {
     let compared = interruptible(py, |_| compare_in(arm.among(world)?, &words))?;
-    let study = compared.map_err(|failure| match failure {
-        Failure::Input(error) => raised(py, &error),
-        other => refused(other),
-    })?;
+    let study = compared.map_err(|failure| failed(py, failure))?;
     match study.comparisons.first().filter(|_| study.sampling.is_none()) {
         Some(only) => Ok([printed(&only.to_json())?, only.to_text(), only.to_markdown(), only.to_csv()]),
         None => Ok([printed(&study.to_json())?, study.to_text(), study.to_markdown(), study.to_csv()]),
+    }
+}
+
+/// Why there is no motion and what opens a way, or what shapes the one that there is: JSON and text.
+#[pyfunction]
+#[pyo3(signature = (arm, world, options = None))]
+pub fn explain(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<[String; 2]> {
+    explained(py, arm, world, options, |explained| (explained.to_json(), explained.summary()))
+        .and_then(|(json, summary)| Ok([printed(&json)?, summary]))
+}
+
+/// The same as a picture, or as a page.
+#[pyfunction]
+#[pyo3(signature = (arm, world, options = None, page = false))]
+pub fn explain_drawn(
+    py: Python<'_>,
+    arm: &Arm,
+    world: &World,
+    options: Option<&Options>,
+    page: bool,
+) -> PyResult<String> {
+    let draw = if page { cplan::draw::page } else { cplan::draw::svg };
+    explained(py, arm, world, options, |explained| draw(&explained.view()))
+}
+
+fn explained<T: Send>(
+    py: Python<'_>,
+    arm: &Arm,
+    world: &World,
+    options: Option<&Options>,
+    told: impl FnOnce(&Explained) -> T + Send,
+) -> PyResult<T> {
+    let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
+    let found = interruptible(py, |_| Explained::of(arm.among(world)?, &overrides).map(|explained| told(&explained)))?;
+    found.map_err(|failure| failed(py, failure))
+}
+
+/// What the program could not do, as an exception.
+fn failed(py: Python<'_>, failure: Failure) -> PyErr {
+    match failure {
+        Failure::Input(error) => raised(py, &error),
+        other => refused(other),
     }
 }
 

@@ -181,6 +181,44 @@ def test_without_pandas_one_is_told_so(monkeypatch: pytest.MonkeyPatch) -> None:
         cplan.plan(*shelf()).trajectory.to_pandas()
 
 
+@pytest.mark.parametrize(
+    ("robot", "world", "words"),
+    [
+        (ROBOT, "no_path.toml", {}),
+        (ROBOT, "limits_closed.toml", {}),
+        (ROBOT, "shelf.toml", {}),
+        (ROBOT, "shelf.toml", {"goal_tip": (5.0, 0.0)}),
+        (ROBOT, "shelf.toml", {"goal": (0.14, 0.0), "clearance": 0.01}),
+        (SCARA, "tasks/kitting_cell.toml", {}),
+    ],
+)
+def test_an_explanation_is_what_the_program_finds(robot: Path, world: str, words: dict[str, Any]) -> None:
+    file = ROOT / "workspaces" / world
+    found = cplan.explain(cplan.Arm.from_urdf(robot), cplan.World.from_toml(file), **words)
+    overrides = [f"--{name.replace('_', '-')}={str(value).strip('()').replace(' ', '')}" for name, value in words.items()]
+    assert found.to_json() == printed("explain", robot, file, *overrides)
+    data = found.to_dict()
+    assert found.status == data["status"] and list(found.blocking) == data.get("blocking", [])
+    assert [len(each.blockers) for each in found.sets] == [len(each["blockers"]) for each in data.get("sets", [])]
+    assert (found.out_of_reach is not None) == ("goal_tip" in words) and bool(found.blocked_ends) == ("goal" in words)
+    assert found.summary() and found.svg().startswith("<svg") and "<html" in found.html()
+    assert pickle.loads(pickle.dumps(found)).svg() == found.svg()
+
+
+def test_changes_are_told_between_a_path_and_a_proof() -> None:
+    arm, world = cplan.Arm.from_urdf(ROBOT), cplan.World.from_toml(ROOT / "workspaces/no_path.toml")
+    [closed] = cplan.explain(arm, world).sets
+    [wall] = closed.blockers
+    assert (wall.kind, wall.name, wall.number, wall.without) == ("obstacle", "front wall", 1, "found") and closed.proof
+    assert [change.change for change in wall.changes] == ["moved", "eroded"]
+    assert all(0 < change.closed < change.opens for change in wall.changes)
+    move = wall.changes[0]
+    assert move.direction is not None
+    for by, outcome in [(move.opens, cplan.Found), (move.closed, cplan.Infeasible)]:
+        text = world.toml.replace("[[obstacle]]", f"[[obstacle]]\nat = {[by * part for part in move.direction]}", 1)
+        assert isinstance(cplan.plan(arm, cplan.World.from_text(text)), outcome), by
+
+
 def test_findings_can_be_pickled_and_copied() -> None:
     arm, world = shelf()
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])

@@ -5,15 +5,16 @@ use super::failure::Failure;
 use super::print_args::PrintArgs;
 use super::sinks::{self, Sink};
 use super::{DONE, INFEASIBLE, UNKNOWN};
-use crate::engine::explain::{Question, explain};
+use crate::draw::View;
+use crate::engine::explain::{Explanation, Question, explain};
 use crate::engine::task::Impossible;
 use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
-use crate::input;
+use crate::input::{self, LoadedScene, Overrides};
 use crate::model::Status;
 use crate::output::explained;
 use crate::space::{GoalSet, Segment};
 use clap::{Args, ValueHint};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Arguments of `explain`.
@@ -52,36 +53,82 @@ pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(&args.files.urdf, &args.files.world)?;
     sinks::spare_inputs(sinks.iter().map(Sink::path))?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.say(&format!("warning: {warning}")));
-    let overrides = args.query.overrides();
-    let (question, notes) = if loaded.has_steps() {
-        let problem = Problem::of_scene(loaded, &overrides)?;
-        let plan = plan(&problem, &Options::default())?;
-        let Some((question, note)) = failed_step(&plan) else {
-            for sink in &sinks {
-                if let Sink::Picture(format, path) = sink {
-                    sinks::save_picture(*format, path, &plan.view())?;
-                }
-            }
-            let done = "all steps can be done: there is nothing to explain\n";
-            args.print.tell(|| sinks::pretty(&json!({ "status": plan.status() })), || done.into())?;
-            return Ok(exit_code(plan.status()));
-        };
-        (question, vec![note])
-    } else {
-        let query = loaded.query(&overrides)?;
-        (Question::new(query.scene, query.start, query.goal), query.notes)
-    };
-    let explanation = explain(&question, &Options::default());
+    let explained = Explained::of(loaded, &args.query.overrides())?;
     if !sinks.is_empty() {
-        let view = explained::view(&explanation);
+        let view = explained.view();
         for sink in &sinks {
             if let Sink::Picture(format, path) = sink {
                 sinks::save_picture(*format, path, &view)?;
             }
         }
     }
-    args.print.tell(|| sinks::pretty(&explanation.to_json()), || explained::summary(&explanation, &notes))?;
-    Ok(exit_code(explanation.status()))
+    args.print.tell(|| sinks::pretty(&explained.to_json()), || explained.summary())?;
+    Ok(exit_code(explained.status()))
+}
+
+/// What there is to say of what a world asks for.
+#[derive(Debug)]
+pub enum Explained {
+    /// Of its motion, or that of the step that fails; with what is to be known of how it was read, line by line.
+    Motion(Box<Explanation>, Vec<String>),
+    /// Nothing: all its steps can be done.
+    Done(Box<Plan>),
+}
+
+impl Explained {
+    /// Explains what the world asks for, or `overrides` in its place.
+    ///
+    /// # Errors
+    /// Overrides that do not go with the world; a task that is none.
+    pub fn of(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, Failure> {
+        let (question, notes) = if loaded.has_steps() {
+            let plan = plan(&Problem::of_scene(loaded, overrides)?, &Options::default())?;
+            match failed_step(&plan) {
+                Some((question, note)) => (question, vec![note]),
+                None => return Ok(Self::Done(Box::new(plan))),
+            }
+        } else {
+            let query = loaded.query(overrides)?;
+            (Question::new(query.scene, query.start, query.goal), query.notes)
+        };
+        Ok(Self::Motion(Box::new(explain(&question, &Options::default())), notes))
+    }
+
+    /// Whether there is a motion.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Motion(explanation, _) => explanation.status(),
+            Self::Done(plan) => plan.status(),
+        }
+    }
+
+    /// As a JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        match self {
+            Self::Motion(explanation, _) => explanation.to_json(),
+            Self::Done(plan) => json!({ "status": plan.status() }),
+        }
+    }
+
+    /// For people.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        match self {
+            Self::Motion(explanation, notes) => explained::summary(explanation, notes),
+            Self::Done(_) => "all steps can be done: there is nothing to explain\n".into(),
+        }
+    }
+
+    /// What pictures and pages show.
+    #[must_use]
+    pub fn view(&self) -> View {
+        match self {
+            Self::Motion(explanation, _) => explained::view(explanation),
+            Self::Done(plan) => plan.view(),
+        }
+    }
 }
 
 /// The motion of the step that fails, among objects as they lie then and with what is carried; and which step it is.

@@ -38,6 +38,7 @@ mod verify;
 mod words;
 
 pub use compare::compare_in;
+pub use explain::Explained;
 pub use failure::Failure;
 pub use memory::MemoryMeter;
 pub use words::read_words;

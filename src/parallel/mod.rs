@@ -168,7 +168,9 @@ mod tests {
     fn a_panic_of_who_takes_results_ends_the_work() {
         let begun = AtomicUsize::new(0);
         let work = |_| begun.fetch_add(1, Ordering::SeqCst);
-        let all = catch_unwind(AssertUnwindSafe(|| in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })));
+        let all = catch_unwind(AssertUnwindSafe(|| {
+            in_order(1_000_000, 3, work, |_| -> Result<(), ()> { panic!("none is taken") })
+        }));
         assert!(all.is_err() && begun.load(Ordering::SeqCst) < 10_000);
     }
 }
