@@ -9,7 +9,7 @@ use crate::draw::View;
 use crate::engine::explain::{Explanation, Question, explain};
 use crate::engine::task::Impossible;
 use crate::engine::{Options, Plan, Problem, TaskPlan, plan};
-use crate::input::{self, LoadedScene, Overrides};
+use crate::input::{self, DiagnosticKind, LoadedScene, Overrides, Query};
 use crate::model::Status;
 use crate::output::explained;
 use crate::space::{GoalSet, Segment};
@@ -37,7 +37,7 @@ pub struct ExplainArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Draw workspace and configuration space, with what is in the way and where the motion gets stuck: .svg, .png or .html. Can be repeated.
+    /// Draw workspace and configuration space, with what is in the way and where the motion gets stuck: .svg, .png, .gif or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
@@ -82,10 +82,20 @@ impl Explained {
     /// Overrides that do not go with the world; a task that is none.
     pub fn of(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, Failure> {
         let (question, notes) = if loaded.has_steps() {
-            let plan = plan(&Problem::of_scene(loaded, overrides)?, &Options::default())?;
-            match failed_step(&plan) {
-                Some((question, note)) => (question, vec![note]),
-                None => return Ok(Self::Done(Box::new(plan))),
+            match Problem::of_scene(loaded.clone(), overrides) {
+                Ok(problem) => {
+                    let plan = plan(&problem, &Options::default())?;
+                    match failed_step(&plan) {
+                        Some((question, note)) => (question, vec![note]),
+                        None => return Ok(Self::Done(Box::new(plan))),
+                    }
+                }
+                Err(error) if error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start) => {
+                    let Query { scene, start, goal, mut notes, .. } = loaded.start_alone(overrides)?;
+                    notes.push("no step can begin: this is about the start alone".into());
+                    (Question::new(scene, start, goal), notes)
+                }
+                Err(error) => return Err(error.into()),
             }
         } else {
             let query = loaded.query(overrides)?;

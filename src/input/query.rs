@@ -39,4 +39,14 @@ impl LoadedScene {
         };
         Ok(Query { scene: loaded.scene, start, goal, robot: loaded.robot, notes })
     }
+    /// The start alone, of a world with steps, too: to stay there.
+    ///
+    /// # Errors
+    /// When the start is missing, or one of the tip is not reached by just one IK solution.
+    pub fn start_alone(self, overrides: &Overrides) -> Result<Query, InputError> {
+        let loaded = self.keeping(overrides.clearance)?;
+        let mut notes = loaded.world.notes.clone();
+        let (start, _) = loaded.start(overrides, &mut notes)?;
+        Ok(Query { scene: loaded.scene, start, goal: Goal::Joints(start), robot: loaded.robot, notes })
+    }
 }

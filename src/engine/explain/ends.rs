@@ -78,7 +78,9 @@ pub fn blocked_ends(question: &Question) -> (Vec<BlockedEnd>, Option<OutOfReach>
                 if within.is_empty() { beyond } else { within.iter().map(|piece| piece.at(0.5)).collect() }
             }
         };
-        let mut goals: Vec<BlockedEnd> = goals.into_iter().map(|q| of(question, End::Goal, q)).collect();
+        // A goal at the start has been told as that.
+        let elsewhere = goals.into_iter().filter(|&q| q != question.start());
+        let mut goals: Vec<BlockedEnd> = elsewhere.map(|q| of(question, End::Goal, q)).collect();
         let far = |end: &BlockedEnd| end.nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
         goals.sort_by(|a, b| far(a).total_cmp(&far(b)));
         blocked.extend(goals);

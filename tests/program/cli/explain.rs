@@ -58,6 +58,18 @@ fn what_the_main_job_refuses_is_explained() {
     assert!((misses - 3.2).abs() < 1e-9, "{misses}");
 }
 
+/// The arm stands in the camera's column: no step can begin.
+#[test]
+fn a_start_of_steps_that_is_not_free_is_explained() {
+    let done = explain(&Place::new(), "scara", "tasks/kitting_cell", "--start 0.3,0 --json");
+    assert_eq!(done.code, 3, "{}", done.stderr);
+    let result = json(&done);
+    let ends = result["blocked_ends"].as_array().expect("a list");
+    assert_eq!((ends.len(), &ends[0]["end"]), (1, &"start".into()), "{result}");
+    assert_eq!(result["blocking"], serde_json::json!(["camera column"]));
+    assert!(ends[0]["nearest_free"]["distance"].as_f64().expect("a number") > 0.0);
+}
+
 #[test]
 fn a_motion_is_explained_by_what_shapes_it() {
     let done = explain(&Place::new(), "planar_2r", "shelf", "--json");
