@@ -6,13 +6,15 @@ use crate::text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// What draws a view, in the order in which one part needs the other.
-const CODE: [&str; 7] = [
+const CODE: [&str; 9] = [
     include_str!("assets/geometry.js"),
     include_str!("assets/panel.js"),
     include_str!("assets/think.js"),
     include_str!("assets/workspace.js"),
     include_str!("assets/cspace.js"),
     include_str!("assets/plots.js"),
+    include_str!("assets/contact.js"),
+    include_str!("assets/learn.js"),
     include_str!("assets/view.js"),
 ];
 

@@ -1,4 +1,9 @@
-// A page by itself: what it shows lies in it.
+// A page by itself: what it shows lies in it. What is looked at first stands behind its address: #think, #learn/sweep.
 'use strict';
 
 window.cplan = new View(document.querySelector('main'), JSON.parse(document.getElementById('view').textContent));
+{
+  const [mode, lesson] = location.hash.slice(1).split('/');
+  if (['move', 'think', 'learn'].includes(mode)) cplan.switchTo(mode);
+  if (cplan.mode === 'learn' && cplan.learn.lessons.some(([name]) => name === lesson)) cplan.learn.start(lesson);
+}

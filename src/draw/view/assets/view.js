@@ -47,9 +47,10 @@ class View {
     this.layers = new Map(LAYERS.map(([name, , shown]) => [name, shown]));
     this.hidden = new Set();
     this.time = 0;
-    /** What is played: 'move', the motion, or 'think', how the planner came to it. The time of the other one is kept. */
+    /** What is played: 'move', the motion, 'think', how the planner came to it, or 'learn', a lesson. Each keeps its time. */
     this.mode = 'move';
-    this.otherTime = 0;
+    this.times = { move: 0, think: 0, learn: 0 };
+    this.learn = new Learn(this);
     this.speed = 1;
     this.probe = null;
     this.pinned = false;
@@ -89,11 +90,14 @@ class View {
     cspace.scale = alike ? 'fit' : 'free';
     for (const panel of [workspace, cspace]) panel.layout();
     for (const plot of this.plots) plot.fit();
-    const [moves, thinks] = [Boolean(model.clock), Boolean(model.replay)];
-    this.parts.modes.hidden = !(moves && thinks);
-    this.parts.transport.hidden = !moves && !thinks;
+    this.learn.update(model);
+    const [moves, thinks, learns] = [Boolean(model.clock), Boolean(model.replay), this.learn.lessons.length > 0];
+    const there = { move: moves || !thinks, think: thinks, learn: learns };
+    for (const button of this.parts.modes.children) button.hidden = !there[button.dataset.mode];
+    this.parts.modes.hidden = Object.values(there).filter(Boolean).length < 2;
+    this.parts.transport.hidden = !moves && !thinks && (this.light || !learns);
     if (!moves && !thinks) this.pause();
-    if (this.mode === 'think' ? !thinks : !moves && thinks) {
+    if (this.mode !== 'learn' ? !there[this.mode] || (this.mode === 'move' && !moves && thinks) : !learns) {
       // All that was found is seen at first.
       this.mode = moves || !thinks ? 'move' : 'think';
       this.time = this.mode === 'think' ? this.duration : 0;
@@ -101,19 +105,27 @@ class View {
     this.ready();
   }
 
-  /** Plays the motion, or how the planner came to it. */
+  /** Plays the motion, how the planner came to it, or a lesson. */
   switchTo(mode) {
-    if (mode === this.mode || this.parts.modes.hidden) return;
+    const button = [...this.parts.modes.children].find((one) => one.dataset.mode === mode);
+    if (mode === this.mode || this.parts.modes.hidden || button.hidden) return;
     this.pause();
+    this.times[this.mode] = this.time;
     this.mode = mode;
-    [this.time, this.otherTime] = [this.otherTime, this.time];
+    this.time = this.times[mode];
+    if (mode === 'learn') this.examine(null);
     this.ready();
   }
 
   /** The controls of what is played. */
   ready() {
     const { parts } = this;
-    parts.plots.hidden = this.mode === 'think' || !this.model.clock;
+    const learns = this.mode === 'learn';
+    parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
+    this.learn.show(this.panels.workspace.theme);
+    parts.panels.hidden = learns && !this.learn.isSlice;
+    // While something is dragged, what is gone comes back.
+    parts.transport.classList.toggle('still', !this.duration && !this.light);
     for (const button of parts.modes.children) button.setAttribute('aria-pressed', String(button.dataset.mode === this.mode));
     parts.scrubber.max = this.duration;
     this.seek(Math.min(this.time, this.duration));
@@ -121,6 +133,7 @@ class View {
   }
 
   get duration() {
+    if (this.mode === 'learn') return this.learn.duration;
     if (this.mode === 'think') return Think.duration(this.model.replay);
     return this.model.clock ? this.model.clock.time[this.model.clock.time.length - 1] : 0;
   }
@@ -134,8 +147,9 @@ class View {
   get motion() {
     const { motions } = this.model;
     if (this.mode === 'think') return motions[0];
+    const time = this.mode === 'move' ? this.time : this.times.move;
     let found = 0;
-    for (let i = 1; i < motions.length && motions[i].from <= this.time + 1e-9; i += 1) found = i;
+    for (let i = 1; i < motions.length && motions[i].from <= time + 1e-9; i += 1) found = i;
     return motions[found];
   }
 
@@ -145,12 +159,13 @@ class View {
 
   /** Where the arm is. */
   get q() {
+    if (this.mode === 'learn' && this.learn.isSlice) return this.learn.q;
     if (this.moment) return Think.focus(this) ?? this.beginning();
     return this.model.clock ? Geometry.moving(this.model.clock, this.time).position : this.beginning();
   }
 
   shows(layer) {
-    return this.layers.get(layer);
+    return this.layers.get(layer) && (this.mode !== 'learn' || Learn.LAYERS.has(layer));
   }
 
   /** The paths in the world that is shown. */
@@ -213,20 +228,24 @@ class View {
     for (const value of SPEEDS) speed.append(element('option', { value, selected: value === 1 }, `${value}\u00d7`));
     parts.speed = speed;
     const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => this.switchTo(name) }, text);
-    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'));
+    parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Move'), mode('think', 'Think'), mode('learn', 'Learn'));
     parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, parts.modes, parts.play, parts.scrubber, parts.clock, speed);
+    parts.panels = element(
+      'section',
+      { class: 'panels' },
+      element('figure', {}, element('figcaption', {}, 'Workspace'), left),
+      element('figure', {}, element('figcaption', {}, 'Configuration space'), right),
+    );
     this.parts = parts;
     this.root.append(
       element('header', {}, element('div', {}, parts.title, parts.lines), parts.status),
-      element(
-        'section',
-        { class: 'panels' },
-        element('figure', {}, element('figcaption', {}, 'Workspace'), left),
-        element('figure', {}, element('figcaption', {}, 'Configuration space'), right),
-      ),
+      parts.panels,
+      this.learn.parts.panels,
       parts.probe,
       parts.transport,
+      this.learn.parts.choice,
       parts.step,
+      this.learn.parts.told,
       parts.plots,
       element(
         'section',
@@ -241,12 +260,12 @@ class View {
       workspace: new Panel(left, {
         x: [0, 1], y: [0, 1], scale: 'fill',
         still: (context, panel) => Workspace.still(context, panel, this),
-        moving: (context, panel) => Workspace.moving(context, panel, this),
+        moving: (context, panel) => (this.mode === 'learn' ? this.learn.drawArm(context, panel) : Workspace.moving(context, panel, this)),
       }),
       cspace: new Panel(right, {
         x: [0, 1], y: [0, 1], scale: 'fit',
         still: (context, panel) => CSpace.still(context, panel, this),
-        moving: (context, panel) => CSpace.moving(context, panel, this),
+        moving: (context, panel) => (this.mode === 'learn' ? this.learn.drawSlice(context, panel) : CSpace.moving(context, panel, this)),
       }),
     };
     this.plots = Plots.mount(parts.plots, this);
@@ -343,9 +362,16 @@ class View {
     this.time = Math.min(this.duration, Math.max(0, Number.isFinite(time) ? time : 0));
     const { parts, motion } = this;
     if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
+    const { moment } = this;
+    if (this.mode === 'learn') {
+      parts.clock.textContent = this.learn.clock;
+      parts.scrubber.setAttribute('aria-valuetext', this.learn.clock);
+      this.learn.changed();
+      for (const panel of this.allPanels()) panel.draw();
+      return;
+    }
     parts.clock.textContent = `${this.time.toFixed(2)} / ${this.duration.toFixed(2)} s`;
     parts.scrubber.setAttribute('aria-valuetext', `${this.time.toFixed(2)} seconds`);
-    const { moment } = this;
     const told = moment && `${moment.index + 1} of ${this.model.replay.length}: ${moment.phase.caption}`;
     const step = told ?? (this.model.motions.length > 1 && motion ? `${motion.label} (${this.world.label})` : '');
     if (parts.step.textContent !== step) parts.step.textContent = step;
@@ -454,6 +480,12 @@ class View {
 
   /** Puts the arm to q, to see what it would touch; without q, no more. */
   examine(q) {
+    if (this.mode === 'learn' && q) {
+      // A click, not any move of the mouse, chooses a slice.
+      if (this.pinned && this.learn.isSlice) this.learn.goTo(q);
+      this.pinned = false;
+      return;
+    }
     this.probe = q && { q, contacts: Geometry.contacts(this.model.arm, this.world, q) };
     if (!q) this.pinned = false;
     const text = this.probe ? this.described() : '';
@@ -495,6 +527,7 @@ class View {
       Home: () => !control && this.seek(0),
       End: () => !control && this.seek(this.duration),
       t: () => this.switchTo(this.mode === 'think' ? 'move' : 'think'),
+      l: () => this.switchTo(this.mode === 'learn' ? 'move' : 'learn'),
       '+': () => this.hasten(SPEEDS[Math.min(SPEEDS.length - 1, SPEEDS.indexOf(this.speed) + 1)]),
       '-': () => this.hasten(SPEEDS[Math.max(0, SPEEDS.indexOf(this.speed) - 1)]),
       Escape: () => this.examine(null),
@@ -532,6 +565,7 @@ function help() {
     ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
     ['Home, End', 'to the start, to the end'],
     ['t', 'the motion, or how the planner came to it'],
+    ['l', 'lessons: contact angles, the two tests of penetration, Minkowski differences'],
     ['+, \u2212', 'faster, slower'],
     ['Escape', 'takes the tried arm away'],
   ];
