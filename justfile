@@ -54,4 +54,4 @@ docs:
     mv target/world.schema.json docs/world.schema.json
     cargo run --locked --example world_reference
     RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
-    if command -v mdbook >/dev/null; then mdbook build docs; fi
+    .ci/book

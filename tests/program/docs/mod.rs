@@ -2,6 +2,7 @@
 
 mod commands;
 mod links;
+mod live;
 mod options;
 mod page;
 mod shown;

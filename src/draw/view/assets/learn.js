@@ -65,6 +65,11 @@ class Learn {
     const slices = world?.pairs.some(([link]) => link === 1);
     const turns = model.arm.joints.some((joint) => joint.sign !== undefined);
     this.lessons = Learn.LESSONS.filter(([name]) => (name === 'slice' ? slices : polygons && (name !== 'stack' || turns)));
+    this.known = null;
+    // What somebody drags in a lesson stays as long as the polygons are the same.
+    const signature = JSON.stringify([this.polygons, this.lessons]);
+    if (signature === this.signature) return;
+    this.signature = signature;
     const option = (chosen) => ([value, text]) => element('option', { value, selected: value === chosen }, text);
     this.parts.lesson.replaceChildren(...this.lessons.map(option(this.lesson)));
     for (const [k, list] of [this.polygons.a, this.polygons.b].entries()) {
@@ -72,7 +77,6 @@ class Learn {
       this.parts['ab'[k]].replaceChildren(...list.map(({ name }, index) => option(this.pair[k])([index, name])));
     }
     if (!this.lessons.some(([name]) => name === this.lesson)) this.lesson = this.lessons[0]?.[0];
-    this.known = null;
     if (polygons) this.take(this.pair);
   }
 
@@ -109,10 +113,10 @@ class Learn {
 
   /** The slice there, and its contacts by obstacle: { obstacle, value, features, shape, piece, body }. */
   get slice() {
-    if (this.known?.q1 !== this.q1) {
+    if (this.known?.q1 !== this.q1 || this.known.world !== this.view.world) {
       const found = Contact.slice(this.view.model.arm, this.view.world, this.q1);
       const contacts = found.rows.flatMap(({ obstacle, intervals }) => intervals.flat().filter((end) => end.features).map((end) => ({ obstacle, ...end })));
-      this.known = { q1: this.q1, ...found, contacts };
+      this.known = { q1: this.q1, world: this.view.world, ...found, contacts };
     }
     return this.known;
   }
@@ -248,13 +252,12 @@ class Learn {
   }
 
   /** What there is to see, and to say of it, now that time or a polygon is another. */
-  show(theme) {
+  show() {
     const pair = !this.isSlice;
     const active = this.view.mode === 'learn';
     this.parts.choice.hidden = this.parts.told.hidden = !active;
     this.parts.panels.hidden = !active || !pair;
     this.parts.a.hidden = this.parts.b.hidden = !pair;
-    for (const panel of Object.values(this.panels)) panel.theme = theme;
     if (!active || !pair) return;
     const captions = { tests: 'The obstacle less the link', sweep: 'The obstacle less the link', stack: 'One difference for each angle of the link' };
     this.parts.panels.querySelectorAll('figcaption')[1].textContent = captions[this.lesson];

@@ -97,7 +97,7 @@ class View {
     this.parts.modes.hidden = Object.values(there).filter(Boolean).length < 2;
     this.parts.transport.hidden = !moves && !thinks && (this.light || !learns);
     if (!moves && !thinks) this.pause();
-    if (this.mode !== 'learn' ? !there[this.mode] || (this.mode === 'move' && !moves && thinks) : !learns) {
+    if (!there[this.mode]) {
       // All that was found is seen at first.
       this.mode = moves || !thinks ? 'move' : 'think';
       this.time = this.mode === 'think' ? this.duration : 0;
@@ -122,7 +122,7 @@ class View {
     const { parts } = this;
     const learns = this.mode === 'learn';
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
-    this.learn.show(this.panels.workspace.theme);
+    this.learn.show();
     parts.panels.hidden = learns && !this.learn.isSlice;
     // While something is dragged, what is gone comes back.
     parts.transport.classList.toggle('still', !this.duration && !this.light);
@@ -338,8 +338,8 @@ class View {
 
   recolor() {
     const theme = new Theme(document.documentElement);
-    for (const panel of this.allPanels()) panel.theme = theme;
-    this.refresh();
+    for (const panel of [...this.allPanels(), ...Object.values(this.learn.panels)]) panel.theme = theme;
+    if (this.model) this.ready();
   }
 
   allPanels() {
