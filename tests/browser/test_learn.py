@@ -16,6 +16,10 @@ def learn(seen, lesson="slice"):
     assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == ("learn", lesson)
 
 
+def rows_of(seen):
+    return seen.page.locator(".told tbody tr")
+
+
 def slice_at(seen, part):
     """The slice at this part of joint 1's domain: its value, what is barred whatever joint 2 is, and intervals by obstacle."""
     seen.do("(part) => cplan.seek(part * cplan.duration)", part)
@@ -87,10 +91,11 @@ def test_a_slice_is_chosen_by_slider_click_and_key_and_says_what_touches(program
     seen = show_file(page)
     before = [pixels(seen, "workspace"), pixels(seen, "cspace")]
     learn(seen)
+    assert rows_of(seen).count() == 2, "begins where there is something to see"
     seen.page.get_by_label("time", exact=True).fill("7")
     assert "shoulder 27.7°" in seen.page.locator(".clock").inner_text()
     assert seen.page.locator(".step").inner_text() == "shoulder at 27.7°: 2 contacts of elbow"
-    rows = seen.page.locator(".told tbody tr")
+    rows = rows_of(seen)
     assert [re.sub(r"\s+", " ", text) for text in rows.all_inner_texts()] == [
         "−82.2° side 3 of forearm on corner 1 of shelf",
         "−36.8° side 1 of forearm on corner 3 of shelf",
@@ -193,7 +198,8 @@ def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     shown = []
     for step in range(len(steps)):
         seen.do("([k, n]) => cplan.seek((k + 0.5) / n * cplan.duration)", [step, len(steps)])
-        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner ")
+        i, k = steps[step]["i"] + 1, steps[step]["k"] + 1
+        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner b{k} − a{i}; then, next")
         shown.append(seen.do("cplan.learn.panels.right.canvas.toDataURL()"))
     assert len(set(shown)) == len(steps)
     seen.shoot("learn_sweep")
@@ -213,7 +219,7 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
         seen.page.mouse.move(box["x"] + x + by[0], box["y"] + y + by[1], steps=4)
         seen.page.mouse.up()
 
-    assert seen.page.locator(".step").inner_text() == "They meet."
+    assert seen.page.locator(".step").inner_text() == "They meet. Corners within the other one: 1; crossings of sides: 2"
     corner = seen.do("cplan.learn.pieces.b[2]")
     drag(corner, (30, -25))
     after = seen.do("cplan.learn.pieces.b")

@@ -2,9 +2,6 @@
 // penetration, their Minkowski difference, and how that turns with the arm.
 'use strict';
 
-const degrees = (angle) => `${((angle * 180) / Math.PI).toFixed(1).replace('-', '\u2212')}\u00b0`;
-const metres = (length) => `${length.toFixed(4).replace('-', '\u2212')} m`;
-
 class Learn {
   /** Lessons, what they are called, and how long they play, seconds. */
   static get LESSONS() {
@@ -14,6 +11,19 @@ class Learn {
       ['sweep', 'Minkowski difference, corner by corner', 0.9],
       ['stack', 'Minkowski differences of a link that turns', 8],
     ];
+  }
+
+  /** Of so many slices the one with the most contacts is seen first. */
+  static get TRIED() {
+    return 25;
+  }
+
+  static degrees(angle) {
+    return `${((angle * 180) / Math.PI).toFixed(1).replace('-', '\u2212')}\u00b0`;
+  }
+
+  static metres(length) {
+    return `${length.toFixed(4).replace('-', '\u2212')} m`;
   }
 
   /** Layers that lessons show. */
@@ -80,11 +90,21 @@ class Learn {
     if (polygons) this.take(this.pair);
   }
 
+  /** Begins a lesson; a slice where there is most to see. */
   start(lesson) {
     this.lesson = lesson;
     this.parts.lesson.value = lesson;
     this.view.pause();
     this.view.time = 0;
+    if (this.isSlice) {
+      const contacts = (time) => {
+        this.view.time = time;
+        return this.slice.bands.length ? 0 : this.slice.contacts.length;
+      };
+      const times = Array.from({ length: Learn.TRIED }, (_, k) => (this.duration * (k + 0.5)) / Learn.TRIED);
+      const most = Math.max(...times.map(contacts));
+      this.view.time = times.find((time) => contacts(time) === most);
+    }
     this.view.ready();
   }
 
@@ -154,7 +174,7 @@ class Learn {
 
   /** A value of a joint with its unit. */
   value(k, value) {
-    return this.view.model.arm.joints[k].unit === 'rad' ? degrees(value) : metres(value);
+    return this.view.model.arm.joints[k].unit === 'rad' ? Learn.degrees(value) : Learn.metres(value);
   }
 
   /** Which features touch, in words. */
@@ -270,7 +290,7 @@ class Learn {
   /** Where the scrubber stands. */
   get clock() {
     if (this.isSlice) return `${this.view.model.arm.joints[0].name} ${this.value(0, this.q1)}`;
-    return this.lesson === 'stack' ? degrees(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
+    return this.lesson === 'stack' ? Learn.degrees(2 * Math.PI * this.part) : `${this.step + 1} of ${this.steps.length}`;
   }
 
   get caption() {
@@ -282,12 +302,16 @@ class Learn {
       if (bands.length) return `${at}: link 1 touches ${names}, whatever ${joints[1].name} is`;
       return `${at}: ${contacts.length || 'no'} contacts of ${joints[1].name}`;
     }
-    if (this.lesson === 'tests') return this.test().meet ? 'They meet.' : 'They do not meet.';
-    if (this.lesson === 'stack') return `The link turned by ${degrees(2 * Math.PI * this.part)}: where its origin must not be`;
+    if (this.lesson === 'tests') {
+      const { meet, mine, others, crossings } = this.test();
+      const inside = [...mine, ...others].filter((test) => test.inside).length;
+      return meet ? `They meet. Corners within the other one: ${inside}; crossings of sides: ${crossings.length}` : 'They do not meet.';
+    }
+    if (this.lesson === 'stack') return `The link turned by ${Learn.degrees(2 * Math.PI * this.part)}: where its origin must not be`;
     const { steps } = this;
     const { i, k, of } = steps[this.step];
-    const next = { a: `side ${i + 1} of the link, turned round`, b: `side ${k + 1} of the obstacle`, both: `sides ${k + 1} and ${i + 1}, which are parallel, as one` }[of];
-    return `${this.step + 1} of ${steps.length}: corner ${k + 1} of the obstacle less corner ${i + 1} of the link; then ${next}`;
+    const next = { a: `the side after a${i + 1}, turned round`, b: `the side after b${k + 1}`, both: `the sides after b${k + 1} and a${i + 1}, which are parallel, as one` }[of];
+    return `${this.step + 1} of ${steps.length}: corner b${k + 1} \u2212 a${i + 1}; then, next by its angle, ${next}`;
   }
 
   get step() {
@@ -321,22 +345,22 @@ class Learn {
       told.replaceChildren(...(rows.length ? [table('Contacts of this slice', [this.view.model.arm.joints[1].name, 'what touches'], rows)] : []));
     } else if (this.lesson === 'tests') {
       const { mine, others, crossings } = this.test();
-      const distances = (name, tests, count) => table(
+      const distances = (letter, name, tests, count) => table(
         `Corners of ${name}: signed distances, m`,
-        ['corner', ...Array.from({ length: count }, (_, k) => `side ${k + 1}`), ''],
+        ['', ...Array.from({ length: count }, (_, k) => `${letter === 'a' ? 'b' : 'a'}${k + 1} on`), ''],
         tests.map((test, i) => element(
           'tr',
           {},
-          cell('th', String(i + 1), { scope: 'row' }),
+          cell('th', `${letter}${i + 1}`, { scope: 'row' }),
           ...test.distances.map((d, k) => cell('td', d.toFixed(4).replace('-', '\u2212'), { class: k === test.side ? 'least' : undefined })),
-          cell('td', test.inside ? `inside, ${metres(test.depth)} deep` : ''),
+          cell('td', test.inside ? `inside, ${Learn.metres(test.depth)} deep` : ''),
         )),
       );
-      const crossed = crossings.map(([i, k]) => `side ${i + 1} of the link and side ${k + 1} of the obstacle`).join('; ');
+      const crossed = crossings.map(([i, k]) => `from a${i + 1} on and from b${k + 1} on`).join('; ');
       const { a, b } = this.pieces;
       told.replaceChildren(
-        distances('the link, sides of the obstacle', mine, b.length),
-        distances('the obstacle, sides of the link', others, a.length),
+        distances('a', 'the link, sides of the obstacle', mine, b.length),
+        distances('b', 'the obstacle, sides of the link', others, a.length),
         element('p', { class: 'crossings' }, crossings.length ? `Sides that cross: ${crossed}.` : 'No sides cross.'),
       );
     } else told.replaceChildren();
@@ -440,16 +464,16 @@ class Learn {
     }
     this.fill(context, panel, b, fill, edge);
     panel.faded(context, 0.85, (layer) => this.fill(layer, panel, a, theme.paper, theme.ink));
-    const numbers = (corners, color) => {
+    const names = (letter, corners, color) => {
       const middle = corners.reduce(Contact.plus).map((x) => x / corners.length);
       return corners.map((p, i) => {
         this.dot(context, panel, p, color, 4);
         const [[x, y], [u, v]] = [panel.at(p), panel.at(middle)];
         const away = Math.hypot(x - u, y - v) || 1;
-        return [String(i + 1), [x + (12 * (x - u)) / away, y + (12 * (y - v)) / away]];
+        return [`${letter}${i + 1}`, [x + (15 * (x - u)) / away, y + (15 * (y - v)) / away]];
       });
     };
-    Workspace.labels(context, panel, [...numbers(a, theme.ink), ...numbers(b, edge)]);
+    Workspace.labels(context, panel, [...names('a', a, theme.ink), ...names('b', b, edge)]);
     this.dot(context, panel, at, theme.accent, 5);
     if (this.lesson === 'tests') this.drawTest(context, panel, a, b);
     if (this.lesson === 'sweep') this.drawStep(context, panel, a, b);
@@ -508,6 +532,10 @@ class Learn {
     line(context, there.map((p) => panel.at(p)));
     for (const p of there) this.dot(context, panel, p, edge, 4);
     if (this.lesson === 'sweep') {
+      Workspace.labels(context, panel, there.map((p, s) => {
+        const [x, y] = panel.at(p);
+        return [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, [x, y - 16]];
+      }));
       this.dot(context, panel, there[there.length - 1], theme.barred, 6);
       this.drawDirections(context, panel, steps);
     }

@@ -114,7 +114,8 @@ class View {
     this.mode = mode;
     this.time = this.times[mode];
     if (mode === 'learn') this.examine(null);
-    this.ready();
+    if (mode === 'learn' && !this.time) this.learn.start(this.learn.lesson);
+    else this.ready();
   }
 
   /** The controls of what is played. */
