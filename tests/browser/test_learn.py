@@ -94,7 +94,7 @@ def test_a_slice_is_chosen_by_slider_click_and_key_and_says_what_touches(program
     assert rows_of(seen).count() == 2, "begins where there is something to see"
     seen.page.get_by_label("time", exact=True).fill("7")
     assert "shoulder 27.7°" in seen.page.locator(".clock").inner_text()
-    assert seen.page.locator(".step").inner_text() == "shoulder at 27.7°: 2 contacts of elbow"
+    assert seen.page.locator(".step").inner_text() == "Contacts of elbow here: 2"
     rows = rows_of(seen)
     assert [re.sub(r"\s+", " ", text) for text in rows.all_inner_texts()] == [
         "−82.2° side 3 of forearm on corner 1 of shelf",
@@ -121,7 +121,7 @@ def test_a_link_that_touches_bars_the_whole_slice(program, show_file):
     for k in range(60):
         _, bands, _ = slice_at(seen, k / 59)
         text = seen.page.locator(".step").inner_text()
-        assert ("link 1 touches" in text) == bool(bands) and all(name in text for name in bands)
+        assert ("Link 1 touches" in text) == bool(bands) and all(name in text for name in bands)
         said.add(bool(bands))
     assert said == {True, False}
 

@@ -71,6 +71,8 @@ const Contact = (() => {
     const radius = part.radius + piece.radius + level;
     const flat = { core: moving.flat(), radius: part.radius };
     const other = { core: resting.flat(), radius: piece.radius };
+    const reach = Math.max(...moving.map((p) => Math.hypot(...p)));
+    if (!slide && separation({ core: [0, 0], radius: reach }, other) > part.radius + level) return [];
     const gap = (value) => {
       const pose = slide ? [value * slide[0], value * slide[1], 1, 0] : [0, 0, Math.cos(value), Math.sin(value)];
       return separation(placed(flat, pose), other) - level;
@@ -105,7 +107,7 @@ const Contact = (() => {
     const by = sign === undefined ? 0 : TURN;
     const first = by ? Math.ceil((low - b.value) / TURN) : 0;
     for (let n = first; n === first || (by && a.value + n * by <= high); n += 1) {
-      const [from, to] = [a, b].map((end_) => ({ ...end_, value: end_.value + n * by }));
+      const [from, to] = [a, b].map((place) => ({ ...place, value: place.value + n * by }));
       if (from.value > high || to.value < low) continue;
       yield [from.value < low ? { value: low } : from, to.value > high ? { value: high } : to];
     }
@@ -169,7 +171,7 @@ const Contact = (() => {
   }
 
   /** Whether two sides cross in a point that is no end of either. */
-  function cross2([p, q], [r, s]) {
+  function isCrossing([p, q], [r, s]) {
     const of = (a, b, c) => Math.sign(cross(minus(b, a), minus(c, a)));
     return of(p, q, r) * of(p, q, s) < 0 && of(r, s, p) * of(r, s, q) < 0;
   }
@@ -177,7 +179,7 @@ const Contact = (() => {
   /** The test of two convex polygons: corners of each that lie in the other or on its boundary, and sides that cross. */
   function polygonTest(a, b) {
     const inside = (corners, polygon) => corners.map((p) => pointTest(p, polygon));
-    const crossings = sides(a).flatMap((one, i) => sides(b).flatMap((other, k) => (cross2(one, other) ? [[i, k]] : [])));
+    const crossings = sides(a).flatMap((one, i) => sides(b).flatMap((other, k) => (isCrossing(one, other) ? [[i, k]] : [])));
     const [mine, others] = [inside(a, b), inside(b, a)];
     return { mine, others, crossings, meet: crossings.length > 0 || [...mine, ...others].some((test) => test.inside) };
   }

@@ -3,20 +3,16 @@
 'use strict';
 
 class Learn {
-  /** Lessons, what they are called, and how long they play, seconds. */
-  static get LESSONS() {
-    return [
-      ['slice', 'Contact angles of a slice', 12],
-      ['tests', 'When do two polygons meet?', 0],
-      ['sweep', 'Minkowski difference, corner by corner', 0.9],
-      ['stack', 'Minkowski differences of a link that turns', 8],
-    ];
-  }
+  /** Lessons, what they are called, and how long they play, seconds; a sweep for each corner. */
+  static LESSONS = [
+    ['slice', 'Contact angles of a slice', 12],
+    ['tests', 'When do two polygons meet?', 0],
+    ['sweep', 'Minkowski difference, corner by corner', 0.9],
+    ['stack', 'Minkowski differences of a link that turns', 8],
+  ];
 
   /** Of so many slices the one with the most contacts is seen first. */
-  static get TRIED() {
-    return 25;
-  }
+  static TRIED = 25;
 
   static degrees(angle) {
     return `${((angle * 180) / Math.PI).toFixed(1).replace('-', '\u2212')}\u00b0`;
@@ -27,9 +23,7 @@ class Learn {
   }
 
   /** Layers that lessons show. */
-  static get LAYERS() {
-    return new Set(['c-obstacles', 'names', 'regions']);
-  }
+  static LAYERS = new Set(['c-obstacles', 'names', 'regions']);
 
   constructor(view) {
     this.view = view;
@@ -297,17 +291,16 @@ class Learn {
     const { joints } = this.view.model.arm;
     if (this.isSlice) {
       const { contacts, bands } = this.slice;
-      const at = `${joints[0].name} at ${this.value(0, this.q1)}`;
       const names = bands.map((index) => this.view.world.obstacles[index].name).join(', ');
-      if (bands.length) return `${at}: link 1 touches ${names}, whatever ${joints[1].name} is`;
-      return `${at}: ${contacts.length || 'no'} contacts of ${joints[1].name}`;
+      if (bands.length) return `Link 1 touches ${names}, whatever ${joints[1].name} is`;
+      return `Contacts of ${joints[1].name} here: ${contacts.length || 'none'}`;
     }
     if (this.lesson === 'tests') {
       const { meet, mine, others, crossings } = this.test();
       const inside = [...mine, ...others].filter((test) => test.inside).length;
       return meet ? `They meet. Corners within the other one: ${inside}; crossings of sides: ${crossings.length}` : 'They do not meet.';
     }
-    if (this.lesson === 'stack') return `The link turned by ${Learn.degrees(2 * Math.PI * this.part)}: where its origin must not be`;
+    if (this.lesson === 'stack') return 'Where the origin of the link must not be, for each angle of the link';
     const { steps } = this;
     const { i, k, of } = steps[this.step];
     const next = { a: `the side after a${i + 1}, turned round`, b: `the side after b${k + 1}`, both: `the sides after b${k + 1} and a${i + 1}, which are parallel, as one` }[of];
