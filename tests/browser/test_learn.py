@@ -199,7 +199,7 @@ def test_the_difference_is_swept_to_the_c_obstacle(program, block, corners):
     for step in range(len(steps)):
         seen.do("([k, n]) => cplan.seek((k + 0.5) / n * cplan.duration)", [step, len(steps)])
         i, k = steps[step]["i"] + 1, steps[step]["k"] + 1
-        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner b{k} − a{i}; then, next")
+        assert seen.page.locator(".step").inner_text().startswith(f"{step + 1} of {len(steps)}: corner b{k} − a{i}; next by its angle: ")
         shown.append(seen.do("cplan.learn.panels.right.canvas.toDataURL()"))
     assert len(set(shown)) == len(steps)
     seen.shoot("learn_sweep")
@@ -234,7 +234,7 @@ def test_polygons_are_dragged_by_pointer_and_keys_and_stay_convex(program, show_
     canvas.focus()
     for _ in range(12):
         seen.page.keyboard.press("Shift+ArrowDown")
-    assert seen.page.locator(".step").inner_text() == "They do not meet." and "inside" not in seen.page.locator(".told").inner_text()
+    assert seen.page.locator(".step").inner_text() == "They do not meet." and "deep" not in seen.page.locator(".told").inner_text()
 
 
 def test_a_link_that_turns_has_a_difference_for_each_angle(program, show_file):

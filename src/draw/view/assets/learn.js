@@ -22,6 +22,11 @@ class Learn {
     return `${length.toFixed(4).replace('-', '\u2212')} m`;
   }
 
+  /** The name of a side of a polygon of so many corners. */
+  static side(letter, index, count) {
+    return `${letter}${index + 1}${letter}${((index + 1) % count) + 1}`;
+  }
+
   /** Layers that lessons show. */
   static LAYERS = new Set(['c-obstacles', 'names', 'regions']);
 
@@ -303,8 +308,9 @@ class Learn {
     if (this.lesson === 'stack') return 'Where the origin of the link must not be, for each angle of the link';
     const { steps } = this;
     const { i, k, of } = steps[this.step];
-    const next = { a: `the side after a${i + 1}, turned round`, b: `the side after b${k + 1}`, both: `the sides after b${k + 1} and a${i + 1}, which are parallel, as one` }[of];
-    return `${this.step + 1} of ${steps.length}: corner b${k + 1} \u2212 a${i + 1}; then, next by its angle, ${next}`;
+    const [mine, other] = [Learn.side('a', i, this.pieces.a.length), Learn.side('b', k, this.pieces.b.length)];
+    const next = { a: `${mine}, turned round`, b: other, both: `${other} and ${mine}, which are parallel, as one` }[of];
+    return `${this.step + 1} of ${steps.length}: corner b${k + 1} \u2212 a${i + 1}; next by its angle: ${next}`;
   }
 
   get step() {
@@ -340,17 +346,17 @@ class Learn {
       const { mine, others, crossings } = this.test();
       const distances = (letter, name, tests, count) => table(
         `Corners of ${name}: signed distances, m`,
-        ['', ...Array.from({ length: count }, (_, k) => `${letter === 'a' ? 'b' : 'a'}${k + 1} on`), ''],
+        ['corner', ...Array.from({ length: count }, (_, k) => Learn.side(letter === 'a' ? 'b' : 'a', k, count)), 'within'],
         tests.map((test, i) => element(
           'tr',
           {},
           cell('th', `${letter}${i + 1}`, { scope: 'row' }),
           ...test.distances.map((d, k) => cell('td', d.toFixed(4).replace('-', '\u2212'), { class: k === test.side ? 'least' : undefined })),
-          cell('td', test.inside ? `inside, ${Learn.metres(test.depth)} deep` : ''),
+          cell('td', test.inside ? `${Learn.metres(test.depth)} deep` : 'no'),
         )),
       );
-      const crossed = crossings.map(([i, k]) => `from a${i + 1} on and from b${k + 1} on`).join('; ');
       const { a, b } = this.pieces;
+      const crossed = crossings.map(([i, k]) => `${Learn.side('a', i, a.length)} and ${Learn.side('b', k, b.length)}`).join('; ');
       told.replaceChildren(
         distances('a', 'the link, sides of the obstacle', mine, b.length),
         distances('b', 'the obstacle, sides of the link', others, a.length),
@@ -476,7 +482,6 @@ class Learn {
   drawTest(context, panel, a, b) {
     const { theme } = panel;
     const { mine, others, crossings } = this.test();
-    context.strokeStyle = theme.barred;
     for (const [corners, tests, polygon] of [[a, mine, b], [b, others, a]]) {
       tests.forEach(({ inside, depth, side }, i) => {
         if (!inside) return;
@@ -485,6 +490,7 @@ class Learn {
         const length = Math.hypot(x, y);
         const foot = Contact.plus(corners[i], [(y * depth) / length, (-x * depth) / length]);
         context.setLineDash([4, 3]);
+        context.strokeStyle = theme.barred;
         context.lineWidth = 1.6;
         line(context, [panel.at(corners[i]), panel.at(foot)]);
         context.setLineDash([]);
