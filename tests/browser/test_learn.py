@@ -109,6 +109,11 @@ def test_a_slice_is_chosen_by_slider_click_and_key_and_says_what_touches(program
     spot = seen.do("cplan.panels.cspace.at([-1.2, 0.6])")
     seen.page.mouse.click(box["x"] + spot[0], box["y"] + spot[1])
     assert seen.do("cplan.q[0]") == pytest.approx(-1.2, abs=0.02) and "crate" in rows.first.inner_text()
+    # Obstacle by obstacle.
+    seen.page.locator("[data-obstacle='crate']").uncheck()
+    assert rows.count() == 0
+    seen.page.locator("[data-obstacle='crate']").check()
+    assert rows.count() == 2
     seen.page.keyboard.press("l")
     assert seen.do("cplan.mode") == "move" and [pixels(seen, "workspace"), pixels(seen, "cspace")] == before
 

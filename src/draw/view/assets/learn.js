@@ -130,12 +130,16 @@ class Learn {
     return low + this.part * (high - low);
   }
 
-  /** The slice there, and its contacts by obstacle: { obstacle, value, features, shape, piece, body }. */
+  /** The slice there of the obstacles that are shown, and its contacts by obstacle: { obstacle, value, features, shape, piece, body }. */
   get slice() {
-    if (this.known?.q1 !== this.q1 || this.known.world !== this.view.world) {
-      const found = Contact.slice(this.view.model.arm, this.view.world, this.q1);
-      const contacts = found.rows.flatMap(({ obstacle, intervals }) => intervals.flat().filter((end) => end.features).map((end) => ({ obstacle, ...end })));
-      this.known = { q1: this.q1, world: this.view.world, ...found, contacts };
+    const { q1, view: { world, hidden, model } } = this;
+    const key = JSON.stringify([q1, [...hidden]]);
+    if (this.known?.key !== key || this.known.world !== world) {
+      const { bands, rows } = Contact.slice(model.arm, world, q1);
+      const isShown = (obstacle) => !hidden.has(world.obstacles[obstacle].name);
+      const shown = rows.filter((row) => isShown(row.obstacle));
+      const contacts = shown.flatMap(({ obstacle, intervals }) => intervals.flat().filter((end) => end.features).map((end) => ({ obstacle, ...end })));
+      this.known = { q1, key, world, bands: bands.filter(isShown), rows: shown, contacts };
     }
     return this.known;
   }

@@ -354,6 +354,7 @@ class View {
       panel.dirty = true;
       panel.draw();
     }
+    this.learn.changed();
   }
 
   // Time.
